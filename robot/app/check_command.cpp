@@ -25,7 +25,7 @@ ExitCode check(const Words& words, Output& output) {
   if (!seconds) return fail(output, ExitCode::Usage, seconds.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
-  if (!end) return fail(output, ExitCode::Unreachable, end.error());
+  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   RollCall roll(*names, operator_id());
   const auto note = [&output](const std::string& text) { print_note(output, text); };
   const TimePoint begun = now_on_both_clocks().clock;

@@ -2,10 +2,13 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -262,9 +265,7 @@ ExitCode run(const Words& words, Output& output) {
   auto end =
       open_robot_end(words.transport, settings->robot, end_options(words, needed, pace), output);
   if (!end) {
-    return fail(output,
-                end.error().kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Unreachable,
-                end.error());
+    return fail(output, exit_code_of_transport(end.error()), end.error());
   }
   settings->scheduling = pace == Pace::Clock ? schedule(words, output) : "lock-step";
   RobotNode node(*settings, machine->controller, machine->flavour);

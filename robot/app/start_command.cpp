@@ -102,7 +102,7 @@ ExitCode start(const Words& words, Output& output) {
   if (!place) return fail(output, ExitCode::Usage, place.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
-  if (!end) return fail(output, ExitCode::Unreachable, end.error());
+  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   RunStarter starter({.run = words.run,
                       .seconds = seconds->value_or(120),
                       .seed = words.seed,

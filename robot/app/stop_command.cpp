@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -26,7 +27,7 @@ ExitCode stop(const Words& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   const auto end = open_operator_end(words.transport, *names);
-  if (!end) return fail(output, ExitCode::Unreachable, end.error());
+  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   const std::string id = operator_id();
   std::vector<std::optional<NodeState>> states(names->size());
   int sent = 0;

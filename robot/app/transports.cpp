@@ -146,4 +146,10 @@ Expected<std::unique_ptr<OperatorEnd>> open_operator_end(const TransportWords& w
   return zmq_operator_end(std::move(*places), *options);
 }
 
+ExitCode exit_code_of_transport(const Error& error) {
+  return error.kind == ErrorKind::BadInput || error.kind == ErrorKind::NotFound
+             ? ExitCode::Usage
+             : ExitCode::Unreachable;
+}
+
 }  // namespace swarmsmith::cli

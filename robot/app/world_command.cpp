@@ -380,10 +380,7 @@ ExitCode run(const Words& words, Output& output) {
   if (!table) return fail(output, ExitCode::Failed, table.error());
   catch_stop_signals();
   auto end = open_world_end(words.transport, plan->robots, plan->end);
-  if (!end) {
-    const bool usage = end.error().kind == ErrorKind::BadInput;
-    return fail(output, usage ? ExitCode::Usage : ExitCode::Unreachable, end.error());
-  }
+  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   return World(words, *plan, **end, *table, output).run();
 }
 

@@ -31,8 +31,7 @@ double clock_s(TimePoint time) {
 
 /// By the other clock.
 TimePoint clock_at(double unix_s, const Now& now) {
-  const std::chrono::duration<double> ahead(unix_s - now.unix_s);
-  return now.clock + std::chrono::duration_cast<Duration>(ahead);
+  return now.clock + Duration(std::llround(1e9 * (unix_s - now.unix_s)));
 }
 
 Command standing(bool red) {
@@ -115,6 +114,11 @@ std::vector<std::string> RobotNode::not_ready(TimePoint now) const {
   }
   if (!log_trouble_.empty()) reasons.push_back("log: " + log_trouble_);
   return reasons;
+}
+
+void RobotNode::hear(const BatteryMessage& message) {
+  battery_.reset();
+  if (std::isfinite(message.charge)) battery_ = message.charge;
 }
 
 void RobotNode::hear(const Order& order, const Now& now) {

@@ -66,7 +66,7 @@ class RobotNode {
 
   Feeds& feeds() { return feeds_; }
   const Feeds& feeds() const { return feeds_; }
-  void hear(const BatteryMessage& message) { battery_ = message.charge; }
+  void hear(const BatteryMessage& message);
   /// Obeys or refuses; a start that is obeyed arms the node.
   void hear(const Order& order, const Now& now);
   /// Text that is no order.

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 
 constexpr const char* kMachine =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.8 "
-    "--s1 4 --att1 2 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.1";
+    "--s1 2 --att1 2 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.1";
 
 TimePoint now() {
   return SystemClock().now();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +16,7 @@ namespace swarmsmith {
 /// A machine that looks at everything but light: it explores, and follows neighbours on black.
 inline constexpr const char* kCuriousMachine =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.8 "
-    "--s1 4 --att1 2 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.1";
+    "--s1 2 --att1 2 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.1";
 
 /// A node on a bench, with a clock of its own that only the test moves, and drivers that send each
 /// 100 ms.
@@ -27,9 +30,7 @@ class BenchRobot {
         node(settings_, controller_, flavour_) {}
 
   Now now() const { return {clock, unix_s() + wall_ahead_s}; }
-  double unix_s() const {
-    return 1.795e9 + std::chrono::duration<double>(clock.time_since_epoch()).count();
-  }
+  double unix_s() const { return std::chrono::duration<double>(clock.time_since_epoch()).count(); }
 
   void send_ranges(double distance = std::numeric_limits<double>::infinity()) {
     node.feeds().hear(RangesMessage{{clock, 0}, std::vector<double>(8, distance)});

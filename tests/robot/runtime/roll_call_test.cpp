@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "tests/robot/runtime/bench_robot.h"
@@ -175,7 +176,6 @@ TEST(RunStarter, StopsAllWhenOneFails) {
 
 TEST(RunStarter, StopsAllWhenOneDoesNotTakeTheStart) {
   Bench bench;
-  bench.run(1.2);
   while (bench.starter->stage() == RunStarter::Stage::Calling) {
     bench.hears[1] = bench.starter->roll().is_complete() ? false : true;
     bench.step();
