@@ -11,7 +11,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <exception>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <random>
 #include <span>
@@ -224,6 +227,60 @@ std::string random_hex(std::size_t words) {
   return text;
 }
 
+/// Readers of the stores that this process writes, kept from one answer to the next: opening one
+/// takes SQLite a millisecond, most of an answer, to read what tables and views there are. Of other
+/// stores none is kept: while it is open, its writer cannot fold the log into the file at its end.
+class Readers {
+ public:
+  using Reader = std::unique_ptr<StoreReader, std::function<void(StoreReader*)>>;
+
+  Expected<Reader> take(const DashboardStore& store) {
+    const bool is_own = store.place.has_value();
+    struct stat facts = {};
+    const bool is_there = ::stat(store.file.c_str(), &facts) == 0;
+    const File file{facts.st_dev, facts.st_ino};
+    if (is_own && is_there) {
+      const std::scoped_lock lock(mutex_);
+      // Another file under the name is another store.
+      std::erase_if(kept_,
+                    [&](const Kept& kept) { return kept.name == store.file && kept.file != file; });
+      const auto found = std::ranges::find(kept_, store.file, &Kept::name);
+      if (found != kept_.end()) {
+        StoreReader* const reader = found->reader.release();
+        kept_.erase(found);
+        return lent(reader, store.file, file);
+      }
+    }
+    auto opened = StoreReader::open(store.file);
+    if (!opened) return Unexpected(opened.error());
+    if (is_own && is_there) return lent(opened->release(), store.file, file);
+    return Reader(opened->release(), std::default_delete<StoreReader>());
+  }
+
+ private:
+  using File = std::pair<dev_t, ino_t>;
+  struct Kept {
+    std::filesystem::path name;
+    File file;
+    std::unique_ptr<StoreReader> reader;
+  };
+  /// Of all stores: as many as answers are made at the same time, mostly.
+  static constexpr std::size_t kMost = 4;
+
+  Reader lent(StoreReader* reader, const std::filesystem::path& name, File file) {
+    return {reader, [this, name, file](StoreReader* back) {
+              std::unique_ptr<StoreReader> returned(back);
+              // After a failure of the disk nothing is known of it.
+              if (std::uncaught_exceptions() > 0) return;
+              const std::scoped_lock lock(mutex_);
+              if (kept_.size() < kMost) kept_.push_back({name, file, std::move(returned)});
+            }};
+  }
+
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+};
+
 /// What is asked of a campaign or a design by POST.
 struct Act {
   std::size_t store = 0;
@@ -391,13 +448,13 @@ class Dashboard final : public HttpSite {
       return made("", kFresh, [&] { return history(request); });
     const auto store = store_named(first);
     if (!store) return made("", kFresh, [] { return no_such_path(); });
-    const std::filesystem::path& file = options_.stores[*store].file;
+    const DashboardStore& asked = options_.stores[*store];
     if (path == "query")
-      return made("", std::chrono::milliseconds(0), [&] { return query(request, file); });
+      return made("", std::chrono::milliseconds(0), [&] { return query(request, asked); });
     for (const Pattern& pattern : kRoutes) {
       const auto id = fit(pattern.path, path);
       if (!id) continue;
-      return made(stamp_of(file), kFresh, [&] { return ask(request, file, pattern, *id); });
+      return made(stamp_of(asked.file), kFresh, [&] { return ask(request, asked, pattern, *id); });
     }
     return made("", kFresh, [] { return no_such_path(); });
   }
@@ -424,17 +481,17 @@ class Dashboard final : public HttpSite {
                       "too much is being computed for others; ask again in a second");
   }
 
-  Expected<Answer> ask(const SiteRequest& request, const std::filesystem::path& file,
+  Expected<Answer> ask(const SiteRequest& request, const DashboardStore& store,
                        const Pattern& pattern, const std::string& id) {
     std::optional<Turnstile::Pass> pass;
     if (pattern.is_heavy) {
       pass = heavy_.enter();
       if (!pass) return busy();
     }
-    auto reader = StoreReader::open(file);
+    const auto reader = readers_.take(store);
     if (!reader) return Unexpected(reader.error());
     Question question{.store = **reader,
-                      .file = file,
+                      .file = store.file,
                       .parameters = request.parameters,
                       .id = id,
                       .design = {},
@@ -448,15 +505,15 @@ class Dashboard final : public HttpSite {
     return pattern.route(question);
   }
 
-  Expected<Answer> query(const SiteRequest& request, const std::filesystem::path& file) {
+  Expected<Answer> query(const SiteRequest& request, const DashboardStore& store) {
     const auto pass = heavy_.enter();
     if (!pass) return busy();
     const auto turn = sql_.enter();
     if (!turn) return busy();
-    auto reader = StoreReader::open(file);
+    const auto reader = readers_.take(store);
     if (!reader) return Unexpected(reader.error());
     return sql_answer({.store = **reader,
-                       .file = file,
+                       .file = store.file,
                        .parameters = request.parameters,
                        .is_gone = request.is_gone},
                       options_.program);
@@ -471,7 +528,7 @@ class Dashboard final : public HttpSite {
       const std::string c = "c" + std::to_string(i + 1);
       const DashboardStore& store = options_.stores[i];
       const bool is_written = has_writer(store.file);
-      auto reader = StoreReader::open(store.file);
+      const auto reader = readers_.take(store);
       if (!reader) return Unexpected(reader.error());
       const CampaignStatus* status = nullptr;
       if (runs && store.place && now->status.campaigns &&
@@ -508,7 +565,7 @@ class Dashboard final : public HttpSite {
       return json_answer(answer_object().add("workers", JsonPiece{fleet_json(now->status)}));
     std::string all;
     for (const DashboardStore& store : options_.stores) {
-      auto reader = StoreReader::open(store.file);
+      const auto reader = readers_.take(store);
       if (!reader) return Unexpected(reader.error());
       const auto workers = stored_workers(**reader, has_writer(store.file));
       if (!workers) return Unexpected(workers.error());
@@ -556,6 +613,7 @@ class Dashboard final : public HttpSite {
   DashboardOptions options_;
   std::string boot_;
   std::string user_;
+  Readers readers_;
   AnswerCache cache_{kCacheBytes};
   Turnstile heavy_{2, 4};
   Turnstile sql_{1, 4};
