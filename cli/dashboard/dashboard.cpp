@@ -48,7 +48,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::string_view kApi = "/api/v1/";
 constexpr std::size_t kCacheBytes = std::size_t{32} << 20U;
 /// An answer as young as that is not made again for the next who asks.
-constexpr std::chrono::milliseconds kFresh{300};
+constexpr std::chrono::milliseconds kFresh{500};
 /// Older numbers than that are no numbers of now.
 constexpr std::chrono::seconds kStale{5};
 constexpr std::size_t kMostUnpacked = std::size_t{256} << 20U;
@@ -235,11 +235,10 @@ class Readers {
   using Reader = std::unique_ptr<StoreReader, std::function<void(StoreReader*)>>;
 
   Expected<Reader> take(const DashboardStore& store) {
-    const bool is_own = store.place.has_value();
     struct stat facts = {};
-    const bool is_there = ::stat(store.file.c_str(), &facts) == 0;
+    const bool may_keep = store.is_own && ::stat(store.file.c_str(), &facts) == 0;
     const File file{facts.st_dev, facts.st_ino};
-    if (is_own && is_there) {
+    if (may_keep) {
       const std::scoped_lock lock(mutex_);
       // Another file under the name is another store.
       std::erase_if(kept_,
@@ -253,7 +252,7 @@ class Readers {
     }
     auto opened = StoreReader::open(store.file);
     if (!opened) return Unexpected(opened.error());
-    if (is_own && is_there) return lent(opened->release(), store.file, file);
+    if (may_keep) return lent(opened->release(), store.file, file);
     return Reader(opened->release(), std::default_delete<StoreReader>());
   }
 
@@ -369,6 +368,12 @@ class Dashboard final : public HttpSite {
     return published_;
   }
 
+  /// When `live` was made last.
+  Clock::time_point told() const {
+    const std::scoped_lock lock(mutex_);
+    return told_;
+  }
+
   std::optional<std::size_t> store_named(std::string_view name) const {
     for (std::size_t i = 0; i < options_.stores.size(); ++i)
       if (name == "c" + std::to_string(i + 1)) return i;
@@ -430,33 +435,40 @@ class Dashboard final : public HttpSite {
     std::string_view path =
         std::string_view(request.path).substr(std::min(kApi.size(), request.path.size()));
     const std::string key = key_of(request);
-    const auto made = [&](const std::string& stamp, std::chrono::milliseconds fresh,
+    const auto young = Clock::now() - kFresh;
+    const auto made = [&](const std::string& stamp, Clock::time_point oldest,
                           const std::function<Expected<Answer>()>& make) {
       return cache_.get(
-          key, stamp, fresh, [&] { return timed(make); }, shared);
+          key, stamp, oldest, [&] { return timed(make); }, shared);
     };
+    for (const auto& [name, value] : request.parameters) {
+      // What is handed on would end there.
+      if (value.find('\0') != std::string::npos)
+        return made("", young, [&] { return bad_input("may not hold a zero byte", name); });
+    }
     const std::string_view first = next_part(path);
-    if (!request.path.starts_with(kApi)) return made("", kFresh, [] { return no_such_path(); });
+    if (!request.path.starts_with(kApi)) return made("", young, [] { return no_such_path(); });
     if (first == "live" && path.empty()) {
       if (options_.before_live) options_.before_live();
-      return made("", kFresh, [this] { return live(); });
+      return made("", young, [this] { return live(); });
     }
-    if (first == "workers" && path.empty()) return made("", kFresh, [this] { return workers(); });
+    if (first == "workers" && path.empty()) return made("", young, [this] { return workers(); });
     if (first == "causes" && path.empty())
-      return made("", kFresh, [] { return json_answer(causes_json()); });
+      return made("", young, [] { return json_answer(causes_json()); });
     if (first == "history" && path.empty())
-      return made("", kFresh, [&] { return history(request); });
+      return made("", young, [&] { return history(request); });
     const auto store = store_named(first);
-    if (!store) return made("", kFresh, [] { return no_such_path(); });
+    if (!store) return made("", young, [] { return no_such_path(); });
     const DashboardStore& asked = options_.stores[*store];
-    if (path == "query")
-      return made("", std::chrono::milliseconds(0), [&] { return query(request, asked); });
+    if (path == "query") return made("", young, [&] { return query(request, asked); });
     for (const Pattern& pattern : kRoutes) {
       const auto id = fit(pattern.path, path);
       if (!id) continue;
-      return made(stamp_of(asked.file), kFresh, [&] { return ask(request, asked, pattern, *id); });
+      // A page asks when `live` has told it of something new: older answers lack it.
+      return made(stamp_of(asked.file), std::max(young, told()),
+                  [&] { return ask(request, asked, pattern, *id); });
     }
-    return made("", kFresh, [] { return no_such_path(); });
+    return made("", young, [] { return no_such_path(); });
   }
 
   static Expected<Answer> no_such_path() {
@@ -543,6 +555,10 @@ class Dashboard final : public HttpSite {
                                     .text();
       std::ranges::move(looks_of(c, *state, status), std::back_inserter(looks));
     }
+    {
+      const std::scoped_lock lock(mutex_);
+      told_ = Clock::now();
+    }
     return json_answer(
         answer_object()
             .add("boot", options_.is_snapshot ? "snapshot" : boot_)
@@ -619,6 +635,7 @@ class Dashboard final : public HttpSite {
   Turnstile sql_{1, 4};
   mutable std::mutex mutex_;
   std::shared_ptr<const Published> published_;
+  Clock::time_point told_{};
   History history_;
 };
 
