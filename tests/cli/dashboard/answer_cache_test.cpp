@@ -119,7 +119,7 @@ TEST(AnswerCacheTest, AnswersThatBeganTooEarlyAreNotShared) {
       },
       shared);
   EXPECT_EQ(inner, "newer") << "it asked after something had been told";
-  EXPECT_EQ(get(cache, "race", "", of("other"), before), "older");
+  EXPECT_EQ(get(cache, "race", "", of("other"), before), "newer");
   EXPECT_EQ(get(cache, "race", "", of("newest"), AnswerCache::Clock::now()), "newest");
 }
 
