@@ -96,13 +96,17 @@ class LockStep final : public Decider {
 
   Error silence_of(std::size_t robot) const {
     const bool there = end_->connected(robot);
-    return {ErrorKind::Unavailable,
-            "no answer from " + end_->name(robot) + " in cycle " +
-                std::to_string(robots_[robot].asked) + " of seed " + std::to_string(seed_) +
-                " within " + seconds_text(options_->patience) +
-                (there ? "; its node is connected, but does not answer"
-                       : "; its node is gone: its own messages say why"),
-            end_->name(robot)};
+    return {
+        ErrorKind::Unavailable,
+        "no answer from " + end_->name(robot) + " in cycle " +
+            std::to_string(robots_[robot].asked) + " of seed " + std::to_string(seed_) +
+            " within " + seconds_text(options_->patience) +
+            (!there            ? "; its node is gone: its own messages say why"
+             : sensors_.senses ? "; its node is connected, but does not answer"
+                               : "; its node is connected, but does not answer: does it wait for "
+                                 "a sensor that is not sent, or send its speeds elsewhere "
+                                 "(--neighbours, --light, --wheels on both sides)?"),
+        end_->name(robot)};
   }
 
   void take(std::size_t robot, const AnswerMessage& answer) {
