@@ -27,7 +27,7 @@ Now now_on_both_clocks() {
   return {steady_now(), wall.count()};
 }
 
-NodeLoop::NodeLoop(Node& node, RobotEnd& end, LoopOptions options)
+NodeLoop::NodeLoop(RobotNode& node, RobotEnd& end, LoopOptions options)
     : node_(node), end_(end), options_(std::move(options)) {}
 
 NodeLoop::Ending NodeLoop::run() {

@@ -40,7 +40,7 @@ struct LoopOptions {
 class NodeLoop {
  public:
   /// All must outlive the loop.
-  NodeLoop(Node& node, RobotEnd& end, LoopOptions options);
+  NodeLoop(RobotNode& node, RobotEnd& end, LoopOptions options);
 
   enum class Ending {
     Asked,       ///< `ends` said so
@@ -67,7 +67,7 @@ class NodeLoop {
   void close();
   void finish(Ending ending) { ending_ = ending; }
 
-  Node& node_;
+  RobotNode& node_;
   RobotEnd& end_;
   LoopOptions options_;
   std::optional<Ending> ending_;

@@ -254,7 +254,7 @@ ExitCode run(const Words& words, Output& output) {
   loop_options.patience = duration_of(patience);
 
   catch_stop_signals();
-  const PerFeed<bool> needed = Node(*settings, machine->controller, machine->flavour).needed();
+  const PerFeed<bool> needed = RobotNode(*settings, machine->controller, machine->flavour).needed();
   if (needed[index_of(Feed::Ground)] && words.color_scale.empty() && pace != Pace::Senses) {
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput,
@@ -268,7 +268,7 @@ ExitCode run(const Words& words, Output& output) {
     return fail(output, exit_code_of_transport(end.error()), end.error());
   }
   settings->scheduling = pace == Pace::Clock ? schedule(words, output) : "lock-step";
-  Node node(*settings, machine->controller, machine->flavour);
+  RobotNode node(*settings, machine->controller, machine->flavour);
   const bool pipe = words.pipe;
   loop_options.ends = [pipe] { return end_asked_for(pipe); };
   loop_options.note = [&output](const std::string& text) { print_note(output, text); };

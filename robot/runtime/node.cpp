@@ -66,7 +66,7 @@ std::optional<Command> within_limits(const Command& command, double max_mps) {
   return limited;
 }
 
-Node::Node(NodeSettings settings, const Controller& controller, const Flavour& flavour)
+RobotNode::RobotNode(NodeSettings settings, const Controller& controller, const Flavour& flavour)
     : settings_(std::move(settings)),
       controller_(&controller),
       flavour_(&flavour),
@@ -80,7 +80,8 @@ Node::Node(NodeSettings settings, const Controller& controller, const Flavour& f
     needed_[index_of(feed)] |= settings_.also_needed[index_of(feed)];
 }
 
-std::optional<Node::Silence> Node::silence(TimePoint now, const PerFeed<Duration>& limits) const {
+std::optional<RobotNode::Silence> RobotNode::silence(TimePoint now,
+                                                     const PerFeed<Duration>& limits) const {
   std::optional<Silence> worst;
   for (const Feed feed : kAllFeeds) {
     if (!needed_[index_of(feed)]) continue;
@@ -90,7 +91,7 @@ std::optional<Node::Silence> Node::silence(TimePoint now, const PerFeed<Duration
   return worst;
 }
 
-std::string Node::told(const Silence& silence) const {
+std::string RobotNode::told(const Silence& silence) const {
   const std::string name(name_of(silence.feed));
   const std::string& trouble = feeds_.trouble(silence.feed);
   const std::string why = trouble.empty() ? "" : " (" + trouble + ")";
@@ -98,7 +99,7 @@ std::string Node::told(const Silence& silence) const {
   return fmt::format("{}: silent for {:.2f} s{}", name, seconds_of(silence.age), why);
 }
 
-std::vector<std::string> Node::not_ready(TimePoint now) const {
+std::vector<std::string> RobotNode::not_ready(TimePoint now) const {
   std::vector<std::string> reasons;
   if (killed_) reasons.emplace_back("killed by order: restart the node");
   for (const Feed feed : kAllFeeds) {
@@ -115,12 +116,12 @@ std::vector<std::string> Node::not_ready(TimePoint now) const {
   return reasons;
 }
 
-void Node::hear(const BatteryMessage& message) {
+void RobotNode::hear(const BatteryMessage& message) {
   battery_.reset();
   if (std::isfinite(message.charge)) battery_ = message.charge;
 }
 
-void Node::hear(const Order& order, const Now& now) {
+void RobotNode::hear(const Order& order, const Now& now) {
   if (!door_.is_for_this_robot(order)) return;
   auto refusal = door_.refusal(order, now.unix_s);
   if (order.kind == Order::Kind::Alive) {  // comes often: says nothing of the last real order
@@ -136,7 +137,7 @@ void Node::hear(const Order& order, const Now& now) {
   }
 }
 
-void Node::obey(const Order& order, const Now& now) {
+void RobotNode::obey(const Order& order, const Now& now) {
   switch (order.kind) {
     case Order::Kind::Start:
       arm(order, now);
@@ -160,7 +161,7 @@ void Node::obey(const Order& order, const Now& now) {
   }
 }
 
-void Node::arm(const Order& order, const Now& now) {
+void RobotNode::arm(const Order& order, const Now& now) {
   if (is_on()) {
     refused_ = "the run " + run_ + " is on";
     return;
@@ -191,7 +192,7 @@ void Node::arm(const Order& order, const Now& now) {
 }
 
 /// `start`: when the run begins.
-void Node::begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& start) {
+void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& start) {
   run_ = std::move(run);
   runs_.insert(run_);
   seed_ = seed;
@@ -209,13 +210,13 @@ void Node::begin(std::string run, std::int64_t seed, std::int64_t cycles, const 
   judge();
 }
 
-TimePoint Node::next_tick(TimePoint now) const {
+TimePoint RobotNode::next_tick(TimePoint now) const {
   if (phase_ == Phase::Running && !lock_step_) return clock_->next();
   const TimePoint regular = std::max(now, last_tick_ + settings_.period);
   return phase_ == Phase::Armed ? std::min(regular, clock_->start()) : regular;
 }
 
-Decision Node::tick(const Now& now) {
+Decision RobotNode::tick(const Now& now) {
   last_tick_ = now.clock;
   if (phase_ == Phase::Idle || phase_ == Phase::Ready) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
@@ -235,7 +236,7 @@ Decision Node::tick(const Now& now) {
   return {.command = standing(phase_ == Phase::Failed), .state = 0, .row = {}};
 }
 
-Decision Node::run_cycle(const ControlClock::Beat& beat, const Now& now) {
+Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
   skipped_ += beat.skipped;
   if (beat.cycle == clock_->cycles()) {
     end(Phase::Ended);
@@ -271,7 +272,7 @@ Decision Node::run_cycle(const ControlClock::Beat& beat, const Now& now) {
   return decision;
 }
 
-Decision Node::step(std::int64_t cycle, Duration late, const Now& now) {
+Decision RobotNode::step(std::int64_t cycle, Duration late, const Now& now) {
   cycle_ = cycle;
   SensedSenses senses(sensed_);
   const Command wanted = control_->step(senses);
@@ -293,7 +294,7 @@ Decision Node::step(std::int64_t cycle, Duration late, const Now& now) {
   return decision;
 }
 
-Decision Node::hold(std::int64_t cycle, Duration late, const Now& now, std::string why) {
+Decision RobotNode::hold(std::int64_t cycle, Duration late, const Now& now, std::string why) {
   cycle_ = cycle;
   sensed_ = feeds_.sensed();
   sensed_.time_s = seconds_of(now.clock - clock_->start());
@@ -306,7 +307,7 @@ Decision Node::hold(std::int64_t cycle, Duration late, const Now& now, std::stri
   return decision;
 }
 
-LogRow Node::row_of(std::int64_t cycle, Duration late, const Now& now) const {
+LogRow RobotNode::row_of(std::int64_t cycle, Duration late, const Now& now) const {
   LogRow row;
   row.cycle = cycle;
   row.clock_s = clock_s(now.clock);
@@ -323,7 +324,7 @@ LogRow Node::row_of(std::int64_t cycle, Duration late, const Now& now) const {
   return row;
 }
 
-Expected<Decision> Node::answer(const SensesMessage& senses, const Now& now) {
+Expected<Decision> RobotNode::answer(const SensesMessage& senses, const Now& now) {
   lock_step_ = true;
   if (senses.cycle == 0) {
     if (phase_ == Phase::Running) end(Phase::Ended);
@@ -357,23 +358,23 @@ Expected<Decision> Node::answer(const SensesMessage& senses, const Now& now) {
   return decision;
 }
 
-void Node::begin_counted(const Now& now) {
+void RobotNode::begin_counted(const Now& now) {
   lock_step_ = true;
   begin(fmt::format("{}-seed{}", settings_.lock_step_run, settings_.seed), settings_.seed, 0, now);
 }
 
-Decision Node::step_counted(const Now& now) {
+Decision RobotNode::step_counted(const Now& now) {
   sensed_ = feeds_.sensed();
   sensed_.time_s = counted_time_s(cycle_ + 1);
   return step(cycle_ + 1, {}, now);
 }
 
-void Node::end(Phase phase) {
+void RobotNode::end(Phase phase) {
   phase_ = phase;
   judge();
 }
 
-void Node::stop(const std::string& why) {
+void RobotNode::stop(const std::string& why) {
   if (!is_on()) return;
   broken_ = lock_step_ || cycle_ == 0
                 ? "stopped " + why
@@ -382,27 +383,27 @@ void Node::stop(const std::string& why) {
   end(Phase::Stopped);
 }
 
-void Node::fail(const std::string& why) {
+void RobotNode::fail(const std::string& why) {
   if (broken_.empty()) broken_ = why;
   end(Phase::Failed);
 }
 
-void Node::disarm(const std::string& why) {
+void RobotNode::disarm(const std::string& why) {
   refused_ = why;
   run_.clear();
   phase_ = Phase::Idle;
 }
 
-void Node::set_log_trouble(std::string why) {
+void RobotNode::set_log_trouble(std::string why) {
   log_trouble_ = std::move(why);
 }
 
-void Node::lose_log() {
+void RobotNode::lose_log() {
   log_lost_ = true;
   end(Phase::Failed);
 }
 
-void Node::judge() {
+void RobotNode::judge() {
   verdict_ = RunVerdict::Valid;
   reasons_.clear();
   const auto add = [this](RunVerdict verdict, std::string reason) {
@@ -432,7 +433,7 @@ void Node::judge() {
   }
 }
 
-NodeState Node::state(const Now& now) const {
+NodeState RobotNode::state(const Now& now) const {
   NodeState state{.robot = settings_.robot,
                   .phase = phase_,
                   .run = run_,
@@ -465,7 +466,7 @@ NodeState Node::state(const Now& now) const {
   return state;
 }
 
-LogHead Node::head() const {
+LogHead RobotNode::head() const {
   LogHead head{.run = run_,
                .robot = settings_.robot,
                .robot_index = settings_.robot_index,

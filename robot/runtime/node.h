@@ -59,10 +59,10 @@ struct Decision {
 
 /// A robot's node without its surroundings: it hears messages, is ticked at its deadlines, and says
 /// what to do. Whatever goes wrong, the treads stand still.
-class Node {
+class RobotNode {
  public:
   /// `controller` and `flavour` must outlive the node.
-  Node(NodeSettings settings, const Controller& controller, const Flavour& flavour);
+  RobotNode(NodeSettings settings, const Controller& controller, const Flavour& flavour);
 
   Feeds& feeds() { return feeds_; }
   const Feeds& feeds() const { return feeds_; }

@@ -65,7 +65,7 @@ class RunningNode {
 
  private:
   Controller controller_;
-  std::optional<Node> node_;
+  std::optional<RobotNode> node_;
   std::atomic<bool> asked_ = false;
   std::thread thread_;
 };

@@ -107,7 +107,7 @@ class BenchRobot {
   int orders_ = 0;
 
  public:
-  Node node;
+  RobotNode node;
 };
 
 }  // namespace swarmsmith

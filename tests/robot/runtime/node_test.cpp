@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-TEST(Node, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
+TEST(RobotNode, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
   BenchRobot robot;
   robot.ground = robot.neighbours = false;
   EXPECT_FALSE(robot.cycle().command) << "whoever carries the robot may do so";
@@ -34,7 +34,7 @@ TEST(Node, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
   EXPECT_THAT(robot.state().not_ready, ElementsAre("ground: silent for 0.60 s"));
 }
 
-TEST(Node, NeedsNoSensorThatTheMachineDoesNotAskFor) {
+TEST(RobotNode, NeedsNoSensorThatTheMachineDoesNotAskFor) {
   BenchRobot robot({}, "--nstates 1 --s0 1");
   robot.ranges = robot.ground = robot.neighbours = false;
   robot.cycle();
@@ -45,7 +45,7 @@ TEST(Node, NeedsNoSensorThatTheMachineDoesNotAskFor) {
   EXPECT_THAT(asked.state().not_ready, ElementsAre("proximity: no message yet"));
 }
 
-TEST(Node, BeginsAtTheAgreedInstantAndEndsByItself) {
+TEST(RobotNode, BeginsAtTheAgreedInstantAndEndsByItself) {
   BenchRobot robot;
   robot.cycles(3);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
@@ -85,7 +85,7 @@ TEST(Node, BeginsAtTheAgreedInstantAndEndsByItself) {
   EXPECT_EQ(head.seconds, 30);
 }
 
-TEST(Node, TakesAnotherStartAfterARunAndEachNameOnce) {
+TEST(RobotNode, TakesAnotherStartAfterARunAndEachNameOnce) {
   BenchRobot robot;
   robot.seconds = 1;
   robot.start();
@@ -105,7 +105,7 @@ TEST(Node, TakesAnotherStartAfterARunAndEachNameOnce) {
   EXPECT_EQ(robot.node.head().end, std::nullopt);
 }
 
-TEST(Node, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
+TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   BenchRobot robot;
   robot.cycles(2);
   const auto expect_refused = [&robot](const Order& order, const char* why) {
@@ -139,7 +139,7 @@ TEST(Node, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
   EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is on"));
 }
 
-TEST(Node, StopsByOrderOfItsRunAndOfNoOther) {
+TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {
   BenchRobot robot;
   robot.start();
   robot.cycles(20);
@@ -161,7 +161,7 @@ TEST(Node, StopsByOrderOfItsRunAndOfNoOther) {
   EXPECT_EQ(robot.state().refused, "no run is on");
 }
 
-TEST(Node, AKillIsForGood) {
+TEST(RobotNode, AKillIsForGood) {
   BenchRobot robot;
   robot.start();
   robot.cycles(5);
@@ -174,7 +174,7 @@ TEST(Node, AKillIsForGood) {
   EXPECT_THAT(robot.state().refused, HasSubstr("killed by order: restart the node"));
 }
 
-TEST(Node, StandsStillWhileASensorIsSilentAndGoesOn) {
+TEST(RobotNode, StandsStillWhileASensorIsSilentAndGoesOn) {
   BenchRobot robot;
   robot.start();
   robot.cycles(20);
@@ -201,7 +201,7 @@ TEST(Node, StandsStillWhileASensorIsSilentAndGoesOn) {
               ElementsAre("proximity was silent for up to 0.40 s: 1 cycles were not stepped"));
 }
 
-TEST(Node, EndsTheRunWhenASensorIsSilentForASecond) {
+TEST(RobotNode, EndsTheRunWhenASensorIsSilentForASecond) {
   for (const Feed feed : {Feed::Proximity, Feed::Ground, Feed::Neighbours}) {
     BenchRobot robot;
     robot.start();
@@ -225,7 +225,7 @@ TEST(Node, EndsTheRunWhenASensorIsSilentForASecond) {
   }
 }
 
-TEST(Node, TakesABrokenSensorForASilentOneAndSaysWhich) {
+TEST(RobotNode, TakesABrokenSensorForASilentOneAndSaysWhich) {
   BenchRobot robot;
   robot.start();
   robot.cycles(20);
@@ -240,7 +240,7 @@ TEST(Node, TakesABrokenSensorForASilentOneAndSaysWhich) {
   EXPECT_THAT(robot.state().reasons[0], HasSubstr("proximity sensor 1 (0 degrees) is missing"));
 }
 
-TEST(Node, EndsTheRunWhenSensorsWereSilentInMoreThanATwentiethOfIt) {
+TEST(RobotNode, EndsTheRunWhenSensorsWereSilentInMoreThanATwentiethOfIt) {
   BenchRobot robot;  // 300 cycles: 15 may be held
   robot.start();
   robot.cycles(5);
@@ -255,7 +255,7 @@ TEST(Node, EndsTheRunWhenSensorsWereSilentInMoreThanATwentiethOfIt) {
   EXPECT_THAT(robot.state().reasons[0], HasSubstr("silent in 16 of 300 cycles"));
 }
 
-TEST(Node, SaysWhenItsComputerWasTooBusy) {
+TEST(RobotNode, SaysWhenItsComputerWasTooBusy) {
   const auto verdict_after = [](int skips) {
     BenchRobot robot;
     robot.start();
@@ -275,7 +275,7 @@ TEST(Node, SaysWhenItsComputerWasTooBusy) {
   EXPECT_EQ(verdict_after(16), RunVerdict::Invalid);
 }
 
-TEST(Node, CutsSpeedsAndSaysSo) {
+TEST(RobotNode, CutsSpeedsAndSaysSo) {
   BenchRobot robot({.max_mps = 0.2});
   robot.start();
   robot.cycles(3);
@@ -286,14 +286,14 @@ TEST(Node, CutsSpeedsAndSaysSo) {
   EXPECT_THAT(robot.state().reasons, ElementsAre("speeds were cut to 0.2 m/s in 3 cycles"));
 }
 
-TEST(Node, LetsNothingPassThatIsNoSpeed) {
+TEST(RobotNode, LetsNothingPassThatIsNoSpeed) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(within_limits({std::nan(""), 0, {}}, 0.35), std::nullopt);
   EXPECT_EQ(within_limits({0, infinity, {}}, 0.35), std::nullopt);
   EXPECT_EQ(within_limits({-2, 0.1, {}}, 0.35), (Command{-0.35, 0.1, {}}));
 }
 
-TEST(Node, EndsTheRunWhenTheOperatorIsGone) {
+TEST(RobotNode, EndsTheRunWhenTheOperatorIsGone) {
   BenchRobot robot;
   robot.start();
   robot.cycles(10);
@@ -311,7 +311,7 @@ TEST(Node, EndsTheRunWhenTheOperatorIsGone) {
   EXPECT_EQ(alone.state().phase, Phase::Running);
 }
 
-TEST(Node, HearsOnlyTheOperatorOfItsRun) {
+TEST(RobotNode, HearsOnlyTheOperatorOfItsRun) {
   BenchRobot robot;
   robot.start();
   robot.alive = false;
@@ -327,7 +327,7 @@ TEST(Node, HearsOnlyTheOperatorOfItsRun) {
   EXPECT_EQ(robot.state().phase, Phase::Failed);
 }
 
-TEST(Node, WantsABatteryAndADriver) {
+TEST(RobotNode, WantsABatteryAndADriver) {
   BenchRobot robot;
   robot.node.hear(BatteryMessage{.charge = 0.15});
   robot.node.set_driver(false);
@@ -341,7 +341,7 @@ TEST(Node, WantsABatteryAndADriver) {
   EXPECT_EQ(robot.state().phase, Phase::Ready);
 }
 
-TEST(Node, StandsStillAfterASignal) {
+TEST(RobotNode, StandsStillAfterASignal) {
   BenchRobot robot;
   robot.start();
   robot.cycles(10);
@@ -352,7 +352,7 @@ TEST(Node, StandsStillAfterASignal) {
   EXPECT_THAT(robot.state().reasons, ElementsAre(HasSubstr("stopped by SIGTERM")));
 }
 
-TEST(Node, FailsAfterARunWhoseLogIsNotWhole) {
+TEST(RobotNode, FailsAfterARunWhoseLogIsNotWhole) {
   BenchRobot robot;
   robot.seconds = 1;
   robot.start();
@@ -371,7 +371,7 @@ TEST(Node, FailsAfterARunWhoseLogIsNotWhole) {
   EXPECT_THAT(robot.state().refused, HasSubstr("log: no space left"));
 }
 
-TEST(Node, DoesNotBeginWithoutALog) {
+TEST(RobotNode, DoesNotBeginWithoutALog) {
   BenchRobot robot;
   robot.cycles(2);
   robot.node.hear(robot.order(Order::Kind::Start), robot.now());
@@ -382,7 +382,7 @@ TEST(Node, DoesNotBeginWithoutALog) {
   EXPECT_THAT(robot.rows, IsEmpty());
 }
 
-TEST(Node, InLockStepTakesCyclesInOrderOnly) {
+TEST(RobotNode, InLockStepTakesCyclesInOrderOnly) {
   BenchRobot robot({.max_mps = kMaxWheelSpeed_mps});
   const auto senses = [](std::int64_t seed, std::int64_t cycle) {
     SensesMessage message{.seed = seed, .cycle = cycle, .time_s = 0.1 * static_cast<double>(cycle)};
@@ -404,7 +404,7 @@ TEST(Node, InLockStepTakesCyclesInOrderOnly) {
   EXPECT_EQ(robot.state().phase, Phase::Ended);
 }
 
-TEST(Node, InLockStepIsWhatTheControllerIs) {
+TEST(RobotNode, InLockStepIsWhatTheControllerIs) {
   BenchRobot robot({.robot_index = 3, .max_mps = kMaxWheelSpeed_mps});
   const Flavour& flavour = watermelon();
   const Controller controller = parse_controller(kCuriousMachine, flavour).value();

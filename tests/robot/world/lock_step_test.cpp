@@ -44,7 +44,7 @@ class Nodes {
       settings.robot_index = i + index_offset;
       settings.seed = seed;
       settings.max_mps = kMaxWheelSpeed_mps;
-      nodes_.push_back(std::make_unique<Node>(settings, controller, flavour));
+      nodes_.push_back(std::make_unique<RobotNode>(settings, controller, flavour));
       loops_.push_back(std::make_unique<cli::NodeLoop>(
           *nodes_.back(), swarm.robot(robot),
           cli::LoopOptions{.pace = pace,
@@ -65,7 +65,7 @@ class Nodes {
 
  private:
   std::atomic<bool> end_{false};
-  std::vector<std::unique_ptr<Node>> nodes_;
+  std::vector<std::unique_ptr<RobotNode>> nodes_;
   std::vector<std::unique_ptr<cli::NodeLoop>> loops_;
   std::vector<std::thread> threads_;
 };
