@@ -44,10 +44,9 @@ class RealTime(ProgramTest):
         return self.swarm.program(self, "world", "--mission", "aggregation", "--real-time", "--neighbours", "neighbours",
                                   *words)
 
-    def start_run(self, seconds, *words, run="run07", names="1-3"):
+    def start_run(self, seconds, run="run07", names="1-3", patience=20):
         return self.swarm.program(self, "start", "--run", run, "--robots", names, "--seconds", seconds, "--in", "0.7",
-                                  "--json", "--patience", 20, "--write", self.folder / f"{run}.toml", *words,
-                                  key="operator")
+                                  "--json", "--patience", patience, "--write", self.folder / f"{run}.toml", key="operator")
 
     def answer(self, run):
         return json.loads(run.out[-1])
@@ -213,7 +212,7 @@ class OverZeroMq(RealTime):
         self.assertIn("stopped by order", self.end_of("rvr1"))
         kill = self.swarm.program(self, "stop", "--kill", "--robots", "2", key="operator", of="rvr2")
         self.assertEqual(kill.end(), 0, kill.said())
-        again = self.start_run(30, "--patience", "1", run="run08")
+        again = self.start_run(30, run="run08", patience=1)
         self.assertEqual(again.end(), 1, again.said())
         self.assertIn("rvr2: killed by order: restart the node", again.said())
         self.assertEqual(list(self.folder.glob("run08*")), [])
@@ -239,7 +238,7 @@ class OverZeroMq(RealTime):
         mission = self.folder / "two.toml"
         mission.write_text('format = 1\nname = "two"\npreset = "aggregation"\nrobots = 2\n')
         self.swarm.program(self, "world", "--mission", mission, "--real-time", "--neighbours", "neighbours")
-        run = self.start_run(5, "--patience", "2", names="1-2")
+        run = self.start_run(5, names="1-2", patience=2)
         self.assertEqual(run.end(), 1, run.said())
         self.assertIn("rvr2: has the seed 5, and rvr1 has 1", run.said())
         self.assertFalse((self.folder / "run07.toml").exists())
