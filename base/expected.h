@@ -24,9 +24,7 @@ struct Error {
   std::string message;
   std::string where;
 
-  friend bool operator==(const Error& a, const Error& b) {  // by hand: robot/ros is C++17
-    return a.kind == b.kind && a.message == b.message && a.where == b.where;
-  }
+  friend bool operator==(const Error&, const Error&) = default;
 };
 
 /// A value of `T`, or the reason why there is none. Has the interface of C++23's std::expected, so

@@ -147,8 +147,8 @@ void give_time(Duration most) {
 
 class RosRobotEnd final : public RobotEnd {
  public:
-  static Expected<std::unique_ptr<RobotEnd>> join(const std::string& name,
-                                                  const RosOptions& options) {
+  static RosExpected<std::unique_ptr<RobotEnd>> join(const std::string& name,
+                                                     const RosOptions& options) {
     std::unique_ptr<RosRobotEnd> end(new RosRobotEnd(options.end));
     auto session = Session::join("/" + name, "control", false, options,
                                  [inbox = end->inbox_](std::string text, bool ended) {
@@ -358,8 +358,8 @@ class RosRobotEnd final : public RobotEnd {
 
 class RosWorldEnd final : public WorldEnd {
  public:
-  static Expected<std::unique_ptr<WorldEnd>> join(const std::vector<std::string>& names,
-                                                  const RosOptions& options) {
+  static RosExpected<std::unique_ptr<WorldEnd>> join(const std::vector<std::string>& names,
+                                                     const RosOptions& options) {
     std::unique_ptr<RosWorldEnd> end(new RosWorldEnd(names, options.end));
     auto session =
         Session::join("/", "world", false, options,
@@ -579,8 +579,8 @@ class RosWorldEnd final : public WorldEnd {
 
 class RosOperatorEnd final : public OperatorEnd {
  public:
-  static Expected<std::unique_ptr<OperatorEnd>> join(const std::vector<std::string>& names,
-                                                     const RosOptions& options) {
+  static RosExpected<std::unique_ptr<OperatorEnd>> join(const std::vector<std::string>& names,
+                                                        const RosOptions& options) {
     std::unique_ptr<RosOperatorEnd> end(new RosOperatorEnd(names));
     auto session =
         Session::join("/", "operator", true, options,
@@ -632,12 +632,12 @@ class RosOperatorEnd final : public OperatorEnd {
   Node node_;
 };
 
-std::optional<Error> check_names(const std::vector<std::string>& names) {
+std::optional<RosError> check_names(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (is_ros_name(name)) continue;
-    return Error{ErrorKind::BadInput,
-                 "a robot's name in ROS is a letter, then letters, digits and _, such as rvr1",
-                 name};
+    return RosError{RosError::Kind::BadInput,
+                    "a robot's name in ROS is a letter, then letters, digits and _, such as rvr1",
+                    name};
   }
   return std::nullopt;
 }
@@ -648,20 +648,20 @@ bool has_ros() {
   return true;
 }
 
-Expected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
-                                                  const RosOptions& options) {
+RosExpected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
+                                                     const RosOptions& options) {
   if (auto wrong = check_names({name})) return tl::unexpected(*wrong);
   return RosRobotEnd::join(name, options);
 }
 
-Expected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
-                                                  const RosOptions& options) {
+RosExpected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
+                                                     const RosOptions& options) {
   if (auto wrong = check_names(names)) return tl::unexpected(*wrong);
   return RosWorldEnd::join(names, options);
 }
 
-Expected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
-                                                        const RosOptions& options) {
+RosExpected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
+                                                           const RosOptions& options) {
   if (auto wrong = check_names(names)) return tl::unexpected(*wrong);
   return RosOperatorEnd::join(names, options);
 }

@@ -21,6 +21,10 @@ namespace {
 /// How long a connection may take that the master knows of.
 constexpr std::chrono::seconds kLookEvery{1};
 
+tl::unexpected<RosError> failed(RosError::Kind kind, std::string message, std::string where = {}) {
+  return tl::unexpected<RosError>({kind, std::move(message), std::move(where)});
+}
+
 /// ROS keeps one node a process, and none after it has ended.
 bool first_session() {
   static std::mutex mutex;
@@ -94,18 +98,19 @@ bool wait_for_master(Duration patience) {
   return true;
 }
 
-Expected<ros::M_string> remappings_of(const std::string& name_space, const RosOptions& options) {
+RosExpected<ros::M_string> remappings_of(const std::string& name_space, const RosOptions& options) {
   ros::M_string remappings{{"__ns", name_space}};
   for (const std::string& text : options.remappings) {
     const std::size_t middle = text.find(":=");
     std::string reason;
     if (middle == 0 || middle == std::string::npos || middle + 2 == text.size()) {
-      return bad_input("write it as OURS:=THEIRS, such as ranges:=/teraranger/ranges", text);
+      return failed(RosError::Kind::BadInput,
+                    "write it as OURS:=THEIRS, such as ranges:=/teraranger/ranges", text);
     }
     const std::string from = text.substr(0, middle);
     const std::string to = text.substr(middle + 2);
     if (!ros::names::validate(from, reason) || !ros::names::validate(to, reason)) {
-      return bad_input("ROS does not take this name: " + reason, text);
+      return failed(RosError::Kind::BadInput, "ROS does not take this name: " + reason, text);
     }
     remappings[from] = to;
   }
@@ -114,8 +119,9 @@ Expected<ros::M_string> remappings_of(const std::string& name_space, const RosOp
   std::string host;
   std::string port;
   if (!split_uri(master, host, port)) {
-    return bad_input("`" + master + "` is not the address of a master; write http://HOST:11311",
-                     "ROS_MASTER_URI");
+    return failed(RosError::Kind::BadInput,
+                  "`" + master + "` is not the address of a master; write http://HOST:11311",
+                  "ROS_MASTER_URI");
   }
   remappings["__master"] = master;
   return remappings;
@@ -141,13 +147,14 @@ bool ask_system_state(SystemState& state) {
   return true;
 }
 
-Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
-                                                 const std::string& node, bool unique_name,
-                                                 const RosOptions& options, OnTrouble on_trouble) {
+RosExpected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
+                                                    const std::string& node, bool unique_name,
+                                                    const RosOptions& options,
+                                                    OnTrouble on_trouble) {
   const auto remappings = remappings_of(name_space, options);
   if (!remappings) return tl::unexpected(remappings.error());
   if (!first_session()) {
-    return unexpected(ErrorKind::Conflict, "this process has a ROS node, and can have one only");
+    return failed(RosError::Kind::Conflict, "this process has a ROS node, and can have one only");
   }
   std::uint32_t how = ros::init_options::NoSigintHandler | ros::init_options::NoRosout;
   if (unique_name) how |= ros::init_options::AnonymousName;
@@ -156,10 +163,10 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
   if (ros::console::set_logger_level("ros", ros::console::levels::Fatal))
     ros::console::notifyLoggerLevelsChanged();
   if (!wait_for_master(options.master_patience)) {
-    return unexpected(ErrorKind::Unavailable,
-                      "no ROS master answers; start one there (rosmaster --core, or roscore), or "
-                      "set ROS_MASTER_URI to where it is",
-                      ros::master::getURI());
+    return failed(RosError::Kind::Unavailable,
+                  "no ROS master answers; start one there (rosmaster --core, or roscore), or "
+                  "set ROS_MASTER_URI to where it is",
+                  ros::master::getURI());
   }
   // Else a master that dies while a node joins keeps it for ever.
   ros::master::setRetryTimeout(ros::WallDuration(5));

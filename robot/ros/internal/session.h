@@ -13,7 +13,6 @@
 #include <thread>
 #include <vector>
 
-#include "base/expected.h"
 #include "robot/ros/ros_ends.h"
 
 namespace swarmsmith {
@@ -26,9 +25,10 @@ class Session {
   using OnTrouble = std::function<void(std::string text, bool ended)>;
 
   /// `names_space` is "/rvr1" or "/", `node` without it.
-  static Expected<std::unique_ptr<Session>> join(const std::string& name_space,
-                                                 const std::string& node, bool unique_name,
-                                                 const RosOptions& options, OnTrouble on_trouble);
+  static RosExpected<std::unique_ptr<Session>> join(const std::string& name_space,
+                                                    const std::string& node, bool unique_name,
+                                                    const RosOptions& options,
+                                                    OnTrouble on_trouble);
   ~Session();
 
   /// A handle whose relative names are in the name space; callbacks come one at a time.
