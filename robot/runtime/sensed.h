@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "sim/control/reference_model.h"
-#include "sim/control/sensors.h"
+#include "sim/control/used_senses.h"
 
 namespace swarmsmith {
 
@@ -21,12 +22,13 @@ constexpr std::size_t index_of(Feed feed) {
 
 /// `proximity`, `ground`, `neighbours` or `light`.
 std::string_view name_of(Feed feed);
-/// The sensor of the reference model that the feed is for.
-Sensor sensor_of(Feed feed);
 
 /// A value a feed.
 template <class T>
 using PerFeed = std::array<T, kFeeds>;
+
+/// Which of them a controller needs.
+PerFeed<bool> feeds_of(const UsedSenses& used);
 
 /// The readings of one cycle as control software gets them; of sensors that it does not need
 /// nothing is known.

@@ -18,46 +18,36 @@ Message arrived(Message message) {
   return message;
 }
 
-/// Orders and states are kept all, of anything else the newest.
-template <class Variant>
-bool keeps_all(const Variant& message) {
-  return std::visit(
-      [](const auto& one) {
-        using Message = std::decay_t<decltype(one)>;
-        return std::is_same_v<Message, OrderMessage> || std::is_same_v<Message, StateMessage> ||
-               std::is_same_v<Message, TroubleMessage>;
-      },
-      message);
-}
-
 }  // namespace
 
 struct InProcessSwarm::Impl {
   struct Robot final : RobotEnd {
-    Robot(Impl& of_swarm, std::size_t at) : swarm(&of_swarm), index(at) {}
+    Robot(Impl& of_swarm, std::size_t at, Keep keep) : swarm(&of_swarm), index(at), inbox(keep) {}
 
     std::optional<ToRobot> receive(TimePoint until) override { return inbox.take(until); }
     void send(const WheelsMessage& wheels) override {
       WheelsMessage sent = wheels;
       if (sent.sender.empty()) sent.sender = swarm->names[index];
-      swarm->to_world(index, arrived(std::move(sent)));
+      swarm->world.inbox.put(index, arrived(std::move(sent)));
     }
-    void send(const LedsMessage& leds) override { swarm->to_world(index, arrived(leds)); }
+    void send(const LedsMessage& leds) override { swarm->world.inbox.put(index, arrived(leds)); }
     void send(const StateMessage& state) override {
-      swarm->to_world(index, arrived(state));
+      swarm->world.inbox.put(index, arrived(state));
       swarm->operating.inbox.put({index, arrived(state)});
     }
-    void send(const AnswerMessage& answer) override { swarm->to_world(index, arrived(answer)); }
+    void send(const AnswerMessage& answer) override {
+      swarm->world.inbox.put(index, arrived(answer));
+    }
     bool connected() override { return true; }
     void flush(Duration) override {}
 
     Impl* swarm;
     std::size_t index;
-    Inbox<ToRobot> inbox;
+    RobotInbox inbox;
   };
 
   struct World final : WorldEnd {
-    explicit World(Impl& of_swarm) : swarm(&of_swarm) {}
+    World(Impl& of_swarm, Keep keep) : swarm(&of_swarm), inbox(keep) {}
 
     std::size_t robots() const override { return swarm->names.size(); }
     const std::string& name(std::size_t robot) const override { return swarm->names[robot]; }
@@ -77,7 +67,7 @@ struct InProcessSwarm::Impl {
     void flush(Duration) override {}
 
     Impl* swarm;
-    Inbox<Received> inbox;
+    WorldInbox inbox;
   };
 
   struct Operator final : OperatorEnd {
@@ -97,38 +87,18 @@ struct InProcessSwarm::Impl {
     Inbox<Received> inbox;
   };
 
-  Impl(std::vector<std::string> of_robots, Keep keeping)
-      : names(std::move(of_robots)), keep(keeping), world(*this), operating(*this) {
+  Impl(std::vector<std::string> of_robots, Keep keep)
+      : names(std::move(of_robots)), world(*this, keep), operating(*this) {
     for (std::size_t i = 0; i < names.size(); ++i)
-      robots.push_back(std::make_unique<Robot>(*this, i));
+      robots.push_back(std::make_unique<Robot>(*this, i, keep));
   }
 
   template <class Message>
   void to_robot(std::size_t robot, const Message& message) {
-    Inbox<ToRobot>& inbox = robots[robot]->inbox;
-    ToRobot sent = arrived(message);
-    if (keep == Keep::All || keeps_all(sent)) {
-      inbox.put(std::move(sent));
-    } else {
-      inbox.put_newest(std::move(sent),
-                       [](const ToRobot& old) { return std::holds_alternative<Message>(old); });
-    }
-  }
-
-  template <class Message>
-  void to_world(std::size_t robot, Message message) {
-    FromRobot sent = std::move(message);
-    if (keep == Keep::All || keeps_all(sent)) {
-      world.inbox.put({robot, std::move(sent)});
-    } else {
-      world.inbox.put_newest({robot, std::move(sent)}, [robot](const WorldEnd::Received& old) {
-        return old.robot == robot && std::holds_alternative<Message>(old.message);
-      });
-    }
+    robots[robot]->inbox.put(arrived(message));
   }
 
   std::vector<std::string> names;
-  Keep keep;
   World world;
   Operator operating;
   std::vector<std::unique_ptr<Robot>> robots;

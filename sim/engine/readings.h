@@ -3,10 +3,46 @@
 #include <vector>
 
 #include "sim/control/reference_model.h"
-#include "sim/control/sensors.h"
 #include "sim/mission/pose.h"
 
 namespace swarmsmith {
+
+/// What the robot's sensors can say (thesis 4.2), one bit each.
+enum class Sensor : unsigned {
+  GroundColor = 1U << 0U,
+  Velocity = 1U << 1U,
+  Accelerometer = 1U << 2U,
+  Gyroscope = 1U << 3U,
+  Imu = 1U << 4U,
+  FrontLight = 1U << 5U,
+  LightRing = 1U << 6U,
+  Locator = 1U << 7U,
+  Quaternion = 1U << 8U,
+  Proximity = 1U << 9U,
+  Lidar = 1U << 10U,
+  Neighbours = 1U << 11U,
+};
+
+/// A set of sensors.
+class Sensors {
+ public:
+  constexpr Sensors() = default;
+  constexpr Sensors(Sensor sensor)
+      : bits_(static_cast<unsigned>(sensor)) {}  // NOLINT: a set of one
+  static constexpr Sensors all() { return Sensors(0xfffU); }
+
+  constexpr bool has(Sensor sensor) const { return (bits_ & static_cast<unsigned>(sensor)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr friend Sensors operator|(Sensors a, Sensors b) { return Sensors(a.bits_ | b.bits_); }
+  friend bool operator==(const Sensors&, const Sensors&) = default;
+
+ private:
+  explicit constexpr Sensors(unsigned bits) : bits_(bits) {}
+  unsigned bits_ = 0;
+};
+constexpr Sensors operator|(Sensor a, Sensor b) {
+  return Sensors(a) | Sensors(b);
+}
 
 struct Vector3 {
   double x = 0;
@@ -49,6 +85,17 @@ struct Readings {
   ProximityReadings proximity_m{};    ///< thesis 4.2.9
   std::vector<double> lidar_m;        ///< thesis 4.2.10, 719 rays, counter-clockwise from the head
   std::vector<Neighbour> neighbours;  ///< thesis 5.1
+};
+
+/// What a simulated robot senses in a control cycle: what control software may ask for, and all the
+/// rest. Each sensor is computed when first asked for.
+class SimulatedSenses : public Senses {
+ public:
+  /// The sensors' readings of this cycle; what was asked for before is not read again.
+  ///
+  /// The accelerometer and the gyroscope compare with their reading before: ask for them in every
+  /// cycle or in none.
+  virtual const Readings& read(Sensors sensors) = 0;
 };
 
 }  // namespace swarmsmith
