@@ -27,13 +27,13 @@ class StartedRun(unittest.TestCase):
                                           '[timing]\ndelays = [ { time = "150 ms", probability = 1 } ]\n')
         trajectory = folder / "world.csv"
         evaluated = must(SWARMSMITH, "evaluate", MACHINE, "--flavour", FLAVOUR, "--mission", folder / "short.toml",
-                         "--profile", folder / "late.toml", "--seeds", "4", "--csv", trajectory, "--json")
+                         "--profile", folder / "late.toml", "--seeds", "5", "--csv", trajectory, "--json")
         world = json.loads(evaluated.stdout.splitlines()[0])
         start = time.monotonic()
         video = folder / "run07.mkv"
         recorded_at(video, start, before_s=1.37, seconds=SECONDS + 2)
         robots = write_robot_logs(folder, "run07", trajectory, MACHINE, FLAVOUR, start, SECONDS)
-        film_trajectory(lab.lab, video, trajectory, start, folder / "short.toml", "--seed", "4")
+        film_trajectory(lab.lab, video, trajectory, start, folder / "short.toml", "--seed", "5")
         log = folder / "run07.toml"
         log.write_text('format = 1\nname = "run07"\nrecorded = 2026-11-25\nmission = "short.toml"\nstart = "1.37 s"\n'
                        f'robots = {json.dumps(robots)}\n[[video]]\nfile = "run07.mkv"\n'
