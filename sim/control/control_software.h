@@ -31,6 +31,11 @@ class ControlSoftware {
     return std::visit([](const auto& running) { return running.state(); }, running_);
   }
 
+  /// How many random numbers were drawn so far.
+  std::uint64_t drawn() const {
+    return std::visit([](const auto& running) { return running.drawn(); }, running_);
+  }
+
  private:
   std::variant<MachineControl, TreeControl, NetworkControl> running_;
 };
