@@ -63,7 +63,7 @@ bool NodeLoop::turn_by_clock() {
   }
   node_.set_driver(end_.connected());
   const Now now = now_on_both_clocks();
-  carry_out(node_.tick(now), now);
+  carry_out(node_.tick(now));
   tend_log();
   tell_state(false);
   return true;
@@ -142,14 +142,14 @@ void NodeLoop::answer(const SensesMessage& senses) {
     return;
   }
   if (senses.cycle == 1) open_log();
-  const Command& command = *decision->command;
+  const swarmsmith::Command& command = *decision->command;  // cli has another
   end_.send(AnswerMessage{.seed = senses.seed,
                           .cycle = senses.cycle,
                           .left_mps = command.left_mps,
                           .right_mps = command.right_mps,
                           .state = decision->state});
   decision->command.reset();
-  carry_out(std::move(*decision), now);
+  carry_out(std::move(*decision));
 }
 
 bool NodeLoop::all_heard(std::int64_t count) const {
@@ -170,10 +170,10 @@ void NodeLoop::step_counted() {
     node_.begin_counted(now);
     open_log();
   }
-  carry_out(node_.step_counted(now), now);
+  carry_out(node_.step_counted(now));
 }
 
-void NodeLoop::carry_out(Decision decision, const Now& /*now*/) {
+void NodeLoop::carry_out(Decision decision) {
   if (decision.command) {
     WheelsMessage wheels{.left_mps = decision.command->left_mps,
                          .right_mps = decision.command->right_mps};

@@ -60,7 +60,7 @@ class NodeLoop {
   void answer(const SensesMessage& senses);
   void step_counted();
   bool all_heard(std::int64_t count) const;
-  void carry_out(Decision decision, const Now& now);
+  void carry_out(Decision decision);
   void tend_log();
   void open_log();
   void tell_state(bool at_once);

@@ -259,6 +259,7 @@ class World {
   }
 
   ExitCode run() {
+    print_note(output_, "the world sends " + sent());
     if (const auto there = wait_for_robots(end_, plan_.wait, options_); !there)
       return fail(output_, exit_code_of(there.error()), there.error());
     const ExitCode code = words_.real_time ? run_by_clock() : run_in_steps();
@@ -268,6 +269,20 @@ class World {
   }
 
  private:
+  /// So that people see what a node may wait for in vain.
+  std::string sent() const {
+    const SensorTopics& sensors = plan_.end.sensors;
+    if (sensors.senses) return "senses";
+    std::string text;
+    for (const auto& [is_sent, name] :
+         {std::pair(sensors.ranges, "ranges"), std::pair(sensors.ground_color, "ground_color"),
+          std::pair(sensors.scan, "scan"), std::pair(sensors.neighbours, "neighbours"),
+          std::pair(sensors.light, "light"), std::pair(sensors.body, "imu, odom, battery")}) {
+      if (is_sent) text += (text.empty() ? "" : ", ") + std::string(name);
+    }
+    return text;
+  }
+
   WorldRun run_at(std::size_t i) const {
     return {.profile = plan_.profile,
             .mission = plan_.mission,

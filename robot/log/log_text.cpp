@@ -203,6 +203,7 @@ Expected<LogRow> row_of(const std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < neighbours.size(); i += kNeighbourNumbers)
     row.sensed.neighbours.push_back({neighbours[i], neighbours[i + 1], neighbours[i + 2]});
   const std::vector<double> light = fields.numbers(kProximitySensors);
+  if (light.size() > kProximitySensors) fields.wrong("eight numbers or none", "more");
   if (!light.empty()) std::copy_n(light.begin(), kProximitySensors, row.sensed.light_lux.begin());
   for (std::optional<double>& age : row.age_ms)
     fields.number(age);
@@ -257,7 +258,7 @@ void read_head(TableReader& root, LogHead& head) {
     root.complain("kind", "this is no robot's log: `kind = \"robot log\"` is missing");
   need(root, "run", root.text("run"), head.run);
   need(root, "robot", root.text("robot"), head.robot);
-  need(root, "robot_index", root.integer("robot_index", kCounts), head.robot_index);
+  need(root, "robot_index", root.integer("robot_index", {0, 1'000'000}), head.robot_index);
   need(root, "machine", root.text("machine"), head.machine);
   need(root, "machine_digest", root.text("machine_digest"), head.machine_digest);
   need(root, "flavour", root.text("flavour"), head.flavour);

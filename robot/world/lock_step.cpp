@@ -21,12 +21,6 @@ struct RunEnded : std::runtime_error {
   Error error;
 };
 
-/// In place of a controller: the nodes have theirs.
-const Controller& nobody() {
-  static const Controller kStop = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
-  return kStop;
-}
-
 std::string seconds_text(Duration duration) {
   const auto tenths = std::chrono::duration_cast<std::chrono::milliseconds>(duration).count() / 100;
   return std::to_string(tenths / 10) + (tenths % 10 != 0 ? "." + std::to_string(tenths % 10) : "") +
@@ -96,13 +90,17 @@ class LockStep final : public Decider {
 
   Error silence_of(std::size_t robot) const {
     const bool there = end_->connected(robot);
-    return {ErrorKind::Unavailable,
-            "no answer from " + end_->name(robot) + " in cycle " +
-                std::to_string(robots_[robot].asked) + " of seed " + std::to_string(seed_) +
-                " within " + seconds_text(options_->patience) +
-                (there ? "; its node is connected, but does not answer"
-                       : "; its node is gone: its own messages say why"),
-            end_->name(robot)};
+    return {
+        ErrorKind::Unavailable,
+        "no answer from " + end_->name(robot) + " in cycle " +
+            std::to_string(robots_[robot].asked) + " of seed " + std::to_string(seed_) +
+            " within " + seconds_text(options_->patience) +
+            (!there            ? "; its node is gone: its own messages say why"
+             : sensors_.senses ? "; its node is connected, but does not answer"
+                               : "; its node is connected, but does not answer: does it wait for "
+                                 "a sensor that is not sent, or send its speeds elsewhere "
+                                 "(--neighbours, --light, --wheels on both sides)?"),
+        end_->name(robot)};
   }
 
   void take(std::size_t robot, const AnswerMessage& answer) {
@@ -151,6 +149,22 @@ class LockStep final : public Decider {
 
 }  // namespace
 
+SimulationSetup WorldRun::setup() const {
+  static const Controller kNone = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
+  return {.controller = kNone,
+          .flavour = watermelon(),
+          .profile = profile,
+          .mission = mission,
+          .instance = instance,
+          .seed = seed};
+}
+
+Expected<void> WorldRun::check(const WorldEnd& end) const {
+  if (end.robots() == instance.starts.size()) return {};
+  return bad_input("the mission has " + std::to_string(instance.starts.size()) + " robots, and " +
+                   std::to_string(end.robots()) + " are named");
+}
+
 Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions& options) {
   constexpr Duration kLook = std::chrono::milliseconds(20);
   constexpr Duration kTell = std::chrono::seconds(3);
@@ -186,19 +200,10 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
 Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors,
                                             const WorldRun& run, const WorldOptions& options,
                                             const Recorder& recorder) {
-  if (end.robots() != run.instance.starts.size()) {
-    return bad_input("the mission has " + std::to_string(run.instance.starts.size()) +
-                     " robots, and " + std::to_string(end.robots()) + " are named");
-  }
+  if (const auto good = run.check(end); !good) return tl::unexpected(good.error());
   LockStep decider(end, sensors, run.seed, options);
   try {
-    return simulate({.controller = nobody(),
-                     .flavour = watermelon(),
-                     .profile = run.profile,
-                     .mission = run.mission,
-                     .instance = run.instance,
-                     .seed = run.seed},
-                    recorder, &decider);
+    return simulate(run.setup(), recorder, &decider);
   } catch (const RunEnded& ended) {
     return tl::unexpected(ended.error);
   } catch (const std::invalid_argument& error) {  // a command that is no number

@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -41,11 +42,14 @@ def wait_for(condition, what):
 class Process:
     """A program whose output is collected while it runs."""
 
-    def __init__(self, test, words, variables=None):
+    def __init__(self, test, words, variables=None, limit=None):
+        """`limit`: bytes that a file may have; more is an error of writing it, as on a full disk."""
         self.words = [str(word) for word in words]
         self.process = subprocess.Popen(self.words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                        errors="replace", start_new_session=True, stdin=subprocess.DEVNULL,
-                                        env={**os.environ, **(variables or {})})
+                                        errors="replace", start_new_session=True, stdin=subprocess.PIPE,
+                                        env={**os.environ, **(variables or {})},
+                                        preexec_fn=limit and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE,
+                                                                                         (limit, limit))))
         self.out, self.err = [], []
         self.readers = [threading.Thread(target=self._read, args=pair, daemon=True)
                         for pair in ((self.process.stdout, self.out), (self.process.stderr, self.err))]
@@ -91,6 +95,7 @@ class Process:
         if self.process.poll() is None:
             programs.send(self.process.pid, signal.SIGKILL)
         self.process.wait()
+        self.process.stdin.close()
         for reader in self.readers:
             reader.join(DEADLINE_S)
 
@@ -111,13 +116,14 @@ class Master(Process):
                          "the port of rosmaster")
         self.variables = {**place, "ROS_MASTER_URI": found.group(1)}
 
-    def node(self, test, robot, machine, *words):
-        return Process(test, [ROBOT, "run", "--robot", robot, "--machine", machine, *words], self.variables)
+    def node(self, test, robot, machine, *words, limit=None):
+        return Process(test, [ROBOT, "run", "--robot", robot, "--machine", machine, *words], self.variables, limit)
 
     def nodes(self, test, count, machine, *words):
         return [self.node(test, i + 1, machine, *words) for i in range(count)]
 
-    def program(self, test, *words):
+    def program(self, test, *words, key=None):
+        del key  # ROS knows none
         return Process(test, [ROBOT, *words], self.variables)
 
 
@@ -130,10 +136,10 @@ class ZeroMq:
         self.keys = keys
         self.variables = {}
 
-    def node(self, test, robot, machine, *words):
+    def node(self, test, robot, machine, *words, limit=None):
         keys = ["--keys", self.keys] if self.keys else []
         node = Process(test, [*self.command, "run", "--robot", robot, "--machine", machine, "--transport", "zeromq", "--bind",
-                              "tcp://127.0.0.1:*", *keys, *words])
+                              "tcp://127.0.0.1:*", *keys, *words], limit=limit)
         place = node.wait_for(r"(\w+) listens at (tcp://\S+)")
         self.places.append(f"{place.group(1)}={place.group(2)}")
         return node
@@ -141,7 +147,7 @@ class ZeroMq:
     def nodes(self, test, count, machine, *words):
         return [self.node(test, i + 1, machine, *words) for i in range(count)]
 
-    def program(self, test, command, *words, key="worker"):
-        places = [word for place in self.places for word in ("--at", place)]
+    def program(self, test, command, *words, key="worker", of=""):
+        places = [word for place in self.places if place.startswith(of) for word in ("--at", place)]
         key = ["--key", f"{self.keys}/{key}.key"] if self.keys else []
         return Process(test, [*self.command, command, "--transport", "zeromq", *places, *key, *words])

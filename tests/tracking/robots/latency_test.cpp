@@ -99,6 +99,8 @@ TEST(LatencyTest, IsFoundToMillisecondsWithTheNoiseOfACamera) {
       EXPECT_NEAR(*found.seconds, latency_s, 0.003) << "seed " << seed;
       EXPECT_LT(found.error_s, 0.003);
       EXPECT_GT(*found.agreement, 0.95);
+      std::printf("%g %llu err %.3f ms se %.3f ms\n", latency_s, (unsigned long long)seed,
+                  1000 * (*found.seconds - latency_s), 1000 * found.error_s);
       squares += std::pow((*found.seconds - latency_s) / found.error_s, 2);
       ++runs;
     }
