@@ -142,7 +142,7 @@ void NodeLoop::answer(const SensesMessage& senses) {
     return;
   }
   if (senses.cycle == 1) open_log();
-  const auto& command = *decision->command;
+  const swarmsmith::Command& command = *decision->command;  // cli has another
   end_.send(AnswerMessage{.seed = senses.seed,
                           .cycle = senses.cycle,
                           .left_mps = command.left_mps,
@@ -201,6 +201,7 @@ void NodeLoop::open_log() {
   auto opened = LogWriter::open(log_files_of(*options_.logs, state.run, state.robot), node_.head());
   if (opened) {
     log_ = std::move(*opened);
+    node_.set_log_open(true);
     return;
   }
   const std::string why = "no log can be written: " + to_string(opened.error());
@@ -229,6 +230,7 @@ void NodeLoop::tend_log() {
     options_.note("the log is not whole: " + last);
   }
   log_.reset();
+  node_.set_log_open(false);
   node_.set_log_trouble({});
 }
 
@@ -237,7 +239,7 @@ void NodeLoop::tell_state(bool at_once) {
   const NodeState state = node_.state(now);
   std::string part = std::string(name_of(state.phase)) + "\n" + state.run + "\n" + state.order +
                      "\n" + state.refused + "\n" + state.log_trouble + "\n" +
-                     std::to_string(static_cast<int>(state.verdict));
+                     std::to_string(static_cast<int>(state.verdict)) + (state.log_open ? "o" : "");
   if (!at_once && part == told_ && now.clock - told_at_ < kTellEvery) return;
   told_ = std::move(part);
   told_at_ = now.clock;

@@ -185,6 +185,25 @@ TEST(RunStarter, StopsAllWhenOneDoesNotTakeTheStart) {
   EXPECT_TRUE(bench.robots[0]->rows.empty()) << "stopped before the agreed instant";
 }
 
+TEST(RunStarter, WaitsUntilAllLogsAreClosed) {
+  Bench bench;
+  for (const auto& robot : bench.robots)
+    robot->node.set_log_open(true);
+  bench.run(8.5);
+  ASSERT_EQ(bench.robots[0]->state().phase, Phase::Ended);
+  EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Watching);
+  bench.robots[0]->node.set_log_open(false);
+  bench.robots[1]->node.set_log_open(false);
+  bench.robots[2]->node.set_log_trouble("the disk is full");
+  bench.robots[2]->node.lose_log();
+  bench.robots[2]->node.set_log_open(false);
+  bench.run(1);
+  EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Over);
+  EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
+  EXPECT_THAT(bench.starter->complaints(),
+              ElementsAre("rvr3: failed: the log is not whole: the disk is full"));
+}
+
 TEST(RunStarter, StopsAllWhenThePersonWantsIt) {
   Bench bench;
   bench.run(5);
