@@ -4,21 +4,24 @@ import unittest
 
 import robots
 from programs import ProgramTest
-from robots import Master, ZeroMq
+from robots import Master, ZeroMq, machine_file
 from robot_lock_step_test import WATERMELON
 
 NO_ROS = robots.why_no_ros()
-FORWARD = "--nstates 1 --s0 0 --rwm0 1"
 LOCK_STEP = ("--flavour", "watermelon", "--lock-step", "senses")
 
 
 class Faults(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.machine = machine_file(self, WATERMELON)
+
     def world_in_steps(self, way, *words):
         return way.program(self, "world", "--mission", "aggregation", "--seeds", "1-1000000", "--lock-step", "--json",
                            "--patience", "1", *words)
 
     def assert_killed_node_is_named(self, way):
-        nodes = way.nodes(self, 3, WATERMELON, *LOCK_STEP)
+        nodes = way.nodes(self, 3, self.machine, *LOCK_STEP)
         world = self.world_in_steps(way)
         world.wait_for('"digest"')
         nodes[1].signal(signal.SIGKILL)
@@ -27,7 +30,7 @@ class Faults(ProgramTest):
                                        r"its node is gone")
 
     def assert_killed_world_is_told(self, way):
-        nodes = way.nodes(self, 3, WATERMELON, *LOCK_STEP, "--patience", "1")
+        nodes = way.nodes(self, 3, self.machine, *LOCK_STEP, "--patience", "1")
         world = self.world_in_steps(way)
         world.wait_for('"digest"')
         world.signal(signal.SIGKILL)
@@ -36,7 +39,7 @@ class Faults(ProgramTest):
             self.assertIn("the world is silent", node.said())
 
     def assert_stopped_node_is_named(self, way):
-        nodes = way.nodes(self, 3, WATERMELON, *LOCK_STEP)
+        nodes = way.nodes(self, 3, self.machine, *LOCK_STEP)
         world = self.world_in_steps(way)
         world.wait_for('"digest"')
         nodes[2].signal(signal.SIGSTOP)
@@ -60,13 +63,13 @@ class OverRos(Faults):
         self.assert_killed_world_is_told(self.master)
 
     def test_a_node_that_is_missing_is_named(self):
-        self.master.nodes(self, 2, WATERMELON, *LOCK_STEP)
+        self.master.nodes(self, 2, self.machine, *LOCK_STEP)
         world = self.world_in_steps(self.master, "--wait", "1")
         self.assertEqual(world.end(), 5, world.said())
         self.assertIn("no node of rvr3 after 1 s", world.said())
 
     def test_a_killed_master_ends_no_run(self):
-        self.master.nodes(self, 3, WATERMELON, *LOCK_STEP)
+        self.master.nodes(self, 3, self.machine, *LOCK_STEP)
         world = self.world_in_steps(self.master)
         world.wait_for('"digest"')
         self.master.kill()
@@ -77,36 +80,36 @@ class OverRos(Faults):
 
     def test_without_a_master_it_is_said_where_it_was_looked_for(self):
         self.master.kill()
-        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        node = self.master.node(self, 1, self.machine, *LOCK_STEP)
         self.assertEqual(node.end(), 5, node.said())
         self.assertIn("no ROS master answers", node.said())
         self.assertIn(self.master.variables["ROS_MASTER_URI"].rstrip("/"), node.said())
 
     def test_a_second_node_of_the_same_name_ends_the_first(self):
-        first = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        first = self.master.node(self, 1, self.machine, *LOCK_STEP)
         first.wait_for("random stream 0")
         # Registered when the second comes: the world sees its state.
-        second = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        second = self.master.node(self, 1, self.machine, *LOCK_STEP)
         self.assertEqual(first.end(), 5, first.said())
         self.assertIn("another node took the name /rvr1/control", first.said())
         self.assertIsNone(second.process.poll())
 
     def test_a_host_name_that_does_not_resolve_is_said_on_both_sides(self):
         self.master.variables["ROS_HOSTNAME"] = "nosuch-robot.invalid"
-        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        node = self.master.node(self, 1, self.machine, *LOCK_STEP)
         node.wait_for("told to find this one at `nosuch-robot.invalid`, which does not even resolve here; set ROS_IP")
         self.master.variables["ROS_HOSTNAME"] = "localhost"
         world = self.master.program(self, "world", "--mission", "aggregation", "--lock-step")
         world.wait_for("/rvr1/control .* `nosuch-robot.invalid` does not resolve here; set ROS_IP")
 
     def test_names_that_ros_does_not_take_are_refused(self):
-        node = self.master.node(self, "a-b", WATERMELON, *LOCK_STEP, "--index", "0")
+        node = self.master.node(self, "a-b", self.machine, *LOCK_STEP, "--index", "0")
         self.assertEqual(node.end(), 2, node.said())
-        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP, "--topic", "ranges:=/a b")
+        node = self.master.node(self, 1, self.machine, *LOCK_STEP, "--topic", "ranges:=/a b")
         self.assertEqual(node.end(), 2, node.said())
         self.assertIn("ROS does not take this name", node.said())
         self.master.variables["ROS_MASTER_URI"] = "localhost"
-        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        node = self.master.node(self, 1, self.machine, *LOCK_STEP)
         self.assertEqual(node.end(), 2, node.said())
         self.assertIn("not the address of a master", node.said())
 
@@ -120,9 +123,9 @@ class OverZeroMq(Faults):
 
     def test_a_second_node_at_the_address_is_refused(self):
         way = ZeroMq()
-        way.node(self, 1, WATERMELON, *LOCK_STEP)
+        way.node(self, 1, self.machine, *LOCK_STEP)
         place = way.places[0].split("=")[1]
-        second = robots.Process(self, [robots.ROBOT, "run", "--robot", "1", "--machine", WATERMELON, *LOCK_STEP,
+        second = robots.Process(self, [robots.ROBOT, "run", "--robot", "1", "--machine", self.machine, *LOCK_STEP,
                                        "--transport", "zeromq", "--bind", place])
         self.assertEqual(second.end(), 5, second.said())
         self.assertIn("another program listens on this port", second.said())
