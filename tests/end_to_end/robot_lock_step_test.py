@@ -22,7 +22,7 @@ NO_ROS = robots.why_no_ros()
 def mission_of(folder, robots_wanted):
     """The file of an aggregation with so many robots."""
     file = folder / f"swarm{robots_wanted}.toml"
-    file.write_text(f'name = "swarm{robots_wanted}"\npreset = "aggregation"\nrobots = {robots_wanted}\n')
+    file.write_text(f'format = 1\nname = "swarm{robots_wanted}"\npreset = "aggregation"\nrobots = {robots_wanted}\n')
     return file
 
 
