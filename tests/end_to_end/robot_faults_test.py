@@ -133,7 +133,7 @@ class OverRos(Faults):
 
     def test_two_nodes_that_command_one_robot_stop_it(self):
         world = self.real_time(1, 4)
-        words = ("--flavour", "watermelon", "--logs", self.folder)
+        words = ("--flavour", "watermelon-argos3", "--logs", self.folder)
         self.master.node(self, 1, self.machine, *words)
         self.master.node(self, 2, self.machine, *words, *(word for topic in ("ranges", "wheels")
                                                           for word in ("--topic", f"{topic}:=/rvr1/{topic}")))
@@ -146,7 +146,7 @@ class OverRos(Faults):
 
     def test_a_master_that_is_killed_in_a_run_changes_nothing(self):
         world = self.real_time(2, 4)
-        self.master.nodes(self, 2, self.machine, "--flavour", "watermelon", "--logs", self.folder)
+        self.master.nodes(self, 2, self.machine, "--flavour", "watermelon-argos3", "--logs", self.folder)
         start = self.start("1-2", 4)
         robots.wait_for(lambda: list(self.folder.glob("r1.rvr*.log.csv")), "logs of the run")
         self.master.kill()
