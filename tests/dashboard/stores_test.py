@@ -274,10 +274,9 @@ class Older(Stores):
         best = bests(store)["small"]
         with sqlite3.connect(store) as connection:
             source = connection.execute("INSERT INTO source (name) VALUES ('real')").lastrowid
-            columns = [row[1] for row in connection.execute("PRAGMA table_info(evaluation)")]
-            row = dict(zip(columns, connection.execute("SELECT * FROM evaluation WHERE candidate = ? ORDER BY rowid DESC LIMIT 1", [best]).fetchone()))
-            row["source"] = source
-            connection.execute(f"INSERT INTO evaluation ({', '.join(columns)}) VALUES ({', '.join('?' * len(columns))})", list(row.values()))
+            changed = connection.execute("UPDATE evaluation SET source = ? WHERE candidate = ? AND purpose = 2 AND pair = (SELECT min(pair) "
+                                         "FROM evaluation WHERE candidate = ? AND purpose = 2)", [source, best, best]).rowcount
+        self.assertEqual(changed, 1)
         said = self.look_at(store, [
             ("results", "#/c1/results", "document.querySelectorAll('.svg svg').length >= 2"),
             ("candidate", f"#/c1/c{best}", "document.querySelectorAll('table').length >= 2"),
