@@ -146,7 +146,7 @@ class Rivals(Stores):
         self.assertNotIn("states, transitions", said["network"] + said["tree"])
 
     def test_rows_of_the_table_of_p_values_are_lines(self):
-        """A cell that may break between any two letters makes rows as tall as words are long."""
+        """Notes in a narrow column would make them as tall as a page."""
         serving = self.dashboard(rival_store())
         table = "[...document.querySelectorAll('caption')].find(one => one.textContent === 'tests by method')?.parentNode"
         for width in (390, 1440, 2560):
@@ -154,7 +154,7 @@ class Rivals(Stores):
             heights = page.js(f"[...{table}.querySelectorAll('tr')].map(one => one.offsetHeight)")
             line = page.js("parseFloat(getComputedStyle(document.body).lineHeight)")
             self.assertEqual(len(heights), 16, "six methods are fifteen pairs")
-            self.assertLess(max(heights), 3 * line, width)
+            self.assertLess(max(heights), 5 * line, width)
             page.close()
 
     def test_runs_of_a_tree_and_of_a_network_have_the_stored_bits(self):
