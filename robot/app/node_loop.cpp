@@ -132,6 +132,7 @@ void NodeLoop::answer(const SensesMessage& senses) {
     if (senses.cycle == 1 && node_.is_on()) node_.end_run();
     tend_log();
     if (senses.cycle == 0) {
+      end_.send(AnswerMessage{.seed = senses.seed});  // the world waits for it
       finish(node_.phase() == Phase::Failed ? Ending::Wrong : Ending::NoMoreRuns);
       return;
     }

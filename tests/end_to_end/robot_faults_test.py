@@ -1,4 +1,6 @@
 """What goes wrong between robots' nodes and a simulated world is said by name, and no tread goes on turning."""
+import csv
+import math
 import signal
 import unittest
 
@@ -8,6 +10,7 @@ from robots import Master, ZeroMq, machine_file
 from robot_lock_step_test import WATERMELON
 
 NO_ROS = robots.why_no_ros()
+FORWARD = "--nstates 1 --s0 0 --rwm0 1"
 LOCK_STEP = ("--flavour", "watermelon", "--lock-step", "senses")
 
 
@@ -101,6 +104,55 @@ class OverRos(Faults):
         self.master.variables["ROS_HOSTNAME"] = "localhost"
         world = self.master.program(self, "world", "--mission", "aggregation", "--lock-step")
         world.wait_for("/rvr1/control .* `nosuch-robot.invalid` does not resolve here; set ROS_IP")
+
+    def real_time(self, count, seconds):
+        """A world by the clock with robots that drive straight on, and where their true poses go."""
+        mission = self.folder / "short.toml"
+        mission.write_text(f'format = 1\npreset = "aggregation"\nrobots = {count}\nduration = "{seconds} s"\n')
+        self.machine = machine_file(self, FORWARD)
+        world = self.master.program(self, "world", "--mission", mission, "--real-time", "--json", "--csv",
+                                    self.folder / "true.csv")
+        return world
+
+    def start(self, robots_wanted, seconds):
+        self.check_until_ready(robots_wanted)
+        return self.master.program(self, "start", "--run", "r1", "--robots", robots_wanted, "--seconds", seconds)
+
+    def check_until_ready(self, robots_wanted):
+        def ready():
+            check = self.master.program(self, "check", "--robots", robots_wanted)
+            return check.end() == 0
+        robots.wait_for(ready, "robots that are ready")
+
+    def moved_after(self, seconds):
+        """How far the first robot drove after so many seconds."""
+        with (self.folder / "true.csv").open() as file:
+            rows = [row for row in csv.DictReader(file) if row["robot"] == "0"]
+        poses = [(float(row["x"]), float(row["y"])) for row in rows if float(row["time_s"]) >= seconds]
+        return math.dist(poses[0], poses[-1])
+
+    def test_two_nodes_that_command_one_robot_stop_it(self):
+        world = self.real_time(1, 4)
+        words = ("--flavour", "watermelon", "--logs", self.folder)
+        self.master.node(self, 1, self.machine, *words)
+        self.master.node(self, 2, self.machine, *words, *(word for topic in ("ranges", "wheels")
+                                                          for word in ("--topic", f"{topic}:=/rvr1/{topic}")))
+        start = self.start("1-2", 4)
+        self.assertEqual(world.end(), 0, world.said())
+        start.end()
+        self.assertEqual(world.rows()[-1]["stops_by_rivals"], 1, world.said())
+        self.assertRegex(world.said(), "rvr1: two nodes command it, /rvr[12]/control and /rvr[12]/control")
+        self.assertLess(self.moved_after(0.7), 0.001, world.said() + start.said())
+
+    def test_a_master_that_is_killed_in_a_run_changes_nothing(self):
+        world = self.real_time(2, 4)
+        self.master.nodes(self, 2, self.machine, "--flavour", "watermelon", "--logs", self.folder)
+        start = self.start("1-2", 4)
+        robots.wait_for(lambda: list(self.folder.glob("r1.rvr*.log.csv")), "logs of the run")
+        self.master.kill()
+        self.assertEqual(world.end(), 0, world.said())
+        self.assertEqual(world.rows()[-1]["stops_by_rivals"], 0, world.said())
+        self.assertGreater(self.moved_after(1), 0.1, world.said() + start.said())
 
     def test_names_that_ros_does_not_take_are_refused(self):
         node = self.master.node(self, "a-b", self.machine, *LOCK_STEP, "--index", "0")
