@@ -142,7 +142,7 @@ void NodeLoop::answer(const SensesMessage& senses) {
     return;
   }
   if (senses.cycle == 1) open_log();
-  const Command& command = *decision->command;
+  const swarmsmith::Command& command = *decision->command;  // cli has another
   end_.send(AnswerMessage{.seed = senses.seed,
                           .cycle = senses.cycle,
                           .left_mps = command.left_mps,

@@ -21,12 +21,6 @@ struct RunEnded : std::runtime_error {
   Error error;
 };
 
-/// In place of a controller: the nodes have theirs.
-const Controller& nobody() {
-  static const Controller kStop = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
-  return kStop;
-}
-
 std::string seconds_text(Duration duration) {
   const auto tenths = std::chrono::duration_cast<std::chrono::milliseconds>(duration).count() / 100;
   return std::to_string(tenths / 10) + (tenths % 10 != 0 ? "." + std::to_string(tenths % 10) : "") +
@@ -155,6 +149,22 @@ class LockStep final : public Decider {
 
 }  // namespace
 
+SimulationSetup WorldRun::setup() const {
+  static const Controller kNone = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
+  return {.controller = kNone,
+          .flavour = watermelon(),
+          .profile = profile,
+          .mission = mission,
+          .instance = instance,
+          .seed = seed};
+}
+
+Expected<void> WorldRun::check(const WorldEnd& end) const {
+  if (end.robots() == instance.starts.size()) return {};
+  return bad_input("the mission has " + std::to_string(instance.starts.size()) + " robots, and " +
+                   std::to_string(end.robots()) + " are named");
+}
+
 Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions& options) {
   constexpr Duration kLook = std::chrono::milliseconds(20);
   constexpr Duration kTell = std::chrono::seconds(3);
@@ -190,19 +200,10 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
 Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors,
                                             const WorldRun& run, const WorldOptions& options,
                                             const Recorder& recorder) {
-  if (end.robots() != run.instance.starts.size()) {
-    return bad_input("the mission has " + std::to_string(run.instance.starts.size()) +
-                     " robots, and " + std::to_string(end.robots()) + " are named");
-  }
+  if (const auto good = run.check(end); !good) return tl::unexpected(good.error());
   LockStep decider(end, sensors, run.seed, options);
   try {
-    return simulate({.controller = nobody(),
-                     .flavour = watermelon(),
-                     .profile = run.profile,
-                     .mission = run.mission,
-                     .instance = run.instance,
-                     .seed = run.seed},
-                    recorder, &decider);
+    return simulate(run.setup(), recorder, &decider);
   } catch (const RunEnded& ended) {
     return tl::unexpected(ended.error);
   } catch (const std::invalid_argument& error) {  // a command that is no number

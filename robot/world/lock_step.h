@@ -17,6 +17,11 @@ struct WorldRun {
   const Mission& mission;
   const Instance& instance;
   std::int64_t seed = 1;
+
+  /// For simulate() with a decider; the controller counts for nothing.
+  SimulationSetup setup() const;
+  /// BadInput when the mission has another number of robots.
+  Expected<void> check(const WorldEnd& end) const;
 };
 
 struct WorldOptions {

@@ -9,16 +9,10 @@
 #include "base/overloaded.h"
 #include "robot/world/sensor_messages.h"
 #include "robot/world/simulated_driver.h"
-#include "sim/control/flavour.h"
 
 namespace swarmsmith {
 
 namespace {
-
-const Controller& nobody() {
-  static const Controller kStop = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
-  return kStop;
-}
 
 /// Ends the run from inside of the engine: for a reason, or (none) because the real one begins.
 struct Broken : std::exception {
@@ -178,20 +172,8 @@ class Laboratory final : public Decider {
 Expected<RealTimeResult> run_in_real_time(WorldEnd& end, const SensorTopics& sensors,
                                           const WorldRun& run, const RealTimeOptions& options,
                                           const Recorder& recorder) {
-  if (end.robots() != run.instance.starts.size()) {
-    return bad_input("the mission has " + std::to_string(run.instance.starts.size()) +
-                     " robots, and " + std::to_string(end.robots()) + " are named");
-  }
+  if (const auto good = run.check(end); !good) return tl::unexpected(good.error());
   Laboratory laboratory(end, sensors, options);
-  const auto simulate_with = [&](const Mission& mission, const Recorder& observer) {
-    return simulate({.controller = nobody(),
-                     .flavour = watermelon(),
-                     .profile = run.profile,
-                     .mission = mission,
-                     .instance = run.instance,
-                     .seed = run.seed},
-                    observer, &laboratory);
-  };
   try {
     TimePoint zero = SystemClock().now();
     if (options.start_of) {
@@ -199,14 +181,15 @@ Expected<RealTimeResult> run_in_real_time(WorldEnd& end, const SensorTopics& sen
       before.cycles = std::numeric_limits<int>::max();
       laboratory.wait_for_start();
       try {
-        simulate_with(before, {});
+        const WorldRun waiting{run.profile, before, run.instance, run.seed};
+        simulate(waiting.setup(), {}, &laboratory);
       } catch (const Broken& broken) {
         if (broken.error) throw;
       }
       zero = *laboratory.start();
     }
     laboratory.begin_at(zero);
-    const SimulationResult result = simulate_with(run.mission, recorder);
+    const SimulationResult result = simulate(run.setup(), recorder, &laboratory);
     return RealTimeResult{.simulation = result,
                           .start = zero,
                           .latest = laboratory.latest(),

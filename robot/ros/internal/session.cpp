@@ -99,7 +99,8 @@ bool wait_for_master(Duration patience) {
 }
 
 RosExpected<ros::M_string> remappings_of(const std::string& name_space, const RosOptions& options) {
-  ros::M_string remappings{{"__ns", name_space}};
+  // roscpp puts a slash in front.
+  ros::M_string remappings{{"__ns", name_space == "/" ? name_space : name_space.substr(1)}};
   for (const std::string& text : options.remappings) {
     const std::size_t middle = text.find(":=");
     std::string reason;
