@@ -190,7 +190,7 @@ class Drain(FaultTest):
         wait_for(lambda: serve.progress().get("workers") == 0, "no worker", 10)
         numbers = serve.progress()
         self.assert_none(numbers, "leased", "expired", "lost_workers")
-        numbers = self.finish(serve, [self.worker(serve.address(), slots=2)])
+        numbers = self.finish(serve, [self.worker(serve.address(), slots=2)], seconds=600)
         self.assert_none(numbers, "expired", "lost_workers")
         self.assertEqual(events(self.store, "worker lost"), [])
 
