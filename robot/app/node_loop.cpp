@@ -121,6 +121,7 @@ void NodeLoop::hear_order(const OrderMessage& message) {
   const bool was_on = node_.is_on();
   node_.hear(*order, now_on_both_clocks());
   if (!was_on && node_.is_on()) open_log();
+  if (was_on && !node_.is_on()) end_.send(WheelsMessage{});  // not only at the next tick
   if (order->kind != Order::Kind::Alive) tell_state(true);
 }
 
