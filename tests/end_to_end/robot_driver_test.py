@@ -40,7 +40,8 @@ class Driver(ProgramTest):
             operator += ["--key", f"{way.keys}/operator.key"]
         robots.wait_for(lambda: subprocess.run([ROBOT, "check", "--robots", "1", *operator],
                                                capture_output=True).returncode == 0, "a robot that is ready")
-        start = Process(self, [ROBOT, "start", "--run", "r1", "--robots", "1", "--seconds", "30", *operator])
+        start = Process(self, [ROBOT, "start", "--run", "r1", "--robots", "1", "--seconds", "30",
+                               "--write", self.folder / "r1.toml", *operator])
         driver.wait_for(r"0\.300 0\.300")
         node.signal(signal.SIGKILL)
         before = len(driver.out)

@@ -116,7 +116,8 @@ class OverRos(Faults):
 
     def start(self, robots_wanted, seconds):
         self.check_until_ready(robots_wanted)
-        return self.master.program(self, "start", "--run", "r1", "--robots", robots_wanted, "--seconds", seconds)
+        return self.master.program(self, "start", "--run", "r1", "--robots", robots_wanted, "--seconds", seconds,
+                                   "--write", self.folder / "r1.toml")
 
     def check_until_ready(self, robots_wanted):
         def ready():
