@@ -7,7 +7,7 @@ import unittest
 import robots
 from programs import ProgramTest
 from robots import Master, ZeroMq, machine_file
-from robot_lock_step_test import WATERMELON
+from robot_lock_step_test import WATERMELON, mission_of
 
 NO_ROS = robots.why_no_ros()
 FORWARD = "--nstates 1 --s0 0 --rwm0 1"
@@ -20,7 +20,8 @@ class Faults(ProgramTest):
         self.machine = machine_file(self, WATERMELON)
 
     def world_in_steps(self, way, *words):
-        return way.program(self, "world", "--mission", "aggregation", "--seeds", "1-1000000", "--lock-step", "--json",
+        mission = mission_of(self.folder, "aggregation", seconds=5)
+        return way.program(self, "world", "--mission", mission, "--seeds", "1-1000000", "--lock-step", "--json",
                            "--patience", "1", *words)
 
     def assert_killed_node_is_named(self, way):
