@@ -29,6 +29,13 @@ def why_no_ros():
     return None
 
 
+def machine_file(test, text):
+    """A file with the machine, as `run` and `world` take it."""
+    file = test.folder / f"machine{abs(hash(text))}.fsm"
+    file.write_text(text + "\n")
+    return file
+
+
 def wait_for(condition, what):
     deadline = time.monotonic() + DEADLINE_S
     while time.monotonic() < deadline:
@@ -128,16 +135,17 @@ class Master(Process):
 
 
 class ZeroMq:
-    """The same without a master: each node has an address of its own."""
+    """The same without a master: each node has an address of its own. `command`: what starts the program."""
 
-    def __init__(self, keys=None):
+    def __init__(self, keys=None, command=(ROBOT,)):
         self.places = []
+        self.command = command
         self.keys = keys
         self.variables = {}
 
     def node(self, test, robot, machine, *words, limit=None):
         keys = ["--keys", self.keys] if self.keys else []
-        node = Process(test, [ROBOT, "run", "--robot", robot, "--machine", machine, "--transport", "zeromq", "--bind",
+        node = Process(test, [*self.command, "run", "--robot", robot, "--machine", machine, "--transport", "zeromq", "--bind",
                               "tcp://127.0.0.1:*", *keys, *words], limit=limit)
         place = node.wait_for(r"(\w+) listens at (tcp://\S+)")
         self.places.append(f"{place.group(1)}={place.group(2)}")
@@ -149,4 +157,4 @@ class ZeroMq:
     def program(self, test, command, *words, key="worker", of=""):
         places = [word for place in self.places if place.startswith(of) for word in ("--at", place)]
         key = ["--key", f"{self.keys}/{key}.key"] if self.keys else []
-        return Process(test, [ROBOT, command, "--transport", "zeromq", *places, *key, *words])
+        return Process(test, [*self.command, command, "--transport", "zeromq", *places, *key, *words])
