@@ -362,7 +362,8 @@ Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
     best.surprise = at(0);
     const Parabola curve = parabola(at(-step), best.surprise, at(step), step);
     best.shift_s += curve.off;
-    best.curvature = curve.curvature;
+    // Between frames a curve may be flat that bends over a whole frame.
+    if (curve.curvature > 0) best.curvature = curve.curvature;
   }
   return best;
 }
