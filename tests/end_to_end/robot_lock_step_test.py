@@ -114,12 +114,12 @@ class OverRos(LockStep):
                                   "neighbours"),
                       world_words=("--topics", "--wheels", "floats"))
 
-    def test_the_drivers_own_topics_with_a_lidar(self):
-        """LaserScan, too; the node finds the neighbours in it."""
+    def test_the_drivers_own_topics_of_a_profile_with_a_lidar(self):
         master = Master(self, self.folder)
         profile = self.wire_profile("rvr", (r'(?m)^source( *)= "camera"', r'source\1= "lidar"'))
         self.compared(master, mission_of(self.folder, "aggregation"), "watermelon", profile, "4", lock_step="topics",
-                      node_words=("--seed", "4", "--wheels", "floats", "--color-scale", "255"),
+                      node_words=("--seed", "4", "--wheels", "floats", "--color-scale", "255", "--neighbours",
+                                  "neighbours"),
                       world_words=("--topics", "--wheels", "floats"))
 
     def test_rounded_topics_differ_from_a_profile_that_does_not_round(self):
