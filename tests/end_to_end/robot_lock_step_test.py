@@ -77,7 +77,8 @@ class OverRos(LockStep):
         master = Master(self, self.folder)
         for count in (1, 10):
             with self.subTest(robots=count):
-                self.compared(master, mission_of(self.folder, "aggregation", count), "watermelon", "rvr", "5", count=count)
+                self.compared(master, mission_of(self.folder, "aggregation", count), "watermelon", "rvr", "5",
+                              count=count)
 
     def test_two_masters_at_once(self):
         masters = [Master(self, self.folder), Master(self, self.folder)]
@@ -86,8 +87,8 @@ class OverRos(LockStep):
         for master in masters:
             master.nodes(self, 3, machine, "--flavour", "watermelon", "--lock-step", "senses")
         for master in masters:
-            worlds.append(master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "1-3", "--lock-step",
-                                         "--compare", "--machine", machine, "--flavour", "watermelon", "--json"))
+            worlds.append(master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds",
+                                         "1-3", "--lock-step", "--compare", "--machine", machine, "--flavour", "watermelon", "--json"))
         for world in worlds:
             self.assertEqual(world.end(), 0, world.said())
         self.assertEqual(worlds[0].rows(), worlds[1].rows())
@@ -97,8 +98,8 @@ class OverRos(LockStep):
         machine = machine_file(self, WATERMELON)
         nodes = [master.node(self, i + 1, machine, "--flavour", "watermelon", "--lock-step", "senses", "--index", i + 1)
                  for i in range(3)]
-        world = master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "1", "--lock-step", "--compare",
-                               "--machine", machine, "--flavour", "watermelon", "--json")
+        world = master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "1",
+                               "--lock-step", "--compare", "--machine", machine, "--flavour", "watermelon", "--json")
         self.assertEqual(world.end(), 1, world.said())
         self.assertFalse(world.rows()[0]["same_in_process"])
         self.assertIn("each its own random stream", world.said())
@@ -127,8 +128,8 @@ class OverRos(LockStep):
         machine = machine_file(self, WATERMELON)
         master.nodes(self, 3, machine, "--flavour", "watermelon", "--lock-step", "topics", "--seed", "3", "--wheels",
                      "floats", "--color-scale", "255", "--neighbours", "neighbours")
-        world = master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "3", "--lock-step", "--topics",
-                               "--wheels", "floats", "--compare", "--machine", machine, "--flavour", "watermelon",
+        world = master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "3",
+                               "--lock-step", "--topics", "--wheels", "floats", "--compare", "--machine", machine, "--flavour", "watermelon",
                                "--json")
         self.assertEqual(world.end(), 1, world.said())
         self.assertIn('wire = "float32"', world.said())
@@ -157,8 +158,8 @@ class OverZeroMq(LockStep):
         self.compared(ZeroMq(keys), mission_of(self.folder, "color_selection"), "chocolate", "pseudo-reality", "7")
 
     def test_the_same_bits_by_counting(self):
-        self.compared(ZeroMq(), mission_of(self.folder, "grid_exploration"), "watermelon", "argos3", "4", lock_step="topics",
-                      node_words=("--seed", "4", "--color-scale", "255", "--neighbours", "neighbours"),
+        self.compared(ZeroMq(), mission_of(self.folder, "grid_exploration"), "watermelon", "argos3", "4",
+                      lock_step="topics", node_words=("--seed", "4", "--color-scale", "255", "--neighbours", "neighbours"),
                       world_words=("--topics", "--neighbours", "neighbours"))
 
 
