@@ -1,7 +1,10 @@
 """Nodes of robots, stepped by a simulated world over a real ROS master or over ZeroMQ, all in processes of their own,
 have the scores and last states of `evaluate`, bit for bit."""
 import json
+import pathlib
 import re
+import signal
+import tempfile
 import unittest
 
 import robots
@@ -31,7 +34,9 @@ class LockStep(ProgramTest):
         """Runs the world with nodes; its rows, which have the bits of a run in its process and the scores of
         `evaluate`."""
         machine = machine_file(self, MACHINES[flavour])
-        nodes = way.nodes(self, count, machine, "--flavour", flavour, "--lock-step", lock_step, *node_words)
+        logs = pathlib.Path(tempfile.mkdtemp(dir=self.folder, prefix="logs-"))
+        nodes = way.nodes(self, count, machine, "--flavour", flavour, "--lock-step", lock_step, "--logs", logs,
+                          *node_words)
         world = way.program(self, "world", "--mission", mission, "--profile", profile, "--seeds", seeds, "--lock-step",
                             "--compare", "--machine", machine, "--flavour", flavour, "--json", *world_words)
         code = world.end()
@@ -45,9 +50,14 @@ class LockStep(ProgramTest):
         evaluated = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual([(row["seed"], row["score"]) for row in rows],
                          [(row["seed"], row["score"]) for row in evaluated])
-        if lock_step == "senses":
-            for node in nodes:
-                self.assertEqual(node.end(), 0, node.said())
+        for node in nodes:
+            if lock_step == "topics":  # no message says that there are no more runs
+                node.signal(signal.SIGTERM)
+            self.assertEqual(node.end(), 0 if lock_step == "senses" else 143, node.said())
+        files = sorted(logs.glob("*.log.csv"))
+        self.assertEqual(len(files), count * len(rows))
+        replay = robots.Process(self, [robots.ROBOT, "replay", *files])
+        self.assertEqual(replay.end(), 0, replay.said())
         return rows
 
 
