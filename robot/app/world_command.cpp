@@ -41,7 +41,7 @@ struct Words {
   std::string flavour;
   std::string turn_clock;
   std::string ranges = "array";
-  std::string neighbours = "auto";
+  std::string neighbours = "neighbours";
   bool light = false;
   std::string wheels = "doubles";
   std::string wait;
@@ -97,12 +97,10 @@ Expected<void> check_words(const Words& words) {
   return {};
 }
 
-SensorTopics sensors_of(const Words& words, const Profile& profile) {
-  SensorTopics sensors = topics_of(profile);
-  if (words.neighbours != "auto") {
-    sensors.scan = words.neighbours == "scan";
-    sensors.neighbours = !sensors.scan;
-  }
+SensorTopics sensors_of(const Words& words) {
+  SensorTopics sensors = world_topics();
+  sensors.scan = words.neighbours == "scan";
+  sensors.neighbours = !sensors.scan;
   sensors.ranges_apart = words.ranges == "apart";
   sensors.light = words.light;
   sensors.body = words.real_time;
@@ -167,7 +165,7 @@ Expected<Plan> plan_of(const Words& words, Output& output) {
     plan.machine = std::move(*machine);
   }
   plan.end = {.keep = words.lock_step ? Keep::All : Keep::Newest,
-              .sensors = sensors_of(words, plan.profile),
+              .sensors = sensors_of(words),
               .wheels = words.wheels == "floats"  ? WheelsForm::Floats
                         : words.wheels == "twist" ? WheelsForm::Twist
                                                   : WheelsForm::Doubles};
@@ -427,8 +425,9 @@ Run declare_robot_world(Options& options) {
                  "For --compare: what a turn is measured in");
   options.choice("--ranges", words->ranges, {"array", "apart"},
                  "Proximity as one topic `ranges` or as eight (default array)");
-  options.choice("--neighbours", words->neighbours, {"auto", "scan", "neighbours"},
-                 "Neighbours as a lidar's `scan` or ready (default: as the profile sees them)");
+  options.choice(
+      "--neighbours", words->neighbours, {"neighbours", "scan"},
+      "Neighbours ready, or a lidar's `scan`, which has walls in it, too (default neighbours)");
   options.flag("--light", words->light, "Send `light`, for machines of flavour chocolate");
   options.choice("--wheels", words->wheels, {"doubles", "floats", "twist"},
                  "How speeds travel (default doubles)");

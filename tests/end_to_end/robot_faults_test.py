@@ -7,7 +7,7 @@ import unittest
 import robots
 from programs import ProgramTest
 from robots import Master, ZeroMq, machine_file
-from robot_lock_step_test import WATERMELON
+from robot_lock_step_test import WATERMELON, mission_of
 
 NO_ROS = robots.why_no_ros()
 FORWARD = "--nstates 1 --s0 0 --rwm0 1"
@@ -20,7 +20,8 @@ class Faults(ProgramTest):
         self.machine = machine_file(self, WATERMELON)
 
     def world_in_steps(self, way, *words):
-        return way.program(self, "world", "--mission", "aggregation", "--seeds", "1-1000000", "--lock-step", "--json",
+        mission = mission_of(self.folder, "aggregation", seconds=5)
+        return way.program(self, "world", "--mission", mission, "--seeds", "1-1000000", "--lock-step", "--json",
                            "--patience", "1", *words)
 
     def assert_killed_node_is_named(self, way):
@@ -116,7 +117,8 @@ class OverRos(Faults):
 
     def start(self, robots_wanted, seconds):
         self.check_until_ready(robots_wanted)
-        return self.master.program(self, "start", "--run", "r1", "--robots", robots_wanted, "--seconds", seconds)
+        return self.master.program(self, "start", "--run", "r1", "--robots", robots_wanted, "--seconds", seconds,
+                                   "--write", self.folder / "r1.toml")
 
     def check_until_ready(self, robots_wanted):
         def ready():
@@ -133,7 +135,7 @@ class OverRos(Faults):
 
     def test_two_nodes_that_command_one_robot_stop_it(self):
         world = self.real_time(1, 4)
-        words = ("--flavour", "watermelon", "--logs", self.folder)
+        words = ("--flavour", "watermelon-argos3", "--logs", self.folder)
         self.master.node(self, 1, self.machine, *words)
         self.master.node(self, 2, self.machine, *words, *(word for topic in ("ranges", "wheels")
                                                           for word in ("--topic", f"{topic}:=/rvr1/{topic}")))
@@ -146,7 +148,7 @@ class OverRos(Faults):
 
     def test_a_master_that_is_killed_in_a_run_changes_nothing(self):
         world = self.real_time(2, 4)
-        self.master.nodes(self, 2, self.machine, "--flavour", "watermelon", "--logs", self.folder)
+        self.master.nodes(self, 2, self.machine, "--flavour", "watermelon-argos3", "--logs", self.folder)
         start = self.start("1-2", 4)
         robots.wait_for(lambda: list(self.folder.glob("r1.rvr*.log.csv")), "logs of the run")
         self.master.kill()

@@ -48,7 +48,7 @@ TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
   });
   std::vector<double> x;
   const auto result =
-      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), {},
+      run_in_real_time(swarm.world(), world_topics(), scene.run(), {},
                        [&](const Snapshot& now) { x.push_back(now.robots[0].pose.x); });
   over = true;
   node.join();
@@ -81,8 +81,7 @@ TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
     if (start == TimePoint{}) start = SystemClock().now() + std::chrono::milliseconds(200);
     return start;
   };
-  const auto result =
-      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), options);
+  const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);
   over = true;
   node.join();
   ASSERT_TRUE(result.has_value()) << to_string(result.error());
@@ -95,8 +94,7 @@ TEST(RealTime, ARobotThatDrivesBeforeTheStartIsRefused) {
   swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, -1, {}});
   RealTimeOptions options;
   options.start_of = [](const StateMessage&) { return std::nullopt; };
-  const auto result =
-      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), options);
+  const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);
   ASSERT_FALSE(result.has_value());
   EXPECT_THAT(result.error().message, HasSubstr("before a run was started"));
 }
