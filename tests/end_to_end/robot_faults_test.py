@@ -186,7 +186,7 @@ class OverZeroMq(Faults):
 
     def test_words_of_the_other_transport_are_refused(self):
         for words, said in (((), "does not say where rvr1's node is"), (("--at", "x"), "write NAME=tcp://HOST:PORT"),
-                            (("--at", "rvr1=tcp://10.0.0.1:5570"), "need a key"),
+                            (tuple(word for i in (1, 2, 3) for word in ("--at", f"rvr{i}=tcp://10.0.0.1:5570")), "need a key"),
                             (("--at", "rvr9=tcp://127.0.0.1:5570"), "does not say where rvr1's node is")):
             with self.subTest(words=words):
                 world = robots.Process(self, [robots.ROBOT, "world", "--mission", "aggregation", "--lock-step",
