@@ -53,7 +53,10 @@ Offer offer_value(const DeclaredOption& option, std::span<const std::string> wor
 
 /// Up to the first end of a clause: what fits beside a word.
 std::string short_help(const std::string& help) {
-  return help.substr(0, std::min(help.find_first_of(".;:(\n"), help.size()));
+  std::string text = help.substr(0, std::min(help.find_first_of(".;:(\n"), help.size()));
+  while (text.ends_with(' '))
+    text.pop_back();
+  return text;
 }
 
 /// What the whole words of a command are.

@@ -47,8 +47,8 @@ max_experiments = 3000
 """
 TARGET_RUNNER = """\
 #!/bin/sh
-# irace: ID INSTANCE-ID SEED INSTANCE BOUND --x X --y Y
-shift 5
+# irace: ID INSTANCE-ID SEED INSTANCE --x X --y Y
+shift 4
 awk -v x="${2}" -v y="${4}" 'BEGIN { printf "%.6f\\n", (x - 0.3) ^ 2 + (y - 0.7) ^ 2 }'
 """
 
