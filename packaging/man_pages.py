@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """man_pages.py BIN FOLDER: writes man pages of the programs in BIN, a page a program and a page a command:
 swarmsmith.1, swarmsmith-run.1, ..., swarmsmith-track-calibrate-camera.1."""
-import datetime
 import os
 import pathlib
 import re
 import sys
+import time
 
 import programs
 
@@ -34,10 +34,10 @@ def table_of(heading):
 
 class Page:
     def __init__(self, name, summary, version):
-        date = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", "0")) or None,
-                                               datetime.timezone.utc).strftime("%Y-%m-%d")
+        seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
+        date = time.strftime("%Y-%m-%d", time.gmtime(seconds))
         self.name = name
-        self.lines = [f'.TH {roff(name.upper())} 1 {date} "Swarmsmith {version}" "Swarmsmith manual"', ".SH NAME",
+        self.lines = [f'.TH {roff(name.upper())} 1 {date} "Swarmsmith {version}" "Swarmsmith manual"', ".nh", ".ad l", ".SH NAME",
                       f"{roff(name)} \\- {roff(summary)}"]
 
     def section(self, title):

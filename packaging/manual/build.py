@@ -38,12 +38,25 @@ def anchor_of(title, given):
     return anchor
 
 
+def relinked(text, relink):
+    """The page with `relink` of each link that is not code. A link may go over two lines."""
+    code = re.compile(r"^ *(?:[-*] +)?(`{3,}|~{3,})[^\n]*\n.*?^ *\1 *$|^ {4}[^\n]*$|(`+)(?!`)[^\n]*?(?<!`)\2(?!`)", re.M | re.S)
+    kept = []
+
+    def aside(found):
+        kept.append(found[0])
+        return f"\0{len(kept) - 1}\0"
+    whole = LINK.sub(relink, code.sub(aside, text))
+    return re.sub("\0(\\d+)\0", lambda place: kept[int(place[1])], whole)
+
+
 def converted(text, relink):
     """The page with GitHub's anchors, lists and tables after an empty line, and `relink`ed links."""
     lines = []
     given = {}
     fence = None
-    for line in text.split("\n"):
+    in_list = False
+    for line in relinked(text, relink).split("\n"):
         mark = FENCE.match(line)
         if fence is not None:
             if mark and mark[1].startswith(fence) and not mark[2].strip():
@@ -59,8 +72,10 @@ def converted(text, relink):
         before = lines[-1] if lines else ""
         item = re.match(r"( *)(?:[-*]|\d+[.)]) ", line)
         nested = item and item[1]
-        if nested and re.match(r" *(?:[-*]|\d+[.)]) | ", before):
-            line = "    " * ((len(nested) + 1) // 2 if len(nested) % 3 else len(nested) // 3) + line.lstrip()
+        if line.strip() and not line.startswith(" "):
+            in_list = bool(item)
+        elif in_list and re.match(r" {2,3}\S", line):  # what belongs to an item, or is a list in it
+            line = "    " + line.lstrip()
         if before.strip() and not before.startswith((" ", "|", ">", "#")):
             is_list = item and not nested and not re.match(r"(?:[-*]|\d+[.)]) ", before)
             if is_list or (line.startswith("|") and not before.startswith("|")):
@@ -69,15 +84,7 @@ def converted(text, relink):
         if heading:
             line = f"{heading[1]} {heading[2]} {{#{anchor_of(heading[2], given)}}}"
         lines.append(line)
-    # Links may go over two lines. What is code is put aside before.
-    code = re.compile(r"^ *(?:[-*] +)?(`{3,}|~{3,})[^\n]*\n.*?^ *\1 *$|^ {4}[^\n]*$|(`+)(?!`)[^\n]*?(?<!`)\2(?!`)", re.M | re.S)
-    kept = []
-
-    def aside(found):
-        kept.append(found[0])
-        return f"\0{len(kept) - 1}\0"
-    whole = LINK.sub(relink, code.sub(aside, "\n".join(lines)))
-    return re.sub("\0(\\d+)\0", lambda place: kept[int(place[1])], whole)
+    return "\n".join(lines)
 
 
 class Stage:
