@@ -19,12 +19,8 @@ DeclaredOption declared(const CLI::Option& option) {
     if (option.get_items_expected_max() > 0) {
       const std::string& text = option.get_option_text();
       found.value = text.empty() ? option.get_type_name() : text;
-      // Ranges of numbers follow the type after a colon.
-      if (const auto end = found.value.find(":"); text.empty() && end > 0 &&
-                                                  end != std::string::npos &&
-                                                  found.value.find("://") == std::string::npos) {
-        found.value.resize(end);
-      }
+      // "N:INT in [1 - 9]": a range follows its type.
+      if (found.value.find(" in [") != std::string::npos) found.value.resize(found.value.find(':'));
       found.kind = found.value;
     }
   }

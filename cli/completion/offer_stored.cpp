@@ -47,7 +47,7 @@ bool is_database(const fs::path& file) {
   constexpr std::string_view kBegin = "SQLite format 3";
   std::array<char, kBegin.size()> begin{};
   std::ifstream stream(file, std::ios::binary);
-  return stream.read(begin.data(), begin.size()) &&
+  return stream.read(begin.data(), static_cast<std::streamsize>(kBegin.size())) &&
          std::string_view(begin.data(), begin.size()) == kBegin;
 }
 

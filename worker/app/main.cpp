@@ -216,6 +216,7 @@ int run_command_line(int argc, char** argv) {
                "Connect to a coordinator on another host without encryption");
   app.add_option("--slots", arguments.slots,
                  "Parallel evaluations; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
+      ->type_name("N")
       ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Die when the process that started this one ends");
