@@ -23,7 +23,7 @@ RUN_BY = {
 }
 #: Pages that begin in an empty folder, and those with the stores demo.db and campaign.db.
 FROM_NOTHING = ("assessment", "cluster", "missions", "profiles", "tutorial-cluster", "tutorial-mission", "tutorial-paper")
-WITH_STORES = ("figures", "machines", "report", "statistics", "storage", "trajectories")
+WITH_STORES = ("figures", "machines", "report", "storage", "trajectories")
 ALONE = ("coming-from-irace", "tutorial-real-run")
 CAMPAIGN = """\
 format = 1
