@@ -272,18 +272,16 @@ def yaml_of(navigation):
 
 
 def make_search_work_from_disk(site):
-    """A page from a disk may read no other file and start no worker from one: both become a script that each page
-    loads. The theme asks for them by the name __search."""
-    index = json.loads((site / "search/search_index.json").read_text())
+    """A page from a disk may read no other file and start no worker from one: index and worker become a script that
+    each page loads. The theme asks for them by the name __search."""
+    index = (site / "search/search_index.json").read_text()
     worker = next((site / "assets/javascripts/workers").glob("search.*.js")).read_text()
-    worker = re.sub(r"//# sourceMappingURL=.*", "", worker)
-
-    def literal(value):
-        return json.dumps(value, ensure_ascii=True).replace("</", "<\\/")
+    worker = (HERE / "search_worker.js").read_text().replace("INDEX", index) + re.sub(r"//# sourceMappingURL=.*", "", worker)
+    config = json.dumps(json.loads(index)["config"])
     (site / "search/from_disk.js").write_text(
         "var __search = location.protocol !== 'file:' ? undefined : {\n"
-        f"  worker: URL.createObjectURL(new Blob([{literal(worker)}], {{type: 'text/javascript'}})),\n"
-        f"  index: Promise.resolve({literal(index)})\n}};\n")
+        f"  worker: URL.createObjectURL(new Blob([{json.dumps(worker)}], {{type: 'text/javascript'}})),\n"
+        f"  index: Promise.resolve({{config: {config}, docs: []}})\n}};\n")
 
 
 def name_first_page(site):

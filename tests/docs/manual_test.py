@@ -131,7 +131,7 @@ class Manual(unittest.TestCase):
         for letter in word:
             page.key(letter)
         links = page.wait("(links => links.length && links)([...document.querySelectorAll('.md-search-result__link')]"
-                          ".map(a => a.href))")
+                          ".map(a => a.href))", timeout=120)
         self.assertTrue(any(f"/{found}" in link for link in links), links[:20])
 
     @staticmethod
