@@ -11,7 +11,7 @@ enum class ExitCode : int {
   NoSuchId = 4,     ///< no such design, candidate or evaluation
   Unreachable = 5,  ///< coordinator or worker does not answer
   OverFailureLimit = 6,  ///< finished or stopped because evaluations could not be had
-  InvalidRun = 6,        ///< of `track score`: the run is not fit to be counted
+  InvalidRun = 6,        ///< of `track score` and `robot start`: the run is not fit to be counted
   Interrupted = 130,     ///< by Ctrl-C; `run` goes on
   Terminated = 143,      ///< by SIGTERM; `run` goes on
 };

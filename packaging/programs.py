@@ -5,7 +5,7 @@ import pathlib
 import subprocess
 
 #: All programs with options of their own; a new one is a name here.
-PROGRAMS = ("swarmsmith", "swarmsmith-worker", "swarmsmith-track")
+PROGRAMS = ("swarmsmith", "swarmsmith-worker", "swarmsmith-track", "swarmsmith-robot")
 
 
 def declared(bin_folder, program):

@@ -108,7 +108,8 @@ struct ServerSocket::Impl {
   std::unordered_map<PeerId, Peer> peers;
   std::unordered_map<std::string, std::uint64_t> unsent_to;  ///< by network
   std::uint64_t unsent_to_all = 0;
-  TimePoint looked;  ///< at all peers
+  std::vector<PeerId> gone;  ///< whose last words may wait to be read
+  TimePoint looked;          ///< at all peers
   std::string endpoint;
   zmq::message_t name;
   zmq::message_t frame;
@@ -264,7 +265,7 @@ SendStatus ServerSocket::send(PeerId peer, std::string_view frame) {
     impl_->drop(known->second);
   } else {
     impl_->change_unsent(known->second, 0, 0);
-    impl_->peers.erase(known);
+    impl_->gone.push_back(peer);
   }
   return status;
 }
@@ -296,6 +297,8 @@ bool ServerSocket::receive(Received& received) {
     }
     return true;
   }
+  for (const PeerId peer : std::exchange(impl_->gone, {}))
+    impl_->peers.erase(peer);
   return false;
 }
 

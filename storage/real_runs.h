@@ -127,6 +127,48 @@ struct RealIssueRow {
   friend bool operator==(const RealIssueRow&, const RealIssueRow&) = default;
 };
 
+/// A robot's own log of a run, and what follows from it beside the camera.
+struct RealLogRow {
+  std::int64_t robot = 0;  ///< as of RealRobotRow
+  std::string file;
+  std::string machine_digest;
+  std::string host;
+  std::string program;
+  std::string scheduling;                ///< of its control thread
+  std::optional<double> clock_offset_s;  ///< its clock minus the operator's
+  std::string state;                     ///< "ended", "stopped", "failed"; empty: it was killed
+  std::string verdict;                   ///< its node's; empty when it was killed
+  std::string reasons = "[]";            ///< JSON array of sentences, the node's
+  std::int64_t stepped = 0;              ///< control cycles
+  std::int64_t held = 0;
+  std::int64_t skipped = 0;
+  std::optional<double> latency_s;  ///< of its motion behind its commands
+  std::optional<double> latency_error_s;
+  std::optional<double> agreement;  ///< of its motion with its commands
+  std::string latency_reason;       ///< why the latency cannot be told
+  std::string head;                 ///< the log's TOML file, whole
+
+  friend bool operator==(const RealLogRow&, const RealLogRow&) = default;
+};
+
+/// A control cycle of a robot's log.
+struct RealLogCycleRow {
+  std::int64_t cycle = 0;  ///< as the log counts, from 1; skipped ones have no row
+  std::int64_t robot = 0;
+  double time_s = 0;   ///< since the robot's start
+  double clock_s = 0;  ///< the robot's monotonic clock
+  double late_ms = 0;
+  std::string act;  ///< "step" or "hold"
+  std::int64_t state = 0;
+  double left_mps = 0;  ///< as commanded
+  double right_mps = 0;
+  std::array<std::optional<double>, 4> ages_ms{};  ///< proximity, ground, neighbours, light
+  std::int64_t drawn = 0;                          ///< random numbers so far
+  std::string event;
+
+  friend bool operator==(const RealLogCycleRow&, const RealLogCycleRow&) = default;
+};
+
 /// What a run was scored with, and what came out; a later scoring replaces what follows from it and
 /// keeps the earlier score.
 struct RealScoreRow {
@@ -170,6 +212,8 @@ struct RealRunRows {
   std::vector<RealPatchRow> patches;         ///< of the log, or measured; none where there are none
   std::vector<RealCycleRow> cycles;          ///< by cycle, robot
   std::vector<RealIssueRow> issues;
+  std::vector<RealLogRow> logs;             ///< by robot; those that have one
+  std::vector<RealLogCycleRow> log_cycles;  ///< by cycle, robot
   RealScoreRow score;
 
   friend bool operator==(const RealRunRows&, const RealRunRows&) = default;

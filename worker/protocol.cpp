@@ -199,7 +199,9 @@ void WorkerProtocol::be_ready(TimePoint now) {
 void WorkerProtocol::on_drain(TimePoint now) {
   if (drain_until_ || state_ == State::Left) return;
   drain_until_ = now + options_.grace;
-  if (state_ != State::Active) return leave(ExitCode::Done, "drained without a connection");
+  if (state_ == State::Waiting) return leave(ExitCode::Done, "drained without a connection");
+  // The coordinator may have read the hello.
+  if (state_ == State::Greeting) return say_goodbye(now, "drained without a welcome");
   update_credit(now);
   actions_.emplace_back(TakeBack{});
   std::vector<PackedKey> announced;
@@ -221,10 +223,14 @@ void WorkerProtocol::finish_draining(TimePoint now) {
   held_.clear();
   drain_until_.reset();
   if (!rest.empty()) on_taken_back(rest, now);
+  say_goodbye(now, "drained");
+}
+
+void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
   pb::ToCoordinator message;
   message.mutable_goodbye();
   send(message, now);
-  leave(ExitCode::Done, "drained");
+  leave(ExitCode::Done, reason);
 }
 
 // --- time ---

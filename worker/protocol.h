@@ -139,6 +139,7 @@ class WorkerProtocol {
   void heartbeat(TimePoint now);
   void count_busy(const Held& held, std::int64_t wall_us, TimePoint now);
   void finish_draining(TimePoint now);
+  void say_goodbye(TimePoint now, const std::string& reason);
   TimePoint next_of_state() const;
   void send(pb::ToCoordinator& message, TimePoint now);
 

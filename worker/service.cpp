@@ -53,6 +53,8 @@ class Loop {
 
   void step(const std::atomic<bool>& drain) {
     const TimePoint now = clock_.now();
+    // Looked up first: what was said before the end is read below.
+    const bool is_lost = socket_.lost();
     std::string frame;
     while (!end_ && socket_.receive(frame)) {
       protocol_.on_frame(frame, now);
@@ -61,7 +63,7 @@ class Loop {
     // Before the events: programs that died of the same signal did not fail.
     if (drain.load()) protocol_.on_drain(now);
     take_events(now);
-    if (socket_.lost()) {
+    if (is_lost) {
       tell_when_refused();
       protocol_.on_connection_lost(now);
     }

@@ -1,8 +1,12 @@
 #include "base/http/peer_user.h"
 
 #include <arpa/inet.h>
+#include <linux/inet_diag.h>
+#include <linux/netlink.h>
+#include <linux/sock_diag.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 #include <array>
 #include <cstdio>
 #include <cstring>
@@ -27,40 +31,76 @@ std::optional<Ends> ends_of(int socket) {
   return ends;
 }
 
+/// Whose a socket is. One that no process holds any more has no inode, and the kernel says of it
+/// that it is root's.
+std::optional<uid_t> holder(uid_t user, std::uint64_t inode) {
+  return inode != 0 ? std::optional(user) : std::nullopt;
+}
+
+void set_end(const sockaddr_storage& end, __be32* address, __be16& port) {
+  if (end.ss_family == AF_INET6) {
+    const auto& six = reinterpret_cast<const sockaddr_in6&>(end);
+    std::memcpy(address, &six.sin6_addr, sizeof six.sin6_addr);
+    port = six.sin6_port;
+  } else {
+    const auto& four = reinterpret_cast<const sockaddr_in&>(end);
+    std::memcpy(address, &four.sin_addr, sizeof four.sin_addr);
+    port = four.sin_port;
+  }
+}
+
+/// What the kernel says of the socket that has these ends (sock_diag(7)); nothing when it knows
+/// none, or does not answer such questions.
+std::optional<inet_diag_msg> ask_kernel(const sockaddr_storage& own,
+                                        const sockaddr_storage& other) {
+  struct {
+    nlmsghdr head;
+    inet_diag_req_v2 wanted;
+  } question = {};
+  question.head.nlmsg_len = sizeof question;
+  question.head.nlmsg_type = SOCK_DIAG_BY_FAMILY;
+  question.head.nlmsg_flags = NLM_F_REQUEST;
+  question.wanted.sdiag_family = static_cast<__u8>(own.ss_family);
+  question.wanted.sdiag_protocol = IPPROTO_TCP;
+  inet_diag_sockid& id = question.wanted.id;
+  set_end(own, id.idiag_src, id.idiag_sport);
+  set_end(other, id.idiag_dst, id.idiag_dport);
+  id.idiag_cookie[0] = id.idiag_cookie[1] = INET_DIAG_NOCOOKIE;
+  const int kernel = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG);
+  if (kernel < 0) return std::nullopt;
+  std::array<char, 4096> answer{};
+  // It has answered when `send` returns.
+  const bool sent = send(kernel, &question, sizeof question, 0) == sizeof question;
+  const ssize_t got = sent ? recv(kernel, answer.data(), answer.size(), MSG_DONTWAIT) : -1;
+  close(kernel);
+  nlmsghdr head = {};
+  inet_diag_msg found = {};
+  if (got < static_cast<ssize_t>(NLMSG_LENGTH(sizeof found))) return std::nullopt;
+  std::memcpy(&head, answer.data(), sizeof head);
+  std::memcpy(&found, answer.data() + NLMSG_HDRLEN, sizeof found);
+  return head.nlmsg_type == SOCK_DIAG_BY_FAMILY ? std::optional(found) : std::nullopt;
+}
+
 /// An end as the kernel's list has it: words of four bytes in this machine's order, then the port.
 std::string listed(const sockaddr_storage& end) {
   std::array<std::uint32_t, 4> words{};
-  std::size_t count = 1;
-  unsigned port = 0;
-  if (end.ss_family == AF_INET6) {
-    const auto& six = reinterpret_cast<const sockaddr_in6&>(end);
-    std::memcpy(words.data(), &six.sin6_addr, sizeof six.sin6_addr);
-    count = 4;
-    port = ntohs(six.sin6_port);
-  } else {
-    const auto& four = reinterpret_cast<const sockaddr_in&>(end);
-    words[0] = four.sin_addr.s_addr;
-    port = ntohs(four.sin_port);
-  }
+  std::uint16_t port = 0;
+  set_end(end, words.data(), port);
   std::string text;
   std::array<char, 16> part{};
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < (end.ss_family == AF_INET6 ? 4U : 1U); ++i) {
     std::snprintf(part.data(), part.size(), "%08X", words[i]);
     text += part.data();
   }
-  std::snprintf(part.data(), part.size(), ":%04X", port);
+  std::snprintf(part.data(), part.size(), ":%04X", ntohs(port));
   return text + part.data();
 }
 
-}  // namespace
-
-std::optional<uid_t> user_of_peer(int socket) {
-  const auto ends = ends_of(socket);
-  if (!ends) return std::nullopt;
-  std::ifstream list(ends->ours.ss_family == AF_INET6 ? "/proc/net/tcp6" : "/proc/net/tcp");
-  // Theirs is a socket of this host, whose own end is what is the other one for us.
-  const std::string own = listed(ends->theirs);
-  const std::string other = listed(ends->ours);
+/// From the list of all sockets. The kernel looks through its whole table for it: milliseconds.
+std::optional<uid_t> user_in_list(const Ends& ends) {
+  std::ifstream list(ends.ours.ss_family == AF_INET6 ? "/proc/net/tcp6" : "/proc/net/tcp");
+  const std::string own = listed(ends.theirs);
+  const std::string other = listed(ends.ours);
   std::string line;
   while (std::getline(list, line)) {
     if (line.find(own) == std::string::npos) continue;
@@ -70,10 +110,25 @@ std::optional<uid_t> user_of_peer(int socket) {
     std::string to;
     std::string skipped;
     uid_t user = 0;
-    words >> number >> from >> to >> skipped >> skipped >> skipped >> skipped >> user;
-    if (words && from == own && to == other) return user;
+    std::uint64_t inode = 0;
+    words >> number >> from >> to >> skipped >> skipped >> skipped >> skipped >> user >> skipped >>
+        inode;
+    if (words && from == own && to == other) return holder(user, inode);
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<uid_t> user_of_peer(int socket) {
+  const auto ends = ends_of(socket);
+  if (!ends) return std::nullopt;
+  // Theirs is a socket of this host, whose own end is what is the other one for us.
+  if (const auto theirs = ask_kernel(ends->theirs, ends->ours))
+    return holder(theirs->idiag_uid, theirs->idiag_inode);
+  // A kernel that knows our end and not theirs says that theirs is elsewhere.
+  if (ask_kernel(ends->ours, ends->theirs)) return std::nullopt;
+  return user_in_list(*ends);
 }
 
 std::string address_of_peer(int socket) {

@@ -363,6 +363,7 @@ constexpr std::array kCommands = {
     Command{"merge", "Merge several stores into a new one, for reading", kMergeDetails,
             declare_merge},
     Command{"recover", "Make a new store from a damaged one", kRecoverDetails, declare_recover},
+    Command{"robot", "Run machines on real robots", "", nullptr, run_robot},
     Command{"track", "Score runs of real robots, filmed from above", "", nullptr, run_track},
     Command{"version", "Print the version", "", declare_version},
 };

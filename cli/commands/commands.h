@@ -52,5 +52,7 @@ Run declare_version(Options& options);
 
 /// Becomes the program swarmsmith-track, whose commands docs/tracking.md tells.
 ExitCode run_track(const std::vector<std::string>& words, Output& output);
+/// Becomes the program swarmsmith-robot, whose commands docs/robot-runtime.md tells.
+ExitCode run_robot(const std::vector<std::string>& words, Output& output);
 
 }  // namespace swarmsmith::cli

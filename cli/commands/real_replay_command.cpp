@@ -10,9 +10,9 @@
 #include "analysis/drawing/svg.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
-#include "cli/arguments/seeds.h"
 #include "cli/output/progress_text.h"
 #include "cli/replay/real_replay.h"
+#include "console/seeds.h"
 #include "console/terminal.h"
 
 namespace swarmsmith::cli {

@@ -67,33 +67,41 @@ std::vector<Part> parts_of_evaluation(const ThingId& id) {
   return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
 }
 
-std::vector<Part> parts_of_real_run(const std::string& number) {
+std::vector<Part> parts_of_real_run(const std::string& number, bool has_logs) {
   const std::string of_run = " WHERE run = " + number;
-  return {{"real run", "SELECT * FROM v_real_runs" + of_run},
-          {"robots",
-           "SELECT robot, name, tag, measured, interpolated, degraded, missing, longest_gap_s, "
-           "outliers, sigma_m, border_m, too_close FROM v_real_robots" +
-               of_run + " ORDER BY robot"},
-          {"issues", "SELECT code, robot, from_s, to_s, text FROM v_real_issues" + of_run +
-                         " ORDER BY number"},
-          {"scorings", "SELECT scoring, score, verdict, biased, at, program FROM v_real_scores" +
-                           of_run + " ORDER BY scoring"},
-          {"overrides",
-           "SELECT verdict, who, reason, at FROM v_real_overrides" + of_run + " ORDER BY number"},
-          {"videos", "SELECT camera, file, frames, damaged_frames, time_source FROM v_real_videos" +
-                         of_run + " ORDER BY video"},
-          {"calibrations",
-           "SELECT kind, subject, valid_from, valid_until, rms FROM v_calibrations WHERE sha256 IN "
-           "(SELECT camera_calibration FROM v_real_videos" +
-               of_run + " UNION SELECT place_calibration FROM v_real_videos" + of_run +
-               " UNION SELECT offset_calibration FROM v_real_robots" + of_run +
-               ") ORDER BY kind, subject"}};
+  std::vector<Part> parts = {
+      {"real run", "SELECT * FROM v_real_runs" + of_run},
+      {"robots",
+       "SELECT robot, name, tag, measured, interpolated, degraded, missing, longest_gap_s, "
+       "outliers, sigma_m, border_m, too_close FROM v_real_robots" +
+           of_run + " ORDER BY robot"},
+      {"issues",
+       "SELECT code, robot, from_s, to_s, text FROM v_real_issues" + of_run + " ORDER BY number"},
+      {"scorings", "SELECT scoring, score, verdict, biased, at, program FROM v_real_scores" +
+                       of_run + " ORDER BY scoring"},
+      {"overrides",
+       "SELECT verdict, who, reason, at FROM v_real_overrides" + of_run + " ORDER BY number"},
+      {"videos", "SELECT camera, file, frames, damaged_frames, time_source FROM v_real_videos" +
+                     of_run + " ORDER BY video"},
+      {"calibrations",
+       "SELECT kind, subject, valid_from, valid_until, rms FROM v_calibrations WHERE sha256 IN "
+       "(SELECT camera_calibration FROM v_real_videos" +
+           of_run + " UNION SELECT place_calibration FROM v_real_videos" + of_run +
+           " UNION SELECT offset_calibration FROM v_real_robots" + of_run +
+           ") ORDER BY kind, subject"}};
+  if (has_logs) {
+    parts.push_back({"logs of robots",
+                     "SELECT name, verdict, stepped, held, skipped, clock_offset_s, latency_s, "
+                     "latency_error_s, latency_reason FROM v_real_logs" +
+                         of_run + " ORDER BY robot"});
+  }
+  return parts;
 }
 
-std::vector<Part> parts_of(const ThingId& id, bool has_purposes) {
+std::vector<Part> parts_of(const ThingId& id, bool has_purposes, bool has_logs) {
   if (id.letter == 'd') return parts_of_design(id.digits, has_purposes);
   if (id.letter == 'c') return parts_of_candidate(id.digits);
-  if (id.letter == 'r') return parts_of_real_run(id.digits);
+  if (id.letter == 'r') return parts_of_real_run(id.digits, has_logs);
   return parts_of_evaluation(id);
 }
 
@@ -146,6 +154,9 @@ void tell_rounds(Rows& rows, const StoredStages& stages, const ThingId& id) {
   }
 }
 
+/// A store of before has no logs of robots.
+constexpr std::int64_t kSchemaOfLogs = 10;
+
 ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
   if (!id) {
@@ -161,7 +172,7 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const bool has_purposes = std::ranges::find(known->columns, "purpose") != known->columns.end();
   const auto stages = StoredStages::read(**store);
   if (!stages) return fail(output, ExitCode::Store, stages.error());
-  const std::vector<Part> parts = parts_of(*id, has_purposes);
+  const std::vector<Part> parts = parts_of(*id, has_purposes, (*store)->schema() >= kSchemaOfLogs);
   std::vector<Rows> shown;
   for (const Part& part : parts) {
     auto rows = select(**store, part.sql);

@@ -6,35 +6,39 @@
 namespace swarmsmith::cli {
 
 AnswerCache::Answer AnswerCache::get(const std::string& question, const std::string& stamp,
-                                     std::chrono::milliseconds fresh,
+                                     Clock::time_point oldest,
                                      const std::function<KeptAnswer()>& make, bool& shared) {
   shared = true;
   std::promise<Answer> promise;
   std::uint64_t forgotten = 0;
+  std::uint64_t number = 0;
+  const auto when = Clock::now();
   {
     std::unique_lock lock(mutex_);
     if (const auto found = kept_.find(question); found != kept_.end()) {
       const Kept& kept = *found->second;
       const bool same = !stamp.empty() && kept.stamp == stamp;
-      if (kept.answer->is_final || same || Clock::now() - kept.when < fresh) {
+      if (kept.answer->is_final || same || kept.when >= oldest) {
         order_.splice(order_.begin(), order_, found->second);
         return kept.answer;
       }
     }
-    if (const auto found = under_way_.find(question); found != under_way_.end()) {
-      const std::shared_future<Answer> answer = found->second;
+    if (const auto found = under_way_.find(question);
+        found != under_way_.end() && found->second.when >= oldest) {
+      const std::shared_future<Answer> answer = found->second.answer;
       lock.unlock();
       return answer.get();
     }
-    under_way_.emplace(question, promise.get_future().share());
+    number = ++begun_;
+    under_way_[question] = {number, when, promise.get_future().share()};
     forgotten = forgotten_;
   }
   shared = false;
-  const auto when = Clock::now();
   const auto answer = std::make_shared<const KeptAnswer>(make());
   {
     const std::scoped_lock lock(mutex_);
-    under_way_.erase(question);
+    const auto own = under_way_.find(question);
+    if (own != under_way_.end() && own->second.number == number) under_way_.erase(own);
     if (answer->is_good && forgotten == forgotten_) keep(question, stamp, when, answer);
   }
   promise.set_value(answer);
@@ -44,6 +48,7 @@ AnswerCache::Answer AnswerCache::get(const std::string& question, const std::str
 void AnswerCache::keep(const std::string& question, const std::string& stamp,
                        Clock::time_point when, const Answer& answer) {
   if (const auto old = kept_.find(question); old != kept_.end()) {
+    if (old->second->when > when) return;
     bytes_ -= weight(*old->second);
     order_.erase(old->second);
     kept_.erase(old);

@@ -36,10 +36,10 @@ class AnswerCache {
 
   explicit AnswerCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// The answer to `question`, made by `make` unless one is kept that is final, that was made of
-  /// the same `stamp` (empty: of no known one), or that is younger than `fresh`. `shared` is set
-  /// when nothing was made for this question.
-  Answer get(const std::string& question, const std::string& stamp, std::chrono::milliseconds fresh,
+  /// The answer to `question`, made by `make` unless one is kept, or under way, that is final, that
+  /// was made of the same `stamp` (empty: of no known one), or whose making began at `oldest` or
+  /// later. `shared` is set when nothing was made for this question.
+  Answer get(const std::string& question, const std::string& stamp, Clock::time_point oldest,
              const std::function<KeptAnswer()>& make, bool& shared);
   /// What was kept may be wrong now, but for what is final.
   void forget();
@@ -61,7 +61,13 @@ class AnswerCache {
   std::mutex mutex_;
   Order order_;
   std::map<std::string, Order::iterator> kept_;
-  std::map<std::string, std::shared_future<Answer>> under_way_;
+  struct UnderWay {
+    std::uint64_t number;
+    Clock::time_point when;
+    std::shared_future<Answer> answer;
+  };
+  std::map<std::string, UnderWay> under_way_;  ///< the newest of each question
+  std::uint64_t begun_ = 0;
   std::size_t bytes_ = 0;
   std::uint64_t forgotten_ = 0;
 };

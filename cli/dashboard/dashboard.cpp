@@ -11,7 +11,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <exception>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <random>
 #include <span>
@@ -45,7 +48,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::string_view kApi = "/api/v1/";
 constexpr std::size_t kCacheBytes = std::size_t{32} << 20U;
 /// An answer as young as that is not made again for the next who asks.
-constexpr std::chrono::milliseconds kFresh{300};
+constexpr std::chrono::milliseconds kFresh{500};
 /// Older numbers than that are no numbers of now.
 constexpr std::chrono::seconds kStale{5};
 constexpr std::size_t kMostUnpacked = std::size_t{256} << 20U;
@@ -224,6 +227,59 @@ std::string random_hex(std::size_t words) {
   return text;
 }
 
+/// Readers of the stores that this process writes, kept from one answer to the next: opening one
+/// takes SQLite a millisecond, most of an answer, to read what tables and views there are. Of other
+/// stores none is kept: while it is open, its writer cannot fold the log into the file at its end.
+class Readers {
+ public:
+  using Reader = std::unique_ptr<StoreReader, std::function<void(StoreReader*)>>;
+
+  Expected<Reader> take(const DashboardStore& store) {
+    struct stat facts = {};
+    const bool may_keep = store.is_own && ::stat(store.file.c_str(), &facts) == 0;
+    const File file{facts.st_dev, facts.st_ino};
+    if (may_keep) {
+      const std::scoped_lock lock(mutex_);
+      // Another file under the name is another store.
+      std::erase_if(kept_,
+                    [&](const Kept& kept) { return kept.name == store.file && kept.file != file; });
+      const auto found = std::ranges::find(kept_, store.file, &Kept::name);
+      if (found != kept_.end()) {
+        StoreReader* const reader = found->reader.release();
+        kept_.erase(found);
+        return lent(reader, store.file, file);
+      }
+    }
+    auto opened = StoreReader::open(store.file);
+    if (!opened) return Unexpected(opened.error());
+    if (may_keep) return lent(opened->release(), store.file, file);
+    return Reader(opened->release(), std::default_delete<StoreReader>());
+  }
+
+ private:
+  using File = std::pair<dev_t, ino_t>;
+  struct Kept {
+    std::filesystem::path name;
+    File file;
+    std::unique_ptr<StoreReader> reader;
+  };
+  /// Of all stores: as many as answers are made at the same time, mostly.
+  static constexpr std::size_t kMost = 4;
+
+  Reader lent(StoreReader* reader, const std::filesystem::path& name, File file) {
+    return {reader, [this, name, file](StoreReader* back) {
+              std::unique_ptr<StoreReader> returned(back);
+              // After a failure of the disk nothing is known of it.
+              if (std::uncaught_exceptions() > 0) return;
+              const std::scoped_lock lock(mutex_);
+              if (kept_.size() < kMost) kept_.push_back({name, file, std::move(returned)});
+            }};
+  }
+
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+};
+
 /// What is asked of a campaign or a design by POST.
 struct Act {
   std::size_t store = 0;
@@ -312,6 +368,12 @@ class Dashboard final : public HttpSite {
     return published_;
   }
 
+  /// When `live` was made last.
+  Clock::time_point told() const {
+    const std::scoped_lock lock(mutex_);
+    return told_;
+  }
+
   std::optional<std::size_t> store_named(std::string_view name) const {
     for (std::size_t i = 0; i < options_.stores.size(); ++i)
       if (name == "c" + std::to_string(i + 1)) return i;
@@ -373,33 +435,40 @@ class Dashboard final : public HttpSite {
     std::string_view path =
         std::string_view(request.path).substr(std::min(kApi.size(), request.path.size()));
     const std::string key = key_of(request);
-    const auto made = [&](const std::string& stamp, std::chrono::milliseconds fresh,
+    const auto young = Clock::now() - kFresh;
+    const auto made = [&](const std::string& stamp, Clock::time_point oldest,
                           const std::function<Expected<Answer>()>& make) {
       return cache_.get(
-          key, stamp, fresh, [&] { return timed(make); }, shared);
+          key, stamp, oldest, [&] { return timed(make); }, shared);
     };
+    for (const auto& [name, value] : request.parameters) {
+      // What is handed on would end there.
+      if (value.find('\0') != std::string::npos)
+        return made("", young, [&] { return bad_input("may not hold a zero byte", name); });
+    }
     const std::string_view first = next_part(path);
-    if (!request.path.starts_with(kApi)) return made("", kFresh, [] { return no_such_path(); });
+    if (!request.path.starts_with(kApi)) return made("", young, [] { return no_such_path(); });
     if (first == "live" && path.empty()) {
       if (options_.before_live) options_.before_live();
-      return made("", kFresh, [this] { return live(); });
+      return made("", young, [this] { return live(); });
     }
-    if (first == "workers" && path.empty()) return made("", kFresh, [this] { return workers(); });
+    if (first == "workers" && path.empty()) return made("", young, [this] { return workers(); });
     if (first == "causes" && path.empty())
-      return made("", kFresh, [] { return json_answer(causes_json()); });
+      return made("", young, [] { return json_answer(causes_json()); });
     if (first == "history" && path.empty())
-      return made("", kFresh, [&] { return history(request); });
+      return made("", young, [&] { return history(request); });
     const auto store = store_named(first);
-    if (!store) return made("", kFresh, [] { return no_such_path(); });
-    const std::filesystem::path& file = options_.stores[*store].file;
-    if (path == "query")
-      return made("", std::chrono::milliseconds(0), [&] { return query(request, file); });
+    if (!store) return made("", young, [] { return no_such_path(); });
+    const DashboardStore& asked = options_.stores[*store];
+    if (path == "query") return made("", young, [&] { return query(request, asked); });
     for (const Pattern& pattern : kRoutes) {
       const auto id = fit(pattern.path, path);
       if (!id) continue;
-      return made(stamp_of(file), kFresh, [&] { return ask(request, file, pattern, *id); });
+      // A page asks when `live` has told it of something new: older answers lack it.
+      return made(stamp_of(asked.file), std::max(young, told()),
+                  [&] { return ask(request, asked, pattern, *id); });
     }
-    return made("", kFresh, [] { return no_such_path(); });
+    return made("", young, [] { return no_such_path(); });
   }
 
   static Expected<Answer> no_such_path() {
@@ -424,17 +493,17 @@ class Dashboard final : public HttpSite {
                       "too much is being computed for others; ask again in a second");
   }
 
-  Expected<Answer> ask(const SiteRequest& request, const std::filesystem::path& file,
+  Expected<Answer> ask(const SiteRequest& request, const DashboardStore& store,
                        const Pattern& pattern, const std::string& id) {
     std::optional<Turnstile::Pass> pass;
     if (pattern.is_heavy) {
       pass = heavy_.enter();
       if (!pass) return busy();
     }
-    auto reader = StoreReader::open(file);
+    const auto reader = readers_.take(store);
     if (!reader) return Unexpected(reader.error());
     Question question{.store = **reader,
-                      .file = file,
+                      .file = store.file,
                       .parameters = request.parameters,
                       .id = id,
                       .design = {},
@@ -448,15 +517,15 @@ class Dashboard final : public HttpSite {
     return pattern.route(question);
   }
 
-  Expected<Answer> query(const SiteRequest& request, const std::filesystem::path& file) {
+  Expected<Answer> query(const SiteRequest& request, const DashboardStore& store) {
     const auto pass = heavy_.enter();
     if (!pass) return busy();
     const auto turn = sql_.enter();
     if (!turn) return busy();
-    auto reader = StoreReader::open(file);
+    const auto reader = readers_.take(store);
     if (!reader) return Unexpected(reader.error());
     return sql_answer({.store = **reader,
-                       .file = file,
+                       .file = store.file,
                        .parameters = request.parameters,
                        .is_gone = request.is_gone},
                       options_.program);
@@ -471,7 +540,7 @@ class Dashboard final : public HttpSite {
       const std::string c = "c" + std::to_string(i + 1);
       const DashboardStore& store = options_.stores[i];
       const bool is_written = has_writer(store.file);
-      auto reader = StoreReader::open(store.file);
+      const auto reader = readers_.take(store);
       if (!reader) return Unexpected(reader.error());
       const CampaignStatus* status = nullptr;
       if (runs && store.place && now->status.campaigns &&
@@ -485,6 +554,10 @@ class Dashboard final : public HttpSite {
                                               static_cast<bool>(options_.act))
                                     .text();
       std::ranges::move(looks_of(c, *state, status), std::back_inserter(looks));
+    }
+    {
+      const std::scoped_lock lock(mutex_);
+      told_ = Clock::now();
     }
     return json_answer(
         answer_object()
@@ -508,7 +581,7 @@ class Dashboard final : public HttpSite {
       return json_answer(answer_object().add("workers", JsonPiece{fleet_json(now->status)}));
     std::string all;
     for (const DashboardStore& store : options_.stores) {
-      auto reader = StoreReader::open(store.file);
+      const auto reader = readers_.take(store);
       if (!reader) return Unexpected(reader.error());
       const auto workers = stored_workers(**reader, has_writer(store.file));
       if (!workers) return Unexpected(workers.error());
@@ -556,11 +629,13 @@ class Dashboard final : public HttpSite {
   DashboardOptions options_;
   std::string boot_;
   std::string user_;
+  Readers readers_;
   AnswerCache cache_{kCacheBytes};
   Turnstile heavy_{2, 4};
   Turnstile sql_{1, 4};
   mutable std::mutex mutex_;
   std::shared_ptr<const Published> published_;
+  Clock::time_point told_{};
   History history_;
 };
 

@@ -18,6 +18,8 @@ struct DashboardStore {
   std::filesystem::path file;
   /// Its place among the campaigns of the coordinator that publishes; none: it is not run there.
   std::optional<std::size_t> place{};
+  /// This process writes it, and closes it when the dashboard is gone.
+  bool is_own = false;
 };
 
 struct DashboardOptions {

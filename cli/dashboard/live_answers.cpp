@@ -35,7 +35,9 @@ constexpr const char* kDesigns =
     "coalesce((SELECT max(s.step) FROM race_step AS s WHERE s.design = d.design), 0) + d.iteration "
     "+ "
     "(d.state = 'testing') + 2 * (d.state IN ('finished', 'stopped')) + "
-    "(SELECT count(*) FROM v_commands AS c WHERE c.design = d.design) AS version "
+    "(SELECT count(*) FROM v_commands AS c WHERE c.design = d.design) AS version, "
+    "CASE WHEN (SELECT count(*) FROM v_campaigns) > 1 THEN (SELECT c.name FROM v_campaigns AS c "
+    "WHERE c.campaign = d.campaign) ELSE '' END AS campaign "
     "FROM v_designs AS d ORDER BY d.design";
 
 /// A campaign that nobody runs does not run.
@@ -79,7 +81,7 @@ JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) 
       const char* letter = name == "id" ? "d" : "c";
       object.add(name,
                  cell.type == Cell::Type::Null ? std::nullopt : std::optional(letter + cell.text));
-    } else if ((name != "stage" && name != "search") || !cell.text.empty()) {
+    } else if ((name != "stage" && name != "search" && name != "campaign") || !cell.text.empty()) {
       object.add(name, cell_as_json(cell));
     }
   }
@@ -318,16 +320,17 @@ void History::add(const LiveStatus& status, Time now) {
 }
 
 JsonObject History::json(double after_s) const {
+  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
   std::vector<const Sample*> shown;
-  // The coarse rings until the finer ones begin.
+  // As it was told: else a sample would come again after its own time. The coarse rings until the
+  // finer ones begin.
   for (std::size_t i = rings_.size(); i-- > 0;) {
     const double until = i == 0 || rings_[i - 1].samples.empty()
                              ? std::numeric_limits<double>::infinity()
                              : rings_[i - 1].samples.front().at_s;
     for (const Sample& sample : rings_[i].samples)
-      if (sample.at_s > after_s && sample.at_s < until) shown.push_back(&sample);
+      if (rounded(sample.at_s) > after_s && sample.at_s < until) shown.push_back(&sample);
   }
-  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
   const auto column = [&](const auto& of) {
     return json_list(shown, [&](const Sample* sample) { return of(*sample); });
   };

@@ -149,6 +149,13 @@ Expected<std::optional<JsonObject>> tests_of(const Question& question) {
                            .add("high", interval.mean + interval.half_width));
 }
 
+/// Of v_real_runs, and `reasons` of the last scoring.
+constexpr std::array<std::string_view, 23> kRealRunColumns = {
+    "id",       "run",    "name",     "candidate",  "design",           "mission",
+    "source",   "score",  "verdict",  "counts",     "measured_verdict", "overridden_by",
+    "reason",   "biased", "recorded", "duration_s", "robots",           "cameras",
+    "scorings", "scored", "stored",   "program",    "reasons"};
+
 }  // namespace
 
 Expected<Answer> campaign_answer(const Question& question) {
@@ -345,15 +352,21 @@ Expected<Answer> modules_answer(const Question& question) {
 }
 
 Expected<Answer> real_runs_answer(const Question& question) {
+  // A store of before has none.
+  constexpr std::int64_t kFirstSchema = 5;
   const auto where = of_design(question);
   if (!where) return Unexpected(where.error());
-  return columns_answer(question,
-                        "SELECT id, run, name, candidate, design, mission, source, score, verdict, "
-                        "counts, measured_verdict, overridden_by, reason, biased, recorded, "
-                        "duration_s, robots, cameras, scorings, scored, stored, program, "
-                        "(SELECT s.reasons FROM v_real_scores AS s WHERE s.run = v_real_runs.run "
-                        "ORDER BY s.scoring DESC LIMIT 1) AS reasons FROM v_real_runs" +
-                            *where + " ORDER BY run");
+  if (question.store.schema() < kFirstSchema) {
+    std::string none;
+    for (const std::string_view column : kRealRunColumns)
+      none += fmt::format("{}NULL AS {}", none.empty() ? "" : ", ", column);
+    return columns_answer(question, "SELECT " + none + " WHERE 0");
+  }
+  return columns_answer(
+      question, fmt::format("SELECT {} FROM (SELECT *, (SELECT s.reasons FROM v_real_scores AS s "
+                            "WHERE s.run = v_real_runs.run ORDER BY s.scoring DESC LIMIT 1) AS "
+                            "reasons FROM v_real_runs{}) ORDER BY run",
+                            fmt::join(kRealRunColumns, ", "), *where));
 }
 
 Expected<Answer> views_answer(const Question& question) {

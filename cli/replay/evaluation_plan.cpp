@@ -6,12 +6,12 @@
 
 #include "base/rng.h"
 #include "base/text/whole_file.h"
-#include "cli/arguments/seeds.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/arguments/world_argument.h"
 #include "cli/output/query_output.h"
 #include "cli/replay/design_argument.h"
 #include "cli/replay/design_worlds.h"
+#include "console/seeds.h"
 #include "sim/control/controller.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/instance_csv.h"

@@ -187,9 +187,16 @@ void Coordinator::on_results(const Peer& peer, const pb::ToCoordinator& message,
   scheduler_.on_results({peer.id, message.incarnation(), message.sequence()}, results_, now);
 }
 
-void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
-  faults_.erase(unsent.peer);
-  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
+void Coordinator::on_unreachable(const SendFrame& unsent) {
+  std::vector<PackedKey>& leases = unreachable_[unsent.peer];
+  leases.insert(leases.end(), unsent.leases.begin(), unsent.leases.end());
+}
+
+void Coordinator::on_all_read(TimePoint now) {
+  for (const auto& [peer, leases] : std::exchange(unreachable_, {})) {
+    faults_.erase(peer);
+    scheduler_.on_unreachable(peer, now, leases);
+  }
 }
 
 void Coordinator::on_cut_off(PeerId peer, TimePoint now) {

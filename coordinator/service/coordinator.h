@@ -84,8 +84,12 @@ class Coordinator {
 
   /// An empty frame stands for a message that was no single frame.
   void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
-  /// The peer of a frame that could not be sent has gone.
-  void on_unreachable(const SendFrame& unsent, TimePoint now);
+  /// The peer of a frame that could not be sent has gone. Its last words may wait to be read, a
+  /// goodbye among them: what its end means is decided by `on_all_read`.
+  void on_unreachable(const SendFrame& unsent);
+  bool has_unreachable() const { return !unreachable_.empty(); }
+  /// Nothing waits to be read that came before this.
+  void on_all_read(TimePoint now);
   /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
   void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
@@ -211,6 +215,8 @@ class Coordinator {
   /// Outcomes that are not on disk yet.
   std::unordered_map<PackedKey, Waiting> waiting_;
   std::unordered_map<PeerId, Fault> faults_;
+  /// Peers that have gone, and the leases that did not reach them.
+  std::map<PeerId, std::vector<PackedKey>> unreachable_;
   std::map<std::string, std::uint64_t> malformed_;
   std::uint64_t malformed_count_ = 0;
   google::protobuf::Arena arena_;

@@ -177,12 +177,16 @@ class Pages final : public HttpServer {
                   "a token is needed: Authorization: Bearer TOKEN");
   }
 
-  /// Empty: nobody that may look.
-  std::optional<std::string> name_of_asker() const {
+  /// Without a token those may look who run this process, and root.
+  static bool is_of_same_user() {
+    const auto user = user_of_peer(PageServer::socket_of_request());
+    return user && (*user == geteuid() || *user == 0);
+  }
+
+  /// For the store's list of commands.
+  static std::string name_of_asker() {
     const int socket = PageServer::socket_of_request();
     const auto user = user_of_peer(socket);
-    if (options_.token.empty() && (!user || (*user != geteuid() && *user != 0)))
-      return std::nullopt;
     return (user ? name_of_user(*user) : std::string("somebody")) + "@" + address_of_peer(socket);
   }
 
@@ -190,12 +194,9 @@ class Pages final : public HttpServer {
     HttpSite& site = *options_.site;
     const bool open = site.is_open(request.path);
     if (!open && !is_known(request)) return ask_for_token(request, response);
-    std::optional<std::string> peer = open && !options_.token.empty() ? "" : name_of_asker();
     // Whoever knows the secret of acts is no stranger, whatever the kernel says of them.
-    if (!peer && has_token_of(request, options_.act_token)) {
-      peer = "somebody@" + address_of_peer(PageServer::socket_of_request());
-    }
-    if (!peer) {
+    if (options_.token.empty() && !is_of_same_user() &&
+        !has_token_of(request, options_.act_token)) {
       return refuse(request, response, 403, "other_user",
                     "these pages are of another user of this host; with --http-token-file they "
                     "open to everybody who has the token");
@@ -209,7 +210,7 @@ class Pages final : public HttpServer {
     SiteRequest asked{.acts = is_act,
                       .path = request.path,
                       .parameters = {},
-                      .peer = *peer,
+                      .peer = is_act ? name_of_asker() : std::string(),
                       .etag = request.get_header_value("If-None-Match"),
                       .accepts_gzip = request.get_header_value(PageServer::kAccepts).find("gzip") !=
                                       std::string::npos,

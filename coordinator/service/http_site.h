@@ -16,7 +16,7 @@ struct SiteRequest {
   bool acts = false;   ///< POST; the token was there
   std::string path{};  ///< "/api/v1/live"
   std::map<std::string, std::string> parameters{};
-  std::string peer{};  ///< who asks: "anna@127.0.0.1"
+  std::string peer{};  ///< who acts: "anna@127.0.0.1"
   std::string etag{};  ///< of what the asker has already
   bool accepts_gzip = false;
   /// Whether who asked has gone away since; empty: is never asked.

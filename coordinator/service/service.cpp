@@ -83,10 +83,12 @@ class Loop final : public Service {
  private:
   void step() {
     const auto left = std::chrono::ceil<milliseconds>(next_tick_ - clock_.now());
-    if (!more_frames_) socket_->wait(wakeup_, std::clamp(left, milliseconds{0}, kTick));
+    if (!more_frames_ && !coordinator_.has_unreachable())
+      socket_->wait(wakeup_, std::clamp(left, milliseconds{0}, kTick));
     wakeup_.clear();
     const TimePoint now = clock_.now();
     receive(now);
+    if (!more_frames_) coordinator_.on_all_read(now);
     hear_referee(now);
     hear_news();
     // After the frames: what waited in the socket is a sign of life too.
@@ -170,16 +172,16 @@ class Loop final : public Service {
       again = false;
       for (CoordinatorAction& action : coordinator_.take_actions(now)) {
         again = true;
-        std::visit(Overloaded{[&](const SendFrame& send) { this->send(send, now); },
+        std::visit(Overloaded{[&](const SendFrame& send) { this->send(send); },
                               [&](AppendRows& append) { this->append(append); },
-                              [&](const AnswerStatus& answer) { this->answer(answer, now); },
+                              [&](const AnswerStatus& answer) { this->answer(answer); },
                               [&](AskReferee& ask) { judge(std::move(ask), now); }},
                    action);
       }
     }
   }
 
-  void send(const SendFrame& send, TimePoint now) {
+  void send(const SendFrame& send) {
     telemetry_.on_frame_out(send.frame.size());
     switch (socket_->send(send.peer, send.frame)) {
       case SendStatus::Sent:
@@ -189,7 +191,7 @@ class Loop final : public Service {
       case SendStatus::Gone:
       // Reads too slowly, and was cut off: it will say hello again.
       case SendStatus::Full:
-        coordinator_.on_unreachable(send, now);
+        coordinator_.on_unreachable(send);
         return;
     }
   }
@@ -221,10 +223,10 @@ class Loop final : public Service {
     if (hooks_->on_rows) hooks_->on_rows(campaign, rows);
   }
 
-  void answer(const AnswerStatus& answer, TimePoint now) {
+  void answer(const AnswerStatus& answer) {
     // Many may ask; it is written out once between two ticks.
     if (status_json_.empty()) status_json_ = to_json(status_);
-    send({answer.peer, status_reply_of(status_json_)}, now);
+    send({answer.peer, status_reply_of(status_json_), {}});
   }
 
   void report(TimePoint now, bool all = false) {

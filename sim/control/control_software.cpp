@@ -18,6 +18,10 @@ Running run(const Controller& controller, const Flavour& flavour, Rng rng) {
 
 }  // namespace
 
+Rng control_stream(std::int64_t seed, int robot) {
+  return Rng(static_cast<std::uint64_t>(seed)).split("control", static_cast<std::uint64_t>(robot));
+}
+
 ControlSoftware::ControlSoftware(const Controller& controller, const Flavour& flavour, Rng rng)
     : running_(run(controller, flavour, rng)) {}
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "base/rng.h"
@@ -9,6 +10,10 @@
 #include "sim/control/reference_model.h"
 
 namespace swarmsmith {
+
+/// The random numbers of a robot's control software in a run, the robot counted from 0: whoever
+/// starts ControlSoftware with them, in the simulator or on a robot, has the same draws.
+Rng control_stream(std::int64_t seed, int robot);
 
 /// One robot's running controller. Senses in, command out; links nothing of a simulator.
 class ControlSoftware {
@@ -24,6 +29,11 @@ class ControlSoftware {
   /// network.
   int state() const {
     return std::visit([](const auto& running) { return running.state(); }, running_);
+  }
+
+  /// How many random numbers were drawn so far.
+  std::uint64_t drawn() const {
+    return std::visit([](const auto& running) { return running.drawn(); }, running_);
   }
 
  private:

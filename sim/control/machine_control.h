@@ -27,6 +27,7 @@ class MachineControl {
 
   /// Index of the current state, after the last step's transition test.
   int state() const { return state_; }
+  std::uint64_t drawn() const { return rng_.drawn(); }
 
  private:
   /// What a condition reads.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,6 +73,7 @@ class NetworkControl {
 
   /// Always 0: it has no states.
   static int state() { return 0; }
+  static std::uint64_t drawn() { return 0; }
 
  private:
   const Network* network_;

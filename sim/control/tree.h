@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,7 @@ class TreeControl {
 
   /// Index of the subtree that is ticked first in the next cycle.
   int state() const { return subtree_; }
+  std::uint64_t drawn() const { return rng_.drawn(); }
 
  private:
   const Tree* tree_;

@@ -87,4 +87,15 @@ struct Readings {
   std::vector<Neighbour> neighbours;  ///< thesis 5.1
 };
 
+/// What a simulated robot senses in a control cycle: what control software may ask for, and all the
+/// rest. Each sensor is computed when first asked for.
+class SimulatedSenses : public Senses {
+ public:
+  /// The sensors' readings of this cycle; what was asked for before is not read again.
+  ///
+  /// The accelerometer and the gyroscope compare with their reading before: ask for them in every
+  /// cycle or in none.
+  virtual const Readings& read(Sensors sensors) = 0;
+};
+
 }  // namespace swarmsmith

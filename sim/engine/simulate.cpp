@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,11 +34,18 @@ void renew_treads(Command& to, const Command& from) {
   to.right_mps = from.right_mps;
 }
 
+/// In place of a controller where a decider decides.
+const Controller& idle() {
+  static const Controller kIdle = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
+  return kIdle;
+}
+
 /// A robot with what it needs to act on its own clock.
 struct Agent {
   RobotSenses senses;
   ControlSoftware control;
   RobotClock clock;
+  int state = 0;                       ///< a decider's last answer's
   std::int64_t cycle = 0;              ///< control cycles done
   Command command{};                   ///< the last one computed
   Command acting{};                    ///< what the drive follows; the treads' part alone
@@ -51,9 +60,11 @@ struct Agent {
 
 class Run {
  public:
-  Run(const SimulationSetup& setup, const Recorder& recorder)
+  Run(const SimulationSetup& setup, const Recorder& recorder, Decider* decider)
       : setup_(setup),
         recorder_(recorder),
+        decider_(decider),
+        every_step_(decider != nullptr && decider->wants_every_step()),
         arena_(arena_of(setup.mission, setup.instance)),
         world_(arena_, setup.mission.body, setup.instance.starts, setup.profile.contacts),
         scorer_(setup.mission.rule, arena_),
@@ -62,11 +73,10 @@ class Run {
     const Rng run(static_cast<std::uint64_t>(setup.seed));
     agents_.reserve(positions_.size());
     for (int i = 0; i < world_.robots(); ++i) {
-      agents_.push_back(
-          {.senses = RobotSenses(world_, arena_, setup.profile, i, run),
-           .control = ControlSoftware(setup.controller, setup.flavour,
-                                      run.split("control", static_cast<std::uint64_t>(i))),
-           .clock = RobotClock(setup.profile.timing, run, i)});
+      agents_.push_back({.senses = RobotSenses(world_, arena_, setup.profile, i, run),
+                         .control = ControlSoftware(decider == nullptr ? setup.controller : idle(),
+                                                    setup.flavour, control_stream(setup.seed, i)),
+                         .clock = RobotClock(setup.profile.timing, run, i)});
       next_events_.push_back(agents_.back().next_event());
     }
   }
@@ -77,12 +87,13 @@ class Run {
     for (int instant = 1; instant <= setup_.mission.cycles; ++instant) {
       const std::int64_t end = std::int64_t{instant} * kSubStepsPerInstant;
       while (now < end) {
-        std::int64_t next = end;
+        std::int64_t next = every_step_ ? now + 1 : end;
         for (const std::int64_t event : next_events_)
           next = std::min(next, event);
         world_.advance(static_cast<int>(next - now));
         now = next;
         check(now);
+        if (decider_ != nullptr) consult(now);
         for (int i = 0; i < world_.robots(); ++i) {
           if (next_events_[static_cast<std::size_t>(i)] == now) serve(i, now);
         }
@@ -117,38 +128,104 @@ class Run {
   void serve(int robot, std::int64_t now) {
     Agent& agent = agents_[static_cast<std::size_t>(robot)];
     const bool acts = agent.clock.next() == now;
-    if (acts) decide(agent, now);
+    if (acts) {
+      if (decider_ == nullptr) decide(agent, now);  // else it was consulted
+      agent.clock.next_cycle();
+    }
+    const bool arrived = renew_late(agent, now);
+    // Also an old command is renewed: its direction follows the heading, cycle by cycle.
+    if (acts || arrived) world_.command(robot, agent.acting);
+    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
+  }
+
+  /// Late commands whose time has come take over; whether there were any.
+  static bool renew_late(Agent& agent, std::int64_t now) {
     bool arrived = false;
     while (!agent.late.empty() && agent.late.front().from <= now) {
       renew_treads(agent.acting, agent.late.front().command);
       agent.late.pop_front();
       arrived = true;
     }
-    // Also an old command is renewed: its direction follows the heading, cycle by cycle.
-    if (acts || arrived) world_.command(robot, agent.acting);
-    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
+    return arrived;
   }
+
+  static double time_s_at(std::int64_t now) { return kSubStep_s * static_cast<double>(now); }
 
   /// One control cycle: read, decide, and send the command on its way. A command without latency
   /// acts from the instant on at which its readings were taken: in the original's terms, what tick
   /// t computes moves the robot during tick t+1.
   void decide(Agent& agent, std::int64_t now) {
+    begin_cycle(agent, now);
+    accept(agent, agent.control.step(agent.senses), now);
+    if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
+  }
+
+  static void begin_cycle(Agent& agent, std::int64_t now) {
     ++agent.cycle;
-    agent.senses.begin_cycle({.number = agent.cycle,
-                              .time_s = kSubStep_s * static_cast<double>(now),
-                              .acted = agent.acting});
-    const Command command = agent.control.step(agent.senses);
+    agent.senses.begin_cycle(
+        {.number = agent.cycle, .time_s = time_s_at(now), .acted = agent.acting});
+  }
+
+  /// Sends a command on its way.
+  void accept(Agent& agent, const Command& command, std::int64_t now) {
     agent.command.left_mps = within_wheel_speed(command.left_mps);
     agent.command.right_mps = within_wheel_speed(command.right_mps);
     if (recorder_.observe) agent.command.leds = command.leds;  // nobody else sees them
-    if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (arrival == now && agent.late.empty()) {
       renew_treads(agent.acting, agent.command);
     } else {
       agent.late.push_back({arrival, agent.command});
     }
-    agent.clock.next_cycle();
+  }
+
+  /// The same for all robots at once, with a decider: asks about those that are due, then takes
+  /// what was decided.
+  void consult(std::int64_t now) {
+    due_.clear();
+    for (int i = 0; i < world_.robots(); ++i) {
+      if (agents_[static_cast<std::size_t>(i)].clock.next() == now) due_.push_back(i);
+    }
+    if (due_.empty() && !every_step_) return;
+    decider_->begin(time_s_at(now));
+    for (const int robot : due_)
+      ask(robot, now);
+    if (every_step_) {
+      for (int i = 0; i < world_.robots(); ++i)
+        take_answer(i, now);
+    } else {
+      for (const int robot : due_)
+        take_answer(robot, now);
+    }
+  }
+
+  void ask(int robot, std::int64_t now) {
+    Agent& agent = agents_[static_cast<std::size_t>(robot)];
+    begin_cycle(agent, now);
+    decider_->ask(
+        {.robot = robot, .cycle = agent.cycle, .time_s = time_s_at(now), .senses = agent.senses});
+    if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
+  }
+
+  void take_answer(int robot, std::int64_t now) {
+    const std::optional<Decider::Answer> answer = decider_->answer(robot);
+    if (!answer) return;
+    const Command& command = answer->command;
+    if (!std::isfinite(command.left_mps) || !std::isfinite(command.right_mps)) {
+      throw std::invalid_argument("the decision for robot " + std::to_string(robot) + " at " +
+                                  std::to_string(time_s_at(now)) +
+                                  " s has no finite speeds for the treads");
+    }
+    Agent& agent = agents_[static_cast<std::size_t>(robot)];
+    agent.state = answer->state;
+    accept(agent, command, now);
+    if (!every_step_) return;  // it is due, and served next
+    world_.command(robot, agent.acting);
+    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
+  }
+
+  int state_of(const Agent& agent) const {
+    return decider_ == nullptr ? agent.control.state() : agent.state;
   }
 
   /// Where the score looks for a robot.
@@ -177,7 +254,7 @@ class Run {
       records_.push_back({.pose = instant == 0 ? setup_.instance.starts[static_cast<std::size_t>(i)]
                                                : pose_of(world_.body(i)),
                           .command = agent.command,
-                          .state = agent.control.state(),
+                          .state = state_of(agent),
                           .readings = agent.readings});
     }
     objects_.clear();
@@ -193,13 +270,15 @@ class Run {
       for (const double value : {body.x, body.y, body.cos, body.sin, body.vx, body.vy, body.spin}) {
         digest.add(value);
       }
-      if (i < world_.robots()) digest.add(agents_[static_cast<std::size_t>(i)].control.state());
+      if (i < world_.robots()) digest.add(state_of(agents_[static_cast<std::size_t>(i)]));
     }
     return digest.value64();
   }
 
   const SimulationSetup& setup_;
   const Recorder& recorder_;
+  Decider* decider_;  ///< null: the controller decides
+  bool every_step_;   ///< the decider wants to look at each
   Arena arena_;
   World world_;
   Scorer scorer_;
@@ -207,15 +286,17 @@ class Run {
   std::vector<std::int64_t> next_events_;  ///< of the agents
   std::vector<Point> positions_;
   std::vector<Point> object_positions_;
+  std::vector<int> due_;  ///< robots, for a decider
   std::vector<RobotRecord> records_;
   std::vector<Pose> objects_;
 };
 
 }  // namespace
 
-SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder) {
+SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder,
+                          Decider* decider) {
   SWARMSMITH_ASSERT(!setup.instance.starts.empty(), "an instance places at least one robot");
-  return Run(setup, recorder).run();
+  return Run(setup, recorder, decider).run();
 }
 
 }  // namespace swarmsmith

@@ -9,6 +9,7 @@
 #include "sim/control/control_software.h"
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
+#include "sim/engine/decider.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
 #include "sim/mission/mission.h"
@@ -64,7 +65,12 @@ struct Recorder {
 /// build; nothing is kept between calls. Without a recorder nothing is recorded and no sensor is
 /// computed that no module asks for. Throws std::runtime_error when a pose or velocity is not
 /// finite any more, which is a defect of the engine.
-SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder = {});
+///
+/// With a decider, it decides in place of `setup.controller`, which then counts for nothing, and
+/// the result is as pure as its answers. Throws std::invalid_argument when an answer's speeds are
+/// not finite.
+SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder = {},
+                          Decider* decider = nullptr);
 
 /// Part of the digest of a campaign: raised with every change that changes a score's bits.
 inline constexpr int kEngineVersion = 3;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 namespace swarmsmith {
 
@@ -9,13 +10,22 @@ namespace swarmsmith {
 struct RealRunPart {
   const char* column;
   const char* table;
-  bool is_scored;  ///< the score follows from it without anything else
+  bool is_scored;           ///< the score follows from it without anything else
+  std::int64_t schema = 5;  ///< that brought it
 };
 
+/// Schema that brought the robots' logs.
+inline constexpr std::int64_t kLogsSchema = 10;
+
 inline constexpr std::array kRealRunParts{
-    RealRunPart{"videos", "real_video", false},    RealRunPart{"samples", "real_sample", false},
-    RealRunPart{"looks", "real_reference", false}, RealRunPart{"robots", "real_robot", true},
-    RealRunPart{"patches", "real_patch", true},    RealRunPart{"cycles", "real_cycle", true}};
+    RealRunPart{"videos", "real_video", false},
+    RealRunPart{"samples", "real_sample", false},
+    RealRunPart{"looks", "real_reference", false},
+    RealRunPart{"robots", "real_robot", true},
+    RealRunPart{"patches", "real_patch", true},
+    RealRunPart{"cycles", "real_cycle", true},
+    RealRunPart{"logs", "real_log", false, kLogsSchema},
+    RealRunPart{"log_cycles", "real_log_cycle", false, kLogsSchema}};
 
 /// The other tables that name a run.
 inline constexpr std::array kRealRunNotes{"real_issue", "real_score", "real_override"};

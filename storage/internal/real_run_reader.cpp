@@ -167,6 +167,54 @@ void read_cycles(const Connection& connection, RealRunId id, RealRunRows& rows) 
        });
 }
 
+void read_logs(const Connection& connection, RealRunId id, RealRunRows& rows) {
+  if (schema_of(connection) < kLogsSchema) return;
+  each(
+      connection, id,
+      "SELECT robot, file, machine_digest, host, program, scheduling, clock_offset, state, verdict,"
+      " reasons, stepped, held, skipped, latency, latency_error, agreement, latency_reason, head"
+      " FROM real_log WHERE run = ? ORDER BY robot",
+      [&](const Statement& row) {
+        rows.logs.push_back({.robot = row.integer(0),
+                             .file = row.text(1),
+                             .machine_digest = row.text(2),
+                             .host = row.text(3),
+                             .program = row.text(4),
+                             .scheduling = row.text(5),
+                             .clock_offset_s = row.optional_real(6),
+                             .state = row.text(7),
+                             .verdict = row.text(8),
+                             .reasons = row.text(9),
+                             .stepped = row.integer(10),
+                             .held = row.integer(11),
+                             .skipped = row.integer(12),
+                             .latency_s = row.optional_real(13),
+                             .latency_error_s = row.optional_real(14),
+                             .agreement = row.optional_real(15),
+                             .latency_reason = row.text(16),
+                             .head = row.text(17)});
+      });
+  each(connection, id,
+       "SELECT cycle, robot, time, clock, late, act, state, left_speed, right_speed, age_proximity,"
+       " age_ground, age_neighbours, age_light, drawn, event FROM real_log_cycle WHERE run = ?"
+       " ORDER BY cycle, robot",
+       [&](const Statement& row) {
+         rows.log_cycles.push_back({.cycle = row.integer(0),
+                                    .robot = row.integer(1),
+                                    .time_s = row.real(2),
+                                    .clock_s = row.real(3),
+                                    .late_ms = row.real(4),
+                                    .act = row.text(5),
+                                    .state = row.integer(6),
+                                    .left_mps = row.real(7),
+                                    .right_mps = row.real(8),
+                                    .ages_ms = {row.optional_real(9), row.optional_real(10),
+                                                row.optional_real(11), row.optional_real(12)},
+                                    .drawn = row.integer(13),
+                                    .event = row.text(14)});
+       });
+}
+
 void read_outcome(const Connection& connection, RealRunId id, RealRunRows& rows) {
   each(connection, id,
        "SELECT code, text, robot, start, stop, of_observing FROM real_issue WHERE run = ?"
@@ -246,6 +294,7 @@ std::optional<RealRunRows> read_real_run(const Connection& connection, RealRunId
   read_robots(connection, id, *rows);
   read_sightings(connection, id, *rows);
   read_cycles(connection, id, *rows);
+  read_logs(connection, id, *rows);
   read_outcome(connection, id, *rows);
   return rows;
 }
@@ -276,6 +325,7 @@ std::vector<std::string> faults_of_real_runs(const Connection& connection) {
   each_run("SELECT id FROM real_run WHERE id NOT IN (SELECT run FROM real_score) ORDER BY id",
            "has no score");
   for (const RealRunPart& part : kRealRunParts) {
+    if (schema_of(connection) < part.schema) continue;
     each_run(fmt::format("SELECT id FROM real_run AS r WHERE {} <>"
                          " (SELECT count(*) FROM {} AS p WHERE p.run = r.id) ORDER BY id",
                          part.column, part.table),

@@ -64,6 +64,16 @@ void require_numbers(const RealRunRows& rows) {
     require_finite({row.x, row.y, row.width_m, row.height_m, row.radius_m}, "a patch");
   for (const RealCycleRow& row : rows.cycles)
     require_finite({row.x, row.y, row.theta}, fmt::format("cycle {}", row.cycle));
+  for (const RealLogRow& row : rows.logs)
+    require_finite({row.clock_offset_s.value_or(0), row.latency_s.value_or(0),
+                    row.latency_error_s.value_or(0), row.agreement.value_or(0)},
+                   "the log " + row.file);
+  for (const RealLogCycleRow& row : rows.log_cycles) {
+    const std::string what = fmt::format("cycle {} of a robot's log", row.cycle);
+    require_finite({row.time_s, row.clock_s, row.late_ms, row.left_mps, row.right_mps}, what);
+    for (const std::optional<double>& age_ms : row.ages_ms)
+      require_finite({age_ms.value_or(0)}, what);
+  }
   for (const RealIssueRow& row : rows.issues)
     require_finite({row.from_s.value_or(0), row.to_s.value_or(0)}, "the issue " + row.code);
 }
@@ -158,6 +168,23 @@ void write_cycles(Connection& connection, RealRunId id, const RealRunRows& rows)
   }
 }
 
+void write_logs(Connection& connection, RealRunId id, const RealRunRows& rows) {
+  Statement log(connection, "INSERT INTO real_log VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  for (const RealLogRow& row : rows.logs) {
+    log.run(id.value, row.robot, row.file, row.machine_digest, row.host, row.program,
+            row.scheduling, row.clock_offset_s, row.state, row.verdict, row.reasons, row.stepped,
+            row.held, row.skipped, row.latency_s, row.latency_error_s, row.agreement,
+            row.latency_reason, row.head);
+  }
+  Statement cycle(connection,
+                  "INSERT INTO real_log_cycle VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+  for (const RealLogCycleRow& row : rows.log_cycles) {
+    cycle.run(id.value, row.cycle, row.robot, row.time_s, row.clock_s, row.late_ms, row.act,
+              row.state, row.left_mps, row.right_mps, row.ages_ms[0], row.ages_ms[1],
+              row.ages_ms[2], row.ages_ms[3], row.drawn, row.event);
+  }
+}
+
 void write_score(Connection& connection, RealRunId id, const RealScoreRow& row) {
   Statement(connection,
             "INSERT INTO real_score (run, number, score, verdict, biased, program, reasons, report)"
@@ -185,6 +212,7 @@ void write_derived(Connection& connection, RealRunId id, const RealRunRows& rows
   write_robots(connection, id, rows);
   write_poses(connection, id, rows);
   write_cycles(connection, id, rows);
+  write_logs(connection, id, rows);
   write_score(connection, id, rows.score);
   count_parts(connection, id);
 }
@@ -225,7 +253,8 @@ void rewrite_real_run(Connection& connection, RealRunId id, const RealRunRows& r
                   " place_calibration = ?5 WHERE run = ?1 AND number = ?2");
   for (const RealVideoRow& row : rows.videos)
     video.run(id.value, row.number, row.camera, row.camera_calibration, row.place_calibration);
-  for (const char* table : {"real_robot", "real_patch", "real_cycle", "real_issue"})
+  for (const char* table :
+       {"real_robot", "real_patch", "real_cycle", "real_issue", "real_log", "real_log_cycle"})
     Statement(connection, fmt::format("DELETE FROM {} WHERE run = ?", table)).run(id.value);
   write_derived(connection, id, rows);
 }
@@ -265,6 +294,9 @@ std::vector<std::string> differing_inputs(const RealRunRows& a, const RealRunRow
       !std::ranges::equal(a.robots, b.robots, {}, &RealRobotRow::offset_calibration,
                           &RealRobotRow::offset_calibration))
     differ.emplace_back("calibrations");
+  if (!std::ranges::equal(a.logs, b.logs, {}, &RealLogRow::head, &RealLogRow::head) ||
+      a.log_cycles != b.log_cycles)
+    differ.emplace_back("the robots' logs");
   return differ;
 }
 

@@ -12,6 +12,7 @@
 #include "embedded/kClusterSchema.h"
 #include "embedded/kInitialSchema.h"
 #include "embedded/kResultsSchema.h"
+#include "embedded/kRobotLogsSchema.h"
 #include "embedded/kTargetsSchema.h"
 #include "embedded/kTrackingSchema.h"
 #include "embedded/kViews.h"
@@ -35,7 +36,7 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 8> kMigrations = {
+  static const std::array<Migration, 9> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
@@ -44,6 +45,7 @@ std::span<const Migration> migrations() {
       Migration{7, [](sqlite::Connection&) {}},  // views alone
       Migration{8, [](sqlite::Connection&) {}},  // the same: tests under further profiles
       Migration{9, [](sqlite::Connection&) {}},  // the same: modules of trees
+      Migration{10, [](sqlite::Connection& connection) { connection.execute(kRobotLogsSchema); }},
   };
   return kMigrations;
 }

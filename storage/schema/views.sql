@@ -426,6 +426,22 @@ SELECT 'r' || c.run AS id, c.run, c.cycle, c.cycle / 10.0 AS time_s, c.robot, c.
                    WHEN 3 THEN 'missing' END AS kind
 FROM real_cycle AS c;
 
+CREATE VIEW v_real_logs AS
+SELECT 'r' || l.run AS id, l.run, l.robot, b.name, l.file, nullif(l.state, '') AS state,
+       nullif(l.verdict, '') AS verdict, l.reasons, l.stepped, l.held, l.skipped,
+       l.clock_offset AS clock_offset_s, l.latency AS latency_s, l.latency_error AS latency_error_s,
+       nullif(l.latency_reason, '') AS latency_reason, l.agreement, l.machine_digest, l.host,
+       l.program, l.scheduling, l.head
+FROM real_log AS l LEFT JOIN real_robot AS b ON b.run = l.run AND b.robot = l.robot;
+
+CREATE VIEW v_real_log_cycles AS
+SELECT 'r' || c.run AS id, c.run, c.cycle, c.time AS time_s, c.robot, c.act, c.state,
+       c.left_speed AS left_mps, c.right_speed AS right_mps, c.late AS late_ms,
+       c.age_proximity AS age_proximity_ms, c.age_ground AS age_ground_ms,
+       c.age_neighbours AS age_neighbours_ms, c.age_light AS age_light_ms, c.drawn,
+       nullif(c.event, '') AS event, c.clock AS clock_s
+FROM real_log_cycle AS c;
+
 CREATE VIEW v_real_samples AS
 SELECT 'r' || s.run AS id, s.run, s.number, s.video, s.frame, s.time AS time_s, s.tag,
        s.u0 / 1000.0 AS u0, s.v0 / 1000.0 AS v0, s.u1 / 1000.0 AS u1, s.v1 / 1000.0 AS v1,

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments/machine_words.h"
-#include "cli/arguments/seeds.h"
+#include "console/seeds.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"

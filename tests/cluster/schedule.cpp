@@ -23,6 +23,7 @@ Schedule schedule_of(std::uint64_t seed) {
                      .cuts = up_to(4),
                      .worker_crashes = up_to(3),
                      .worker_drains = up_to(1),
+                     .early_drains = up_to(1),
                      .coordinator_crashes = up_to(3),
                      .pauses = up_to(3),
                      .slow_commit = one_of({0, 0.05, 0.5}),

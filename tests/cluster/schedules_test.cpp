@@ -115,6 +115,19 @@ TEST(SimulatedCluster, NeedsFewEventsWithoutFaults) {
   EXPECT_GT(cluster.audited(), 0U);
 }
 
+TEST(SimulatedCluster, CountsNobodyAsLostWhoWasToldToEnd) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SimulatedCluster cluster({.seed = seed,
+                              .faults = {.worker_drains = 20,
+                                         .early_drains = 10,
+                                         .slow_commit = 0.05,
+                                         .until = std::chrono::seconds(3)},
+                              .campaign = {.seed = seed}});
+    EXPECT_EQ(cluster.run(), "") << seed;
+    EXPECT_EQ(cluster.counters().lost_workers, 0U) << seed;
+  }
+}
+
 TEST(SimulatedCluster, IsNotHeldUpByASlowWorker) {
   Duration normal{0};
   Duration slow{0};

@@ -30,6 +30,7 @@ struct Faults {
   int cuts = 0;     ///< of one worker's link, one or both ways
   int worker_crashes = 0;
   int worker_drains = 0;
+  int early_drains = 0;  ///< of a worker that has just started
   int coordinator_crashes = 0;
   int pauses = 0;          ///< of a process that lives on
   double slow_commit = 0;  ///< probability, a commit
@@ -124,6 +125,7 @@ class SimulatedCluster {
     std::unique_ptr<WorkerProtocol> protocol;
     int slots = 1;
     int slowness = 1;
+    int early_drains = 0;  ///< that are to come
     PeerId connection = 0;
     std::deque<LeasedTask> waiting;
     int running = 0;
@@ -139,6 +141,10 @@ class SimulatedCluster {
     int worker_life = 0;
     int coordinator_life = 0;
     bool open = true;
+    int unread = 0;  ///< frames that the coordinator has not read yet
+    /// When the last frame arrives there, and here, of those that are not late.
+    TimePoint to_coordinator;
+    TimePoint to_worker;
   };
   struct Batch {
     std::uint64_t ticket = 0;
@@ -165,6 +171,7 @@ class SimulatedCluster {
   void plan_commands();
   void command(pb::Command::Kind kind, std::int64_t design);
   void resume_all();
+  void drain_worker(int worker, Duration after);
   void flap(int worker, int times);
   void fail(const std::string& what);
 
@@ -173,6 +180,8 @@ class SimulatedCluster {
   void connect(int worker);
   void to_coordinator(int worker, std::string frame);
   SendStatus to_worker(PeerId peer, const std::string& frame);
+  void frame_arrives(const Peer& peer, const std::string& frame);
+  bool judge_gone();
   void check_acknowledged(const std::string& frame);
   void check_confirmed(const std::string& frame);
   void check_promises();
@@ -247,6 +256,7 @@ class SimulatedCluster {
   std::set<PackedKey> killers_;  ///< killed a worker
   std::map<PeerId, Connection> connections_;
   PeerId peers_ = 0;
+  std::set<PeerId> gone_;  ///< a frame could not be sent to them
 };
 
 }  // namespace swarmsmith::cluster

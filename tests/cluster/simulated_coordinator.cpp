@@ -68,6 +68,7 @@ void SimulatedCluster::crash_coordinator() {
   coordinator_process_.alive = false;
   count();
   coordinator_.reset();
+  gone_.clear();
   for (Running& running : campaigns_) {
     running.source.reset();
     // Some of what waited for the disk may have come there all the same.
@@ -99,14 +100,16 @@ void SimulatedCluster::tick_coordinator() {
 }
 
 void SimulatedCluster::settle_coordinator() {
-  for (auto actions = coordinator_->take_actions(clock(kCoordinator)); !actions.empty();
+  for (auto actions = coordinator_->take_actions(clock(kCoordinator));
+       !actions.empty() || judge_gone();
        actions = coordinator_->take_actions(clock(kCoordinator))) {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
                               if (send.peer == kPerson) return check_confirmed(send.frame);
                               if (!is_stranger(send.peer)) check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
-                                coordinator_->on_unreachable(send, clock(kCoordinator));
+                                coordinator_->on_unreachable(send);
+                                gone_.insert(send.peer);
                               }
                             },
                             [&](AppendRows& rows) { append(rows.campaign, std::move(rows.rows)); },
@@ -190,6 +193,7 @@ void SimulatedCluster::count() {
   counters_.copies += last.copies;
   counters_.ahead += last.ahead;
   counters_.duplicates += last.duplicates;
+  counters_.lost_workers += last.lost_workers;
 }
 
 /// Every lease is of a worker that is there, and the counts of tasks, of copies, of designs and of

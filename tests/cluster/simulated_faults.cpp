@@ -20,12 +20,9 @@ void SimulatedCluster::plan_faults() {
   };
   sometimes(faults.worker_crashes, [this](int worker) { crash_worker(worker); });
   sometimes(faults.coordinator_crashes, [this](int) { crash_coordinator(); });
-  sometimes(faults.worker_drains, [this](int worker) {
-    on_process(worker, Duration{0}, [this, worker] {
-      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(clock(worker));
-      settle_worker(worker);
-    });
-  });
+  sometimes(faults.worker_drains, [this](int worker) { drain_worker(worker, Duration{0}); });
+  sometimes(faults.early_drains,
+            [this](int worker) { ++workers_[static_cast<std::size_t>(worker)].early_drains; });
   sometimes(faults.pauses, [this](int worker) {
     const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
     process(index).paused_until = now_ + between(milliseconds(10), seconds(12));
@@ -55,6 +52,14 @@ void SimulatedCluster::plan_faults() {
     const std::uint64_t ways = rng_.below(3);
     if (ways != 0) process(worker).cut_in_until = until;
     if (ways != 1) process(worker).cut_out_until = until;
+  });
+}
+
+/// SIGTERM.
+void SimulatedCluster::drain_worker(int index, Duration after) {
+  on_process(index, after, [this, index] {
+    workers_[static_cast<std::size_t>(index)].protocol->on_drain(clock(index));
+    settle_worker(index);
   });
 }
 

@@ -22,23 +22,41 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
   const int copies = faulty && rng_.bernoulli(schedule_.faults.doubled) ? 2 : 1;
   for (int i = 0; i < copies; ++i) {
     const bool late = faulty && rng_.bernoulli(schedule_.faults.late);
-    const Duration delay =
+    Duration delay =
         late ? between(milliseconds(1), seconds(4)) : between(microseconds(30), microseconds(300));
-    on_process(to, delay, [this, from, to, connection, frame] {
-      const Connection& over = connections_.at(connection);
-      if (to == kCoordinator) {
-        if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame(worker_at(connection), frame, clock(kCoordinator));
-        settle_coordinator();
-      } else {
-        Worker& worker = workers_[static_cast<std::size_t>(to)];
-        if (worker.connection != connection) return;
-        worker.protocol->on_frame(frame, clock(to));
-        settle_worker(to);
-      }
-      (void)from;
+    Connection& over = connections_.at(connection);
+    if (!late) {
+      TimePoint& last = to == kCoordinator ? over.to_coordinator : over.to_worker;
+      last = std::max(last, now_ + delay);
+      delay = last - now_;
+    }
+    if (to == kCoordinator) ++over.unread;
+    on_process(to, delay, [this, to, connection, frame] {
+      if (to == kCoordinator) return frame_arrives(worker_at(connection), frame);
+      Worker& worker = workers_[static_cast<std::size_t>(to)];
+      if (worker.connection != connection) return;
+      worker.protocol->on_frame(frame, clock(to));
+      settle_worker(to);
     });
   }
+}
+
+void SimulatedCluster::frame_arrives(const Peer& peer, const std::string& frame) {
+  Connection& over = connections_.at(peer.id);
+  --over.unread;
+  if (over.coordinator_life != coordinator_process_.life) return;
+  coordinator_->on_frame(peer, frame, clock(kCoordinator));
+  settle_coordinator();
+}
+
+/// A connection that is closed is seen at once, and what was said before may still be on its way.
+bool SimulatedCluster::judge_gone() {
+  const bool all_read =
+      std::ranges::all_of(gone_, [this](PeerId peer) { return connections_.at(peer).unread == 0; });
+  if (gone_.empty() || !all_read) return false;
+  gone_.clear();
+  coordinator_->on_all_read(clock(kCoordinator));
+  return true;
 }
 
 void SimulatedCluster::connect(int index) {

@@ -67,11 +67,10 @@ void SimulatedCluster::tick_stranger(std::size_t index) {
 void SimulatedCluster::settle_stranger(std::size_t index) {
   Stranger& stranger = strangers_[index];
   for (std::string& frame : stranger.peer.take_frames()) {
+    ++connections_.at(stranger.connection).unread;
     on_process(kCoordinator, between(microseconds(30), microseconds(300)),
                [this, from = stranger.connection, frame = std::move(frame)] {
-                 if (connections_.at(from).coordinator_life != coordinator_process_.life) return;
-                 coordinator_->on_frame(stranger_at(from), frame, clock(kCoordinator));
-                 settle_coordinator();
+                 frame_arrives(stranger_at(from), frame);
                });
   }
   if (!stranger.peer.take_hang_up()) return;

@@ -38,6 +38,9 @@ void SimulatedCluster::start_worker(int index) {
       rng_.split("jitter", order_));
   worker.protocol->start(clock(index));
   settle_worker(index);
+  if (worker.early_drains == 0) return;
+  --worker.early_drains;
+  drain_worker(index, between(Duration{0}, microseconds(800)));
 }
 
 void SimulatedCluster::crash_worker(int index) {

@@ -35,6 +35,11 @@ class Functions(unittest.TestCase):
         self.assertEqual(self.of("ranks", [2, 2, 2]), [2, 2, 2])
         self.assertEqual(self.of("ranks", []), [])
 
+    def test_columns_grow_by_what_is_new(self):
+        before = {"v": 1, "step": [1, 2], "best": [7, None]}
+        self.assertEqual(self.of("grown", before, {"v": 1, "step": [3], "best": [9]}, "step"), {"v": 1, "step": [1, 2, 3], "best": [7, None, 9]})
+        self.assertEqual(self.of("grown", before, {"v": 1, "step": [], "best": []}, "step"), before)
+
     def test_numbers_are_read_by_people(self):
         for value, text in ((12345.6, "12\u2009346"), (999, "999"), (1000000, "1\u2009000\u2009000"), (-4321, "\u22124\u2009321"), (None, "–")):
             self.assertEqual(self.of("whole", value), text)

@@ -220,7 +220,25 @@ class Live(DashboardTest):
                 self.assertEqual(page.errors(), [])
                 self.assertEqual(page.hosts(), set())
                 self.assertNotIn("@", page.js("document.querySelector('.head').innerText"))  # of who wrote it
+                # Nobody is there who could answer SQL.
+                self.assertEqual(page.js("document.querySelectorAll('textarea, [href*=\"/sql\"]').length"), 0)
                 page.close()
+
+    def test_a_page_that_nobody_sees_asks_nothing(self):
+        serving = self.running()
+        asked = "performance.getEntriesByType('resource').length"
+        hide = "Object.defineProperty(document, 'hidden', {value: true, configurable: true}); document.dispatchEvent(new Event('visibilitychange')); 0"
+        page = self.page(serving, "#/fleet", "document.querySelector('.canvas canvas')")
+        other = self.page(serving, "#/", f"{USED} > 0")
+        page.js(hide)
+        # What was on its way has come when the other page has asked twice.
+        other.wait(f"{asked} >= {other.js(asked) + 2}")
+        before = page.js(asked)
+        other.wait(f"{asked} >= {other.js(asked) + 4}")
+        self.assertEqual(page.js(asked), before)
+        page.js("delete document.hidden; document.dispatchEvent(new Event('visibilitychange')); 0")
+        page.wait(f"{asked} > {before + 2}")
+        self.assert_quiet(page, serving)
 
     def test_ten_tabs_of_one_browser_stay_alive(self):
         serving = self.running()

@@ -145,6 +145,18 @@ class Rivals(Stores):
         self.assertIn("final stage", said["design of a network"])
         self.assertNotIn("states, transitions", said["network"] + said["tree"])
 
+    def test_rows_of_the_table_of_p_values_are_lines(self):
+        """A cell that may break between any two letters makes rows as tall as words are long."""
+        serving = self.dashboard(rival_store())
+        table = "[...document.querySelectorAll('caption')].find(one => one.textContent === 'tests by method')?.parentNode"
+        for width in (390, 1440, 2560):
+            page = self.page(serving, "#/c1/results", table, width=width)
+            heights = page.js(f"[...{table}.querySelectorAll('tr')].map(one => one.offsetHeight)")
+            line = page.js("parseFloat(getComputedStyle(document.body).lineHeight)")
+            self.assertEqual(len(heights), 16, "six methods are fifteen pairs")
+            self.assertLess(max(heights), 3 * line, width)
+            page.close()
+
     def test_runs_of_a_tree_and_of_a_network_have_the_stored_bits(self):
         best = bests(rival_store())
         serving = self.dashboard(rival_store())
@@ -235,8 +247,15 @@ class Merged(Stores):
             ("machines", "#/c1/machines", "document.querySelectorAll('.svg svg').length === 6"),
             ("results", "#/c1/results", "document.querySelectorAll('.svg svg').length >= 2"),
         ])
+        cards = self.dashboard(store)
+        page = self.page(cards, "#/", "document.querySelectorAll('.card').length === 8")
         for one in designs:
             self.assertIn(one["campaign"], said["campaigns"])
+            card = page.js(f"(one => one.innerText + one.getAttribute('aria-label'))(document.querySelector('.card[href$=\"/d{one['design']}\"]'))")
+            self.assertEqual(card.count(one["campaign"]), 2, card)
+        # A digest is of one campaign.
+        self.assertEqual(cards.get("live")["campaigns"][0]["digest"], "")
+        self.assertEqual(page.js("[...document.querySelectorAll('.facts dt')].find(one => one.innerText === 'digest').nextSibling.innerText"), "–")
         # It is for reading: nothing is offered that would be refused.
         for name in ("campaigns", "network", "program"):
             for act in ("Extend", "Pause", "Cancel"):
@@ -244,6 +263,30 @@ class Merged(Stores):
         best = bests(store)["evostick"]
         answer = self.dashboard(store).get(f"c1/runs/{run_of(store, best)}/trajectory")
         self.assertIs(answer["same_bits"], True)
+
+
+@needs_browser
+class Older(Stores):
+    def test_results_of_a_store_from_before_real_runs(self):
+        """One that has scores of a real swarm, as schema 4 keeps them."""
+        store = self.folder / "older.db"
+        shutil.copy(SOURCE / "tests" / "golden" / "stores" / "schema-4.sqlite", store)
+        best = bests(store)["small"]
+        with sqlite3.connect(store) as connection:
+            source = connection.execute("INSERT INTO source (name) VALUES ('real')").lastrowid
+            columns = [row[1] for row in connection.execute("PRAGMA table_info(evaluation)")]
+            row = dict(zip(columns, connection.execute("SELECT * FROM evaluation WHERE candidate = ? ORDER BY rowid DESC LIMIT 1", [best]).fetchone()))
+            row["source"] = source
+            connection.execute(f"INSERT INTO evaluation ({', '.join(columns)}) VALUES ({', '.join('?' * len(columns))})", list(row.values()))
+        said = self.look_at(store, [
+            ("results", "#/c1/results", "document.querySelectorAll('.svg svg').length >= 2"),
+            ("candidate", f"#/c1/c{best}", "document.querySelectorAll('table').length >= 2"),
+            ("design", "#/c1/d1", "document.querySelector('.svg svg')"),
+        ])
+        self.assertIn("No real run", said["results"])
+        self.assertIn("real", said["candidate"])
+        columns = self.dashboard(store).get("c1/real-runs")
+        self.assertEqual((columns["run"], columns["verdict"], columns["reasons"]), ([], [], []))
 
 
 @needs_browser

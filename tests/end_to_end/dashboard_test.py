@@ -172,6 +172,22 @@ class Dashboard(ProgramTest):
         self.assertEqual(process.wait(timeout=30), 0)
         self.assertFalse(os.path.exists(f"{store}.token"), "the secret ends with its process")
 
+    def test_nobody_acts_on_an_imported_campaign(self):
+        self.store = self.folder / "imported.db"
+        log = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/argos/argos-fsms.csv"
+        done = call("import", log, "--flavour", "watermelon-argos3", "--mission", "aggregation", "--into", self.store)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.begin("dashboard", self.store, "--http", "127.0.0.1:*")
+        live = self.live()
+        self.assertTrue(live["may_act"], "who serves the pages may act")
+        self.assertIs(live["campaigns"][0]["may_act"], False)
+        self.assertEqual(live["campaigns"][0]["state"], "imported")
+        for path in ("c1/pause", "c1/designs/d1/cancel", "c1/designs/d1/extend?budget=100"):
+            status, answer = self.ask(path, "POST", self.bearer())
+            self.assertEqual((status, answer["error"]["kind"]), (409, "conflict"), path)
+            self.assertIn("imported", answer["error"]["message"])
+        self.assertEqual(self.commands(), [])
+
     def test_a_store_that_is_too_old_is_refused_with_the_way_out(self):
         old = self.folder / "old.db"
         shutil.copy(pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/stores/schema-3.sqlite", old)

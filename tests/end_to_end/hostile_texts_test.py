@@ -56,6 +56,8 @@ ARGUMENTS = {
     "merge": [["{store}", "{store}", "-o", "{new}.db"]],
     "recover": [["{store}", "-o", "{new}.db"]],
     "irace": [["--check"], ["--scenario", "{file}"], ["--{store}"]],
+    "robot": [["replay", "{file}"], ["run", "--robot", "{new}", "--machine", "{file}"], ["{store}"],
+              ["check", "--robots", "{store}"]],
     "track": [["check", "{file}"], ["{store}"], ["report", "r1", "{store}"]],
     "version": [[]],
 }

@@ -26,7 +26,7 @@ packages_for() {
   case $1 in
     format) install_missing "${lint_packages[@]}" ;;
     test | tsan) install_test_packages ;;
-    long) install_test_packages; install_for_tests "${r_packages[@]}" "${snippet_packages[@]}" ;;
+    long) install_test_packages; install_for_tests "${r_packages[@]}" "${snippet_packages[@]}" "${aarch64_packages[@]}" ;;
     asan) install_test_packages; install_missing "${lint_packages[@]}" ;;
     *) install_missing "${build_packages[@]}" "${test_packages[@]}" "${lint_packages[@]}" ;;
   esac
@@ -130,6 +130,7 @@ gate_test() {
 
 gate_long() {
   build_all
+  [ -n "$(missing_of "${aarch64_packages[@]}")" ] || build_aarch64
   SWARMSMITH_LONG=1 tests_gate long build -L 'long|cluster'
 }
 

@@ -60,6 +60,18 @@ TEST_F(Sockets, SayThatAPeerHasGone) {
   EXPECT_EQ(server->send(peer + 1000, "to nobody"), SendStatus::Gone);
 }
 
+/// So "gone" does not mean that all it said has been read.
+TEST_F(Sockets, KeepTheLastWordsOfAPeerThatHasGone) {
+  client->send("there");
+  EXPECT_EQ(next_at_server(), "there");
+  const PeerId first = peer;
+  client->send("goodbye");
+  client->close(milliseconds(1000));
+  EXPECT_TRUE(eventually([&] { return server->send(first, "more") == SendStatus::Gone; }));
+  EXPECT_EQ(next_at_server(), "goodbye");
+  EXPECT_EQ(peer, first);
+}
+
 TEST_F(Sockets, SayThatTheCoordinatorHasGone) {
   client->send("there");
   EXPECT_EQ(next_at_server(), "there");

@@ -9,8 +9,8 @@ import re
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "analysis", "coordinator", "console", "cli",
-       "tracking", "web")
+TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "robot", "analysis", "coordinator", "console",
+       "cli", "tracking", "web")
 WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE")
 
 
@@ -30,7 +30,9 @@ def libraries(texts):
                     kept.append(word)
             files = {(folder / file).as_posix() for file in lists["SOURCES"] + lists["HEADERS"]}
             linked = set(lists["PUBLIC"] + lists["PRIVATE"])
-            found["swarmsmith_" + name if kind == "component" else name] = (files, linked)
+            known = found.setdefault("swarmsmith_" + name if kind == "component" else name, (set(), set()))
+            known[0].update(files)  # one that has other sources where a package is missing is there twice
+            known[1].update(linked)
         for kinds in re.findall(r"set\(score_kinds\s+([^)]*)\)", text):
             found["swarmsmith_mission"][0].update((folder / "scores" / (kind + ending)).as_posix()
                                                   for kind in kinds.split() for ending in (".h", ".cpp"))

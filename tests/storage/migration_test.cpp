@@ -20,11 +20,15 @@ struct OldStore {
   friend void PrintTo(const OldStore& old, std::ostream* out) { *out << "schema " << old.schema; }
 };
 
-constexpr OldStore kOldStores[] = {{1, "c1ab46cfade6d60d3caa2324616eca67", 251},
-                                   {2, "5edcb3cb406469e4e5ce487520d2afe4", 253},
-                                   {3, "8541a7690103a070b99e928c2d645e00", 315},
-                                   {4, "2dadc34b67eb86042a33ff0d797d04c4", 259},
-                                   {6, "2dadc34b67eb86042a33ff0d797d04c4", 256}};
+constexpr OldStore kOldStores[] = {
+    {1, "c1ab46cfade6d60d3caa2324616eca67", 251}, {2, "5edcb3cb406469e4e5ce487520d2afe4", 253},
+    {3, "8541a7690103a070b99e928c2d645e00", 315}, {4, "2dadc34b67eb86042a33ff0d797d04c4", 259},
+    {6, "2dadc34b67eb86042a33ff0d797d04c4", 256}, {9, "2dadc34b67eb86042a33ff0d797d04c4", 256}};
+
+/// Real runs that it holds.
+std::size_t real_runs_of(const OldStore& old) {
+  return old.schema == 9 ? 1 : 0;
+}
 
 struct MigrationTest : testing::TestWithParam<OldStore> {
   const OldStore& old = GetParam();
@@ -118,14 +122,43 @@ TEST_P(MigrationTest, AMigratedStoreTakesCommandsAndAttempts) {
 
 TEST_P(MigrationTest, AMigratedStoreTakesRealRuns) {
   opened_for_writing().reset();
-  EXPECT_TRUE(open_reader(path)->real_runs().empty());
+  const std::size_t before = real_runs_of(old);
+  ASSERT_EQ(open_reader(path)->real_runs().size(), before);
   const RealRunRows rows = synthetic_real_run(1, candidate_id({1}, 1));
   ASSERT_TRUE((*StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse))->add_real_run(rows));
   const auto reader = open_reader(path);
   EXPECT_EQ(reader->digest(), old.digest);
-  EXPECT_EQ(reader->real_run({1})->cycles, rows.cycles);
-  EXPECT_EQ(cells_of(*reader, "SELECT score FROM v_evaluations WHERE id = 'r1'"),
+  const RealRunId id{static_cast<std::int64_t>(before) + 1};
+  EXPECT_EQ(reader->real_run(id)->cycles, rows.cycles);
+  EXPECT_EQ(reader->real_run(id)->log_cycles, rows.log_cycles);
+  EXPECT_EQ(cells_of(*reader, "SELECT score FROM v_evaluations WHERE id = '" + to_string(id) + "'"),
             (std::vector<Cells>{{"1.25"}}));
+}
+
+TEST(OldRealRuns, OfBeforeRobotsHadLogsStayAsTheyWere) {
+  const TemporaryFolder folder;
+  const auto path = folder / "old.db";
+  std::filesystem::copy_file(SWARMSMITH_TEST_DATA "/stores/schema-9.sqlite", path);
+  const auto before = open_reader(path)->real_run({1});
+  ASSERT_TRUE(before) << to_string(before.error());
+  EXPECT_FALSE(before->samples.empty());
+  EXPECT_TRUE(before->logs.empty());
+  (*StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse)).reset();
+  const auto reader = open_reader(path);
+  EXPECT_EQ(reader->schema(), kSchemaVersion);
+  EXPECT_EQ(*reader->real_run({1}), *before);
+  EXPECT_TRUE(reader->integrity().empty());
+}
+
+TEST(OldRealRuns, SayHowTheirLogsCouldBeAskedFor) {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(SWARMSMITH_TEST_DATA "/stores/schema-9.sqlite", folder / "old.db");
+  const auto end = open_reader(folder / "old.db")
+                       ->query(
+                           "SELECT * FROM v_real_logs", {}, [](const auto&) {}, [](const auto&) {});
+  ASSERT_FALSE(end);
+  EXPECT_THAT(end.error().message,
+              testing::HasSubstr("this store has schema 9; `swarmsmith backup old.db new.db`"));
 }
 
 TEST(OldViews, AStoreThatLacksViewsAloneIsReadThroughTheNewOnes) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/faulty_disk.h"
@@ -114,6 +115,44 @@ TEST_F(RealRunsTest, OtherInputsOfAStoredRunAreRefusedWithTheWayOut) {
   EXPECT_EQ(stored({1}), in_order(rows));
 }
 
+TEST_F(RealRunsTest, OtherLogsOfRobotsAreOtherInputs) {
+  RealRunRows rows = synthetic_real_run(1, kWinner);
+  added(rows);
+  // What follows from them is no input.
+  rows.logs[0].latency_s = 0.3;
+  const auto again = opened()->add_real_run(rows);
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(again->is_new);
+  rows.log_cycles[3].left_mps = 0.1;
+  const auto refused = opened()->add_real_run(rows);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("the robots' logs differ"));
+}
+
+TEST_F(RealRunsTest, CommandsOfRobotsStandBesideWhatTheCameraSaw) {
+  added(synthetic_real_run(1, kWinner));
+  EXPECT_THAT(all("SELECT c.cycle, l.act, l.left_mps, l.age_ground_ms, l.age_light_ms, l.event"
+                  " FROM v_real_cycles AS c LEFT JOIN v_real_log_cycles AS l"
+                  " USING (run, cycle, robot) WHERE c.robot = 1 AND c.cycle IN (1, 2, 4)"),
+              ElementsAre(Cells{"1", "step", "0.3", "80", "NULL", "NULL"},
+                          Cells{"2", "NULL", "NULL", "NULL", "NULL", "NULL"},
+                          Cells{"4", "hold", "0", "80", "NULL", "proximity is silent"}));
+  EXPECT_THAT(
+      all("SELECT name, state, verdict, skipped, latency_s, latency_reason FROM v_real_logs"),
+      ElementsAre(Cells{"rvr1", "ended", "VALID", "0", "0.061", "NULL"},
+                  Cells{"rvr2", "NULL", "NULL", "1", "NULL", "its commands did not move it"}));
+}
+
+TEST_F(RealRunsTest, ALostRowOfALogIsFound) {
+  added(synthetic_real_run(1, kWinner));
+  {
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+    connection.execute("DELETE FROM real_log_cycle WHERE cycle = 3 AND robot = 0");
+  }
+  EXPECT_THAT(open_reader(path)->integrity(),
+              ElementsAre(HasSubstr("r1 lacks rows of its log_cycles")));
+}
+
 TEST_F(RealRunsTest, WhatIsWrongIsRefusedAndNothingIsWritten) {
   RealRunRows rows = synthetic_real_run(1, {999'999});
   const auto refused = opened()->add_real_run(rows);
@@ -147,6 +186,10 @@ TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
   again.samples[1].robot = -1;
   again.samples[1].x = again.samples[1].y = again.samples[1].theta = 0;
   again.issues.clear();
+  again.logs[1].latency_s = 0.2;
+  again.logs[1].latency_error_s = 0.001;
+  again.logs[1].latency_reason = "";
+  again.log_cycles.pop_back();
   again.patches.pop_back();
   again.score.score = 4;
   again.score.verdict = "DEGRADED";

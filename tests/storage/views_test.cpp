@@ -60,6 +60,13 @@ const std::map<std::string, std::string> kColumns{
     {"v_calibrations", "kind subject valid_from valid_until rms uses sha256 file"},
     {"v_real_cycles", "id run cycle time_s robot x y theta kind"},
     {"v_real_issues", "id run number code text robot from_s to_s"},
+    {"v_real_log_cycles",
+     "id run cycle time_s robot act state left_mps right_mps late_ms age_proximity_ms "
+     "age_ground_ms "
+     "age_neighbours_ms age_light_ms drawn event clock_s"},
+    {"v_real_logs",
+     "id run robot name file state verdict reasons stepped held skipped clock_offset_s latency_s "
+     "latency_error_s latency_reason agreement machine_digest host program scheduling head"},
     {"v_real_overrides", "id run number scoring verdict who reason at"},
     {"v_real_patches", "id run patch x y width_m height_m radius_m color"},
     {"v_real_robots",
@@ -408,7 +415,8 @@ TEST_F(ViewsTest, MachinesOfWinnersReadTheRowsOfTheseAlone) {
 TEST_F(ViewsTest, OfOneRealRunReadTheRowsOfThatRunAlone) {
   for (const std::string view :
        {"v_real_runs", "v_real_scores", "v_real_overrides", "v_real_videos", "v_real_robots",
-        "v_real_cycles", "v_real_samples", "v_real_patches", "v_real_issues"}) {
+        "v_real_cycles", "v_real_samples", "v_real_patches", "v_real_issues", "v_real_logs",
+        "v_real_log_cycles"}) {
     EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM " + view + " WHERE run = 2"), IsEmpty())
         << view;
   }

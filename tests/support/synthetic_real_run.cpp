@@ -118,6 +118,45 @@ RealRunRows synthetic_real_run(std::uint64_t seed, CandidateId candidate, std::i
                           .border_m = robot == 0 ? std::optional(-0.25) : std::nullopt,
                           .too_close = robot == 1});
   }
+  // The second robot was killed before its end, and lost a cycle.
+  for (std::int64_t robot = 0; robot < kRobots; ++robot) {
+    const bool is_whole = robot == 0;
+    run.logs.push_back({.robot = robot,
+                        .file = fmt::format("run{:02}.rvr{}.log.csv", seed, robot + 1),
+                        .machine_digest = "0123456789abcdef",
+                        .host = fmt::format("pi{}", robot + 1),
+                        .program = "swarmsmith-robot 0.1.0",
+                        .scheduling = "SCHED_FIFO 20",
+                        .clock_offset_s = is_whole ? std::optional(0.0031) : std::nullopt,
+                        .state = is_whole ? "ended" : "",
+                        .verdict = is_whole ? "VALID" : "",
+                        .stepped = is_whole ? cycles : cycles - 2,
+                        .held = 0,
+                        .skipped = is_whole ? 0 : 1,
+                        .latency_s = is_whole ? std::optional(0.061) : std::nullopt,
+                        .latency_error_s = is_whole ? std::optional(0.0004) : std::nullopt,
+                        .agreement = is_whole ? std::optional(0.97) : std::nullopt,
+                        .latency_reason = is_whole ? "" : "its commands did not move it",
+                        .head = "format = 1\nkind = \"robot log\"\n"});
+  }
+  for (std::int64_t cycle = 1; cycle <= cycles; ++cycle) {
+    for (std::int64_t robot = 0; robot < kRobots; ++robot) {
+      if (robot == 1 && (cycle == 2 || cycle == cycles)) continue;
+      const double time = 0.1 * static_cast<double>(cycle - 1) + 1.0 / 3000;
+      run.log_cycles.push_back({.cycle = cycle,
+                                .robot = robot,
+                                .time_s = time,
+                                .clock_s = 5000 + time,
+                                .late_ms = 1.0 / 3,
+                                .act = cycle == 4 ? "hold" : "step",
+                                .state = cycle % 2,
+                                .left_mps = cycle == 4 ? 0 : 0.3,
+                                .right_mps = cycle == 4 ? 0 : -0.3,
+                                .ages_ms = {12.5, 80, std::nullopt, std::nullopt},
+                                .drawn = 3 * cycle,
+                                .event = cycle == 4 ? "proximity is silent" : ""});
+    }
+  }
   run.patches = {{.x = 0.3, .y = -0.4, .width_m = 0.3, .height_m = 0.3, .color = "green"},
                  {.x = -0.3, .y = 0, .radius_m = 0.2, .color = "#102030"}};
   run.issues = {

@@ -365,6 +365,17 @@ TEST_F(Protocol, SaysHelloAgainWhenItIsNotKnown) {
   EXPECT_EQ(connections, 1);
 }
 
+/// The coordinator may have read the hello, and would find a worker that hangs up without a word.
+TEST_F(Protocol, SaysGoodbyeThoughItIsNotWelcomeYet) {
+  protocol.on_drain(now);
+  take();
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].body_case(), pb::ToCoordinator::kGoodbye);
+  EXPECT_EQ(said[0].incarnation(), 1U);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->code, ExitCode::Done);
+}
+
 TEST(ManyWorkers, DoNotComeBackInStep) {
   // A thousand of them lose a coordinator that is away for a minute.
   constexpr int kWorkers = 1000;

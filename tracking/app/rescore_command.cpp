@@ -5,6 +5,7 @@
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
+#include "tracking/app/robot_files.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_report.h"
@@ -29,6 +30,7 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   RunLog log = std::move(*read);
   if (log.videos.empty()) log.videos = before.videos;
   if (log.mission.name.empty()) log.mission = before.mission;
+  if (log.notes.empty()) log.notes = before.notes;
   if (log.videos.size() != before.videos.size()) {
     return refused(error_of(IssueCode::Config,
                             "the run has " + std::to_string(before.videos.size()) +
@@ -55,6 +57,24 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   return log;
 }
 
+/// The robots' logs that a mended run log names; those that are not there are kept as stored.
+void read_logs_again(const RunLog& log, const std::string& file,
+                     const std::optional<RanMachine>& machine, Observations& observations) {
+  RobotFiles files = read_robot_files(log, std::filesystem::path(file).parent_path(), machine);
+  std::erase_if(files.issues, [&](const Issue& issue) {
+    if (issue.code != IssueCode::LogUnreadable) return false;
+    const auto stored = std::ranges::find(observations.logs, issue.robot, &RobotLog::robot);
+    if (stored == observations.logs.end()) return false;
+    files.logs.push_back(std::move(*stored));
+    return true;
+  });
+  observations.logs = std::move(files.logs);
+  std::erase_if(observations.issues, [](const Issue& issue) {
+    return issue.code == IssueCode::LogUnreadable || issue.code == IssueCode::LogForeign;
+  });
+  observations.issues.insert(observations.issues.end(), files.issues.begin(), files.issues.end());
+}
+
 /// One run, scored again.
 struct Again {
   RealRunRows before;
@@ -78,11 +98,17 @@ OrRefusal<Again> score_again(const Arguments& arguments, RealRunRows before) {
     auto log = mended_log(arguments.log, stored->log);
     if (!log) return tl::unexpected(std::move(log.error()));
     stored->log = std::move(*log);
-    if (!stored->log.design.empty() || !stored->log.candidate.empty()) {
-      const auto control = control_of(store_word(arguments.store), stored->log);
+    std::optional<RanMachine> machine;
+    RunLog ran = stored->log;
+    if (ran.design.empty() && ran.candidate.empty() && candidate)
+      ran.candidate = to_string(candidate);
+    if (!ran.design.empty() || !ran.candidate.empty()) {
+      const auto control = control_of(store_word(arguments.store), ran);
       if (!control) return tl::unexpected(control.error());
       candidate = control->candidate;
+      machine = control->machine;
     }
+    read_logs_again(stored->log, arguments.log, machine, stored->observations);
   }
   std::vector<Error> errors = settle_names(stored->log, stored->rig);
   if (!errors.empty()) return refused(std::move(errors));

@@ -24,6 +24,7 @@ struct RobotLine {
   double sigma_m = 0;
   std::optional<double> border_m;
   bool too_close = false;
+  std::optional<Latency> latency;  ///< of robots with a log
 };
 
 struct Result {
@@ -58,11 +59,18 @@ Result result_of(const RunLog& log, const RunAnalysis& analysis) {
       line.border_m = scored.borders[i]->signed_m;
       line.too_close = scored.borders[i]->too_close;
     }
+    if (i < scored.latencies.size()) line.latency = scored.latencies[i];
     result.robots.push_back(line);
   }
   for (const Issue& issue : scored.issues)
     result.issues.emplace_back(name_of(issue.code), issue.text);
   return result;
+}
+
+std::string latency_text(const Latency& latency) {
+  if (!latency.seconds) return "latency cannot be told: " + latency.reason;
+  return fmt::format("latency {:.0f} ms +- {:.1f} ms: its motion behind its commands",
+                     1000 * *latency.seconds, 1000 * latency.error_s);
 }
 
 std::string robot_text(const RobotLine& robot, std::size_t width) {
@@ -75,7 +83,11 @@ std::string robot_text(const RobotLine& robot, std::size_t width) {
                         *robot.border_m >= 0 ? "inside" : "outside",
                         robot.too_close ? ": too close to call" : "");
   }
-  return text + "\n";
+  text += "\n";
+  if (robot.latency) {
+    text += fmt::format("  {:<{}}  ", "", width) + latency_text(*robot.latency) + "\n";
+  }
+  return text;
 }
 
 std::string text_of(const Result& result) {
@@ -99,6 +111,9 @@ std::string text_of(const Result& result) {
 
 void add_to(JsonObject& object, const Result& result) {
   const auto robot_json = [](const RobotLine& robot) {
+    const Latency none;
+    const Latency& latency = robot.latency ? *robot.latency : none;
+    const auto error_s = latency.seconds ? std::optional(latency.error_s) : std::nullopt;
     return JsonObject()
         .add("name", robot.name)
         .add("tag", robot.tag)
@@ -107,7 +122,11 @@ void add_to(JsonObject& object, const Result& result) {
         .add("longest_gap_s", robot.longest_gap_s)
         .add("sigma_m", robot.sigma_m)
         .add("border_m", robot.border_m)
-        .add("too_close", robot.too_close);
+        .add("too_close", robot.too_close)
+        .add("latency_s", latency.seconds)
+        .add("latency_error_s", error_s)
+        .add("latency_reason", latency.reason)
+        .add("agreement", latency.agreement);
   };
   const auto issue_json = [](const std::pair<std::string, std::string>& issue) {
     return JsonObject().add("code", issue.first).add("text", issue.second);

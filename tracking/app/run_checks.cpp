@@ -67,6 +67,11 @@ std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
       errors.push_back(unknown("camera", point.camera, cameras, rig.file));
     }
   }
+  for (const RobotNote& note : log.notes) {
+    const std::vector<std::string> robots = log.robots.empty() ? names_of(rig.robots) : log.robots;
+    if (std::ranges::find(robots, note.robot) == robots.end())
+      errors.push_back(unknown("robot", note.robot, robots, rig.file));
+  }
   for (const std::string& robot : log.robots) {
     const std::vector<std::string> robots = names_of(rig.robots);
     if (std::ranges::find(robots, robot) == robots.end()) {

@@ -79,8 +79,10 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   return files;
 }
 
-/// The store, and what ran: with its mission when the log does not say one.
-OrRefusal<void> settle_control(const ScoreArguments& arguments, RunPlan& plan) {
+/// The store, and what ran: with its mission when the log does not say one. The machine,
+/// when anybody says what ran.
+OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& arguments,
+                                                    RunPlan& plan) {
   plan.store = !arguments.into.empty() ? arguments.into : store_word(arguments.store);
   RunLog& log = plan.log;
   const bool says_control = !log.design.empty() || !log.candidate.empty();
@@ -96,10 +98,12 @@ OrRefusal<void> settle_control(const ScoreArguments& arguments, RunPlan& plan) {
         ExitCode::Usage,
         wrong_option("a design or candidate belongs to a store: name it with --into", "--into"));
   }
+  std::optional<RanMachine> machine;
   if (says_control) {
     auto control = control_of(plan.store, log);
     if (!control) return tl::unexpected(std::move(control.error()));
     plan.candidate = control->candidate;
+    machine = control->machine;
     if (log.mission.name.empty()) log.mission = control->mission;
     if (log.mission.name != control->mission.name) {
       return refused(
@@ -116,7 +120,7 @@ OrRefusal<void> settle_control(const ScoreArguments& arguments, RunPlan& plan) {
                      "that ran: --design",
                      "--mission"));
   }
-  return {};
+  return machine;
 }
 
 /// Patches that are said must be the mission's; those to be measured are looked for later.
@@ -212,9 +216,8 @@ OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
   for (Error& error : settle_names(plan.log, plan.whole_rig))
     errors.push_back(std::move(error));
   if (!errors.empty()) return refused(std::move(errors));
-  if (auto settled = settle_control(arguments, plan); !settled) {
-    return tl::unexpected(std::move(settled.error()));
-  }
+  const auto machine = settle_control(arguments, plan);
+  if (!machine) return tl::unexpected(machine.error());
   plan.rig = rig_of_run(plan.whole_rig, plan.log);
   errors = faults_of_rig(plan.rig, plan.log.mission, plan.takes_tags_for_centres);
   if (!errors.empty()) return refused(std::move(errors));
@@ -224,6 +227,7 @@ OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
   if (auto opened = open_videos(*files, plan); !opened) {
     return tl::unexpected(std::move(opened.error()));
   }
+  plan.robots = read_robot_files(plan.log, fs::path(arguments.run).parent_path(), *machine);
   return plan;
 }
 

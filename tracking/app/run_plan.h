@@ -8,6 +8,7 @@
 
 #include "storage/store_at_rest.h"
 #include "tracking/app/refusal.h"
+#include "tracking/app/robot_files.h"
 #include "tracking/app/score_arguments.h"
 #include "tracking/rig/rig.h"
 #include "tracking/rig/run_log.h"
@@ -31,6 +32,7 @@ struct RunPlan {
   RunLog log;
   CandidateId candidate;  ///< none when nobody said what ran
   std::vector<PlannedVideo> videos;
+  RobotFiles robots;
   std::string store;  ///< empty: the run is not kept
   StoreAtRest::IfMissing if_missing = StoreAtRest::IfMissing::Refuse;
   bool takes_tags_for_centres = false;

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "base/id.h"
+#include "sim/control/controller.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith::cli {
@@ -70,6 +71,16 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
   return CandidateId{std::stoll(best.text)};
 }
 
+/// As robots' logs have it; what is no text of the grammar, as of a program, stays as it is.
+RanMachine printed_machine(const std::string& text, const std::string& flavour_name) {
+  RanMachine machine{text, flavour_name};
+  const auto flavour = find_flavour(flavour_name);
+  if (!flavour) return machine;
+  const auto controller = parse_controller(text, **flavour);
+  if (controller) machine.text = print_controller(*controller, **flavour);
+  return machine;
+}
+
 }  // namespace
 
 OrRefusal<std::unique_ptr<StoreReader>> read_store(const std::string& store) {
@@ -90,7 +101,8 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
     control.candidate = *winner;
   }
   const auto row = first_row(**reader,
-                             "SELECT d.mission FROM v_candidates AS c JOIN v_designs AS d "
+                             "SELECT d.mission, c.fsm_config, d.flavour FROM v_candidates AS c "
+                             "JOIN v_designs AS d "
                              "ON d.design = c.design WHERE c.candidate = " +
                                  std::to_string(control.candidate.value));
   if (!row) return refused(ExitCode::Store, row.error());
@@ -101,6 +113,7 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
   auto mission = mission_of_design(**reader, design_of(control.candidate), (**row)[0].text);
   if (!mission) return tl::unexpected(std::move(mission.error()));
   control.mission = std::move(*mission);
+  control.machine = printed_machine((**row)[1].text, (**row)[2].text);
   return control;
 }
 

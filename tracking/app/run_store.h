@@ -7,6 +7,7 @@
 #include "storage/store_at_rest.h"
 #include "tracking/app/refusal.h"
 #include "tracking/rig/run_log.h"
+#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith::cli {
 
@@ -14,6 +15,7 @@ namespace swarmsmith::cli {
 struct RanControl {
   CandidateId candidate;
   Mission mission;  ///< that it was designed for
+  RanMachine machine;
 };
 
 /// The candidate of a store that a log names, else the winner of its design. Exit code 4 when there

@@ -111,7 +111,11 @@ OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
   if (auto measured = measure(pictures, plan.log); !measured) {
     return tl::unexpected(std::move(measured.error()));
   }
-  return joined_observations(std::move(cameras));
+  Observations observations = joined_observations(std::move(cameras));
+  observations.logs = plan.robots.logs;
+  observations.issues.insert(observations.issues.end(), plan.robots.issues.begin(),
+                             plan.robots.issues.end());
+  return observations;
 }
 
 }  // namespace swarmsmith::cli

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/runtime/run_record.h"
 #include "tracking/geometry/tag_pose.h"
 #include "tracking/rig/issue.h"
 #include "tracking/rig/time_source.h"
@@ -55,9 +56,17 @@ struct CameraObservations {
   std::vector<Issue> issues;
 };
 
+/// What a robot wrote down itself. From a store, rows have neither readings nor time stamps.
+struct RobotLog {
+  std::string robot;  ///< as in the rig
+  std::string file;
+  RunRecord record;
+};
+
 struct Observations {
   std::vector<CameraRecord> cameras;
   std::vector<Sighting> sightings;  ///< by camera, frame, tag; robots' and unknown tags alike
+  std::vector<RobotLog> logs;       ///< of this run; robots without one are not there
   std::vector<Issue> issues;        ///< of files and times
 };
 

@@ -9,6 +9,7 @@
 #include "tracking/report/internal/findings.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/timeline.h"
+#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
 namespace {
@@ -170,6 +171,47 @@ void write_robots(HtmlPage& page, const ReportedRun& run) {
   page.table(borders);
 }
 
+std::string latency_text(const ReportedRun& run, std::size_t robot) {
+  if (robot >= run.scored.latencies.size() || !run.scored.latencies[robot]) return "-";
+  const Latency& latency = *run.scored.latencies[robot];
+  if (!latency.seconds) return "cannot be told: " + latency.reason;
+  return fmt::format("{:.0f} +- {:.1f}", 1000 * *latency.seconds, 1000 * latency.error_s);
+}
+
+void write_logs(HtmlPage& page, const ReportedRun& run) {
+  HtmlTable logs{.caption =
+                     "What the robots wrote down themselves: control cycles, and how late they "
+                     "began; the latency is the time by which the motion that the camera saw is "
+                     "behind the commands.",
+                 .columns = {{"Robot"},
+                             {"Its verdict"},
+                             {"Stepped", true},
+                             {"Held", true},
+                             {"Skipped", true},
+                             {"Late, median, most (ms)", true},
+                             {"Clock offset (ms)", true},
+                             {"Latency (ms)"},
+                             {"Scheduling"}},
+                 .rows = {}};
+  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
+    const RobotLog* log = log_of(run, i);
+    if (log == nullptr) continue;
+    const LogHead& head = log->record.head;
+    const LogCounts counts = log_counts(log->record);
+    logs.rows.push_back(
+        {run.tracked.robots[i].name,
+         head.end ? std::string(name_of(head.end->verdict)) : "none: it was killed",
+         std::to_string(counts.stepped), std::to_string(counts.held),
+         std::to_string(counts.skipped),
+         fmt::format("{:.1f}, {:.1f}", counts.late_median_ms, counts.late_most_ms),
+         head.clock_offset_s ? fmt::format("{:+.1f}", 1000 * *head.clock_offset_s) : "-",
+         latency_text(run, i), head.scheduling});
+  }
+  if (logs.rows.empty()) return;
+  page.heading(2, "Robots' logs");
+  page.table(logs);
+}
+
 void write_frames(HtmlPage& page, const ReportedRun& run) {
   const TrackedRun& tracked = run.tracked;
   page.heading(2, "Frames");
@@ -268,6 +310,7 @@ std::string quality_html(const ReportedRun& run) {
   write_verdict(page, run);
   write_pictures(page, run);
   write_robots(page, run);
+  write_logs(page, run);
   write_issues(page, run);
   write_frames(page, run);
   page.heading(2, "Cameras and floor tags");

@@ -3,6 +3,7 @@
 #include "sim/control/reference_model.h"
 #include "tracking/report/internal/findings.h"
 #include "tracking/report/quality.h"
+#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
 namespace {
@@ -98,6 +99,37 @@ Json border_json(const ReportedRun& run, std::size_t robot) {
           {"too_close", border.too_close}};
 }
 
+/// What the robot's own log says; null when it has none.
+Json log_json(const ReportedRun& run, std::size_t robot) {
+  const RobotLog* log = log_of(run, robot);
+  if (log == nullptr) return nullptr;
+  const LogHead& head = log->record.head;
+  const LogCounts counts = log_counts(log->record);
+  return {{"file", log->file},
+          {"state", head.end ? Json(head.end->state) : Json(nullptr)},
+          {"verdict", head.end ? Json(name_of(head.end->verdict)) : Json(nullptr)},
+          {"reasons", head.end ? head.end->reasons : std::vector<std::string>()},
+          {"stepped", counts.stepped},
+          {"held", counts.held},
+          {"skipped", counts.skipped},
+          {"late_median_ms", counts.late_median_ms},
+          {"late_most_ms", counts.late_most_ms},
+          {"clock_offset_s", or_null(head.clock_offset_s)},
+          {"machine_digest", head.machine_digest},
+          {"host", head.host},
+          {"scheduling", head.scheduling},
+          {"program", head.program}};
+}
+
+Json latency_json(const ReportedRun& run, std::size_t robot) {
+  if (robot >= run.scored.latencies.size() || !run.scored.latencies[robot]) return nullptr;
+  const Latency& latency = *run.scored.latencies[robot];
+  return {{"seconds", or_null(latency.seconds)},
+          {"error_s", latency.seconds ? Json(latency.error_s) : Json(nullptr)},
+          {"agreement", or_null(latency.agreement)},
+          {"reason", latency.reason}};
+}
+
 Json robot_json(const ReportedRun& run, std::size_t number) {
   const TrackedRobot& robot = run.tracked.robots[number];
   const CycleCounts cycles = cycle_counts(robot);
@@ -123,7 +155,9 @@ Json robot_json(const ReportedRun& run, std::size_t number) {
           {"sigma_m", robot.sigma.sigma_m},
           {"sigma_rad", robot.sigma.sigma_rad},
           {"offset", offset_json(run, number)},
-          {"border", border_json(run, number)}};
+          {"border", border_json(run, number)},
+          {"log", log_json(run, number)},
+          {"latency", latency_json(run, number)}};
 }
 
 Json issues_json(const ReportedRun& run) {

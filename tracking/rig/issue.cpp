@@ -8,18 +8,45 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 30> kNames = {
-    "E_VIDEO_UNREADABLE", "E_VIDEO_TRUNCATED",   "E_CALIB_SIZE",
-    "E_CALIB_QUALITY",    "E_REF_TAGS",          "E_EXTRINSICS",
-    "E_CAMERA_MOVED",     "E_ROBOT_MISSING",     "E_GAP",
-    "E_DUPLICATE_ID",     "E_TAG_SIZE",          "E_NO_OFFSET",
-    "E_SPIN_QUALITY",     "W_FRAMES_DROPPED",    "E_TIMESTAMPS",
-    "E_FRAME_RATE",       "E_SIDECAR_MISMATCH",  "E_LAYOUT_MISSING",
-    "E_CONFIG",           "E_OUTSIDE_ARENA",     "W_OUTLIERS",
-    "W_INTERPOLATED",     "W_TOO_CLOSE_TO_CALL", "W_UNKNOWN_TAGS",
-    "W_CAMERAS_DISAGREE", "W_TAG_AS_CENTRE",     "E_DURATION",
-    "W_CAMERA_UNCHECKED", "W_SURVEY_CHANGED",    "W_BY_HAND"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::ByHand) + 1);
+constexpr std::array<std::string_view, 38> kNames = {"E_VIDEO_UNREADABLE",
+                                                     "E_VIDEO_TRUNCATED",
+                                                     "E_CALIB_SIZE",
+                                                     "E_CALIB_QUALITY",
+                                                     "E_REF_TAGS",
+                                                     "E_EXTRINSICS",
+                                                     "E_CAMERA_MOVED",
+                                                     "E_ROBOT_MISSING",
+                                                     "E_GAP",
+                                                     "E_DUPLICATE_ID",
+                                                     "E_TAG_SIZE",
+                                                     "E_NO_OFFSET",
+                                                     "E_SPIN_QUALITY",
+                                                     "W_FRAMES_DROPPED",
+                                                     "E_TIMESTAMPS",
+                                                     "E_FRAME_RATE",
+                                                     "E_SIDECAR_MISMATCH",
+                                                     "E_LAYOUT_MISSING",
+                                                     "E_CONFIG",
+                                                     "E_OUTSIDE_ARENA",
+                                                     "W_OUTLIERS",
+                                                     "W_INTERPOLATED",
+                                                     "W_TOO_CLOSE_TO_CALL",
+                                                     "W_UNKNOWN_TAGS",
+                                                     "W_CAMERAS_DISAGREE",
+                                                     "W_TAG_AS_CENTRE",
+                                                     "E_DURATION",
+                                                     "W_CAMERA_UNCHECKED",
+                                                     "W_SURVEY_CHANGED",
+                                                     "W_BY_HAND",
+                                                     "W_LOG_UNREADABLE",
+                                                     "E_LOG_FOREIGN",
+                                                     "E_LOG_SHORT",
+                                                     "W_CLOCK_OFFSET",
+                                                     "W_ROBOT_DEGRADED",
+                                                     "E_ROBOT_INVALID",
+                                                     "W_MOTION_UNLIKE_LOG",
+                                                     "W_SYNC_DIFFERS"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::SyncDiffers) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

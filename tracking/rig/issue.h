@@ -44,6 +44,14 @@ enum class IssueCode {
   CameraUnchecked,  ///< a warning: too few floor tags were seen to tell whether a camera moved
   SurveyChanged,    ///< a warning: floor tags were surveyed anew since a place was found
   ByHand,           ///< a warning: a person said where a robot was
+  LogUnreadable,    ///< a warning: a robot's log is not there, or is none
+  LogForeign,       ///< a robot's log is of another run, robot or machine
+  LogShort,         ///< a robot's log ends before the run does
+  ClockOffset,      ///< a warning: a robot's clock was off
+  RobotDegraded,    ///< a warning: a robot's node says that it did not run as it should
+  RobotInvalid,     ///< the same, beyond what counts
+  MotionUnlikeLog,  ///< a warning: a robot did not move as its log commands
+  SyncDiffers,      ///< a warning: the log's start is not when the sync tag says
 };
 
 /// "E_GAP".

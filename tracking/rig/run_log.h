@@ -8,6 +8,7 @@
 #include "sim/mission/instance_csv.h"
 #include "sim/mission/mission.h"
 #include "tracking/geometry/camera_model.h"
+#include "tracking/rig/issue.h"
 
 namespace swarmsmith {
 
@@ -30,7 +31,7 @@ struct RunVideo {
 struct RunStart {
   std::optional<double> time_s;  ///< said by the log
   /// Else the instant at which this tag is hidden, or shown: a person does it when the robots are
-  /// let go.
+  /// let go. Where the log says both, this one is a check.
   int sync_tag = 0;
   enum class Sync { None, Hidden, Shown } sync = Sync::None;
 
@@ -57,6 +58,16 @@ struct HandPoint {
   friend bool operator==(const HandPoint&, const HandPoint&) = default;
 };
 
+/// What `swarmsmith-robot start` knows of a robot's node after the run.
+struct RobotNote {
+  std::string robot;
+  std::string log;                 ///< the robot's own log, either of its two files; may be empty
+  std::optional<Verdict> verdict;  ///< the node's
+  std::vector<std::string> reasons;
+
+  friend bool operator==(const RobotNote&, const RobotNote&) = default;
+};
+
 struct RunLog {
   std::string name;       ///< "run07"
   std::string recorded;   ///< date, "2026-11-21"
@@ -69,6 +80,7 @@ struct RunLog {
   RunLayout layout;
   std::vector<RunVideo> videos;
   std::vector<HandPoint> points;
+  std::vector<RobotNote> notes;
 
   friend bool operator==(const RunLog&, const RunLog&) = default;
 };

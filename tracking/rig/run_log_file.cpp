@@ -78,9 +78,6 @@ RunStart read_start(TableReader& root) {
   start.time_s = root.seconds("start", kClock);
   auto sync = root.table("sync");
   if (!sync) return start;
-  if (root.has("start")) {
-    root.complain("sync", "`start` and `sync` both say when the run begins; give one");
-  }
   if (!sync->has("tag")) sync->complain("tag", sync->name() + " needs a `tag`, its number");
   start.sync_tag = static_cast<int>(sync->integer("tag", kTag).value_or(0));
   if (!sync->has("when")) sync->complain("when", sync->name() + " needs `when`: hidden or shown");
@@ -145,6 +142,30 @@ HandPoint read_hand_point(TableReader& table) {
   point.who = need_text(table, "who", "A. Person");
   table.finish();
   return point;
+}
+
+RobotNote read_robot_note(TableReader& table) {
+  static const std::vector<std::string> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
+  RobotNote note;
+  note.robot = need_text(table, "name", "rvr1");
+  note.log = table.text("log").value_or("");
+  if (const auto verdict = table.choice("verdict", kVerdicts)) {
+    note.verdict = verdict_from_name(*verdict);
+  }
+  note.reasons = table.texts("reasons").value_or(std::vector<std::string>());
+  table.finish();
+  return note;
+}
+
+/// Each robot has one note.
+void check_notes(TableReader& root, const std::vector<RobotNote>& notes) {
+  for (std::size_t i = 0; i < notes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (notes[i].robot != notes[k].robot) continue;
+      root.complain("robot", "two [[robot]] are of robot \"" + notes[i].robot + "\"");
+      return;
+    }
+  }
 }
 
 /// "2026-11-21".
@@ -232,6 +253,9 @@ OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem:
   check_videos(root, log.videos);
   for (TableReader& table : root.tables("point"))
     log.points.push_back(read_hand_point(table));
+  for (TableReader& table : root.tables("robot"))
+    log.notes.push_back(read_robot_note(table));
+  check_notes(root, log.notes);
   root.finish();
   if (!complaints.empty()) return tl::unexpected(config_errors(complaints.take()));
   return log;
@@ -247,6 +271,17 @@ std::string run_log_text(const RunLog& log) {
   std::vector<Section> sections = {{"", "", head_lines(log)}};
   for (const RunVideo& video : log.videos)
     sections.push_back(video_section(video));
+  for (const RobotNote& note : log.notes) {
+    Section section{"[[robot]]", "robot.", {{"name", quoted_text(note.robot)}}};
+    if (!note.log.empty()) section.lines.push_back({"log", quoted_text(note.log)});
+    if (note.verdict) {
+      section.lines.push_back({"verdict", quoted_text(name_of(*note.verdict))});
+    }
+    if (!note.reasons.empty()) {
+      section.lines.push_back({"reasons", "[" + list_of(note.reasons, quoted_text) + "]"});
+    }
+    sections.push_back(std::move(section));
+  }
   for (const HandPoint& point : log.points) {
     Section section{"[[point]]", "point.", {{"robot", quoted_text(point.robot)}}};
     if (!point.camera.empty()) section.lines.push_back({"camera", quoted_text(point.camera)});

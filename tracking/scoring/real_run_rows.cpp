@@ -9,9 +9,11 @@
 
 #include "base/overloaded.h"
 #include "base/text/sha256.h"
+#include "robot/log/log_text.h"
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
 #include "tracking/motion/resampling.h"
+#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
 namespace {
@@ -188,6 +190,65 @@ RealPatchRow patch_row(const Patch& patch) {
   return row;
 }
 
+std::string json_of(const std::vector<std::string>& sentences) {
+  return nlohmann::json(sentences).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+RealLogRow log_row(const RobotLog& log, std::int64_t robot) {
+  const LogHead& head = log.record.head;
+  RealLogRow row{.robot = robot,
+                 .file = log.file,
+                 .machine_digest = head.machine_digest,
+                 .host = head.host,
+                 .program = head.program,
+                 .scheduling = head.scheduling,
+                 .clock_offset_s = head.clock_offset_s,
+                 .head = log_head_text(head)};
+  if (head.end) {
+    row.state = head.end->state;
+    row.verdict = name_of(head.end->verdict);
+    row.reasons = json_of(head.end->reasons);
+  }
+  const LogCounts counts = log_counts(log.record);
+  row.stepped = counts.stepped;
+  row.held = counts.held;
+  row.skipped = counts.skipped;
+  return row;
+}
+
+void add_logs(const RunToStore& run, RealRunRows& rows) {
+  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
+    const auto robot = static_cast<std::int64_t>(i);
+    const auto log =
+        std::ranges::find(run.observations.logs, run.tracked.robots[i].name, &RobotLog::robot);
+    if (log == run.observations.logs.end()) continue;
+    RealLogRow row = log_row(*log, robot);
+    if (i < run.scored.latencies.size() && run.scored.latencies[i]) {
+      const Latency& latency = *run.scored.latencies[i];
+      row.latency_s = latency.seconds;
+      if (latency.seconds) row.latency_error_s = latency.error_s;
+      row.agreement = latency.agreement;
+      row.latency_reason = latency.reason;
+    }
+    rows.logs.push_back(std::move(row));
+    for (const LogRow& cycle : log->record.rows) {
+      rows.log_cycles.push_back({.cycle = cycle.cycle,
+                                 .robot = robot,
+                                 .time_s = cycle.sensed.time_s,
+                                 .clock_s = cycle.clock_s,
+                                 .late_ms = cycle.late_ms,
+                                 .act = std::string(name_of(cycle.act)),
+                                 .state = cycle.state,
+                                 .left_mps = cycle.command.left_mps,
+                                 .right_mps = cycle.command.right_mps,
+                                 .ages_ms = cycle.age_ms,
+                                 .drawn = static_cast<std::int64_t>(cycle.drawn),
+                                 .event = cycle.event});
+    }
+  }
+  std::ranges::stable_sort(rows.log_cycles, {}, &RealLogCycleRow::cycle);
+}
+
 void add_issues(const RunToStore& run, RealRunRows& rows) {
   const std::vector<Issue>& observed = run.observations.issues;
   for (const Issue& issue : run.scored.issues) {
@@ -216,12 +277,12 @@ RealRunRows real_run_rows(const RunToStore& run) {
   for (const Patch& patch : run.patches)
     rows.patches.push_back(patch_row(patch));
   add_cycles(run.tracked, rows);
+  add_logs(run, rows);
   add_issues(run, rows);
   rows.score = {.score = run.scored.score,
                 .verdict = std::string(name_of(run.scored.verdict)),
                 .biased = run.scored.biased,
-                .reasons = nlohmann::json(run.scored.reasons)
-                               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+                .reasons = json_of(run.scored.reasons)};
   return rows;
 }
 

@@ -7,6 +7,7 @@
 #include "sim/mission/mission.h"
 #include "tracking/motion/tracked_run.h"
 #include "tracking/rig/issue.h"
+#include "tracking/robots/latency.h"
 
 namespace swarmsmith {
 
@@ -25,7 +26,9 @@ struct ScoredRun {
   bool biased = false;                                 ///< a tag was taken for its robot's centre
   std::vector<std::string> reasons;                    ///< for the verdict, a sentence each
   std::vector<std::optional<BorderDistance>> borders;  ///< a robot; for scores of the last instant
-  std::vector<Issue> issues;                           ///< all: of files, times, tracking, scoring
+  /// Of each robot's motion behind its commands; none where it has no log. Empty: nobody looked.
+  std::vector<std::optional<Latency>> latencies;
+  std::vector<Issue> issues;  ///< all: of files, times, tracking, scoring
 };
 
 }  // namespace swarmsmith

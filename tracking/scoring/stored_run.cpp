@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "robot/log/log_text.h"
 #include "tracking/scoring/real_run_rows.h"
 
 namespace swarmsmith {
@@ -61,6 +62,41 @@ Observations observations_of(const RealRunRows& rows) {
   return observations;
 }
 
+/// The name of a robot by its number.
+std::string robot_of(const RealRunRows& rows, std::int64_t robot) {
+  for (const RealRobotRow& row : rows.robots) {
+    if (row.robot == robot) return row.name;
+  }
+  return {};
+}
+
+/// As far as the store keeps them.
+OrComplaints<std::vector<RobotLog>> logs_of(const RealRunRows& rows) {
+  std::vector<RobotLog> logs;
+  for (const RealLogRow& row : rows.logs) {
+    auto head = parse_log_head(row.head, row.file);
+    if (!head) return tl::unexpected(std::move(head.error()));
+    RobotLog log{robot_of(rows, row.robot), row.file, {std::move(*head), {}}};
+    for (const RealLogCycleRow& cycle : rows.log_cycles) {
+      if (cycle.robot != row.robot) continue;
+      LogRow& kept = log.record.rows.emplace_back();
+      kept.cycle = cycle.cycle;
+      kept.clock_s = cycle.clock_s;
+      kept.late_ms = cycle.late_ms;
+      kept.act = act_from(cycle.act).value_or(Act::Step);
+      kept.state = static_cast<int>(cycle.state);
+      kept.command.left_mps = cycle.left_mps;
+      kept.command.right_mps = cycle.right_mps;
+      kept.sensed.time_s = cycle.time_s;
+      kept.age_ms = cycle.ages_ms;
+      kept.drawn = static_cast<std::uint64_t>(cycle.drawn);
+      kept.event = cycle.event;
+    }
+    logs.push_back(std::move(log));
+  }
+  return logs;
+}
+
 }  // namespace
 
 OrComplaints<StoredRun> stored_run(const RealRunRows& rows) {
@@ -78,7 +114,11 @@ OrComplaints<StoredRun> stored_run(const RealRunRows& rows) {
   if (!rig) return tl::unexpected(std::move(rig.error()));
   OrComplaints<RunLog> log = parse_run_log(rows.log, rows.name + ".toml");
   if (!log) return tl::unexpected(std::move(log.error()));
-  return StoredRun{std::move(*rig), std::move(*log), observations_of(rows)};
+  auto logs = logs_of(rows);
+  if (!logs) return tl::unexpected(std::move(logs.error()));
+  StoredRun run{std::move(*rig), std::move(*log), observations_of(rows)};
+  run.observations.logs = std::move(*logs);
+  return run;
 }
 
 }  // namespace swarmsmith

@@ -112,7 +112,8 @@ export async function ask(path: string, patience_ms = 65000): Promise<Answer> {
   } catch { throw new ApiError(0, "the answer broke off", path); }
   const etag = response.headers.get("ETag");
   kept.delete(path);
-  if (etag) kept.set(path, { etag, data });
+  // What is new after something is asked for once.
+  if (etag && !/[?&]after=/.test(path)) kept.set(path, { etag, data });
   if (kept.size > kMostKept) kept.delete(kept.keys().next().value as string);
   return { data, cost_ms };
 }
@@ -124,7 +125,11 @@ export async function post(path: string): Promise<string> {
 
 // --- live numbers ---------------------------------------------------------------------------------
 
-/// Asks for `live` once a second while the page is seen, and tells who listens.
+/// Between questions when nothing runs.
+const kAtRest_ms = 5000;
+
+/// Asks for `live` once a second while the page is seen, and tells who listens. All pages ask at the
+/// same moment, the whole second, so that the server makes one answer for all of them.
 class Feed {
   live: Live | null = null;
   at: Date | null = null;             ///< of the last answer
@@ -142,16 +147,22 @@ class Feed {
   }
 
   start(): void {
-    document.addEventListener("visibilitychange", () => { if (!document.hidden) this.ask_now(); });
+    document.addEventListener("visibilitychange", () => {
+      this.#tell();
+      this.ask_now();
+    });
     this.ask_now();
   }
 
   /// True while the numbers on the page are not those of now.
-  get stale(): boolean { return this.failure !== null; }
+  get stale(): boolean { return !!this.failure || !is_snapshot && !!this.at && Date.now() - +this.at > 2 * kAtRest_ms; }
+
+  #tell(): void { this.#listeners.forEach((listener) => listener()); }
 
   ask_now(): void {
     clearTimeout(this.#timer);
-    if (!this.#is_asking) void this.#turn();
+    // Nobody looks: until somebody does.
+    if (!this.#is_asking && !(document.hidden && this.live)) void this.#turn();
   }
 
   async #turn(): Promise<void> {
@@ -168,11 +179,11 @@ class Feed {
       ++this.#failures;
     }
     this.#is_asking = false;
-    const wait_s = this.failure ? Math.min(15, 2 ** (this.#failures - 1))
-      : document.hidden ? 30 : this.live?.running ? 1 : 5;
-    this.next_try = this.failure ? new Date(Date.now() + 1000 * wait_s) : null;
-    if (!is_snapshot) this.#timer = window.setTimeout(() => this.ask_now(), 1000 * wait_s);
-    this.#listeners.forEach((listener) => listener());
+    const now = Date.now(), pause = this.live?.running ? 1000 : kAtRest_ms;
+    const next = this.failure ? now + Math.min(15000, 1000 * 2 ** (this.#failures - 1)) : Math.ceil((now + pause - 500) / 1000) * 1000;
+    this.next_try = this.failure ? new Date(next) : null;
+    if (!is_snapshot) this.#timer = window.setTimeout(() => this.ask_now(), next - now);
+    this.#tell();
   }
 }
 

@@ -1,5 +1,5 @@
 import { Component, h } from "preact";
-import { ApiError, feed, token } from "./api";
+import { ApiError, feed, is_snapshot, token } from "./api";
 import { clamp, csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
 import { current_route, href, Query, set_query } from "./route";
 import { Campaign } from "./types";
@@ -81,7 +81,7 @@ export function Panel({ title, children, wide, tools, command, sql }: PanelProps
   return <section class={wide ? "panel wide" : "panel"} aria-label={title}>
     <div class="panel-head"><h2>{title}</h2><div class="tools">{tools as JSX.Element}
       {command && <Copy text={command} />}
-      {sql && <a class="small" href={href([current_route().path[0], "sql"], { q: sql })} aria-label={`SQL: ${title}`}>SQL</a>}</div></div>
+      {sql && !is_snapshot && <a class="small" href={href([current_route().path[0], "sql"], { q: sql })} aria-label={`SQL: ${title}`}>SQL</a>}</div></div>
     {children as JSX.Element}
   </section>;
 }

@@ -1,5 +1,5 @@
 import { Component, h } from "preact";
-import { ApiError, ask, feed } from "./api";
+import { ApiError, ask, feed, path_of } from "./api";
 import { Empty, Failure, Waiting } from "./components";
 
 interface Props<T> {
@@ -10,6 +10,8 @@ interface Props<T> {
   version?: string | number;
   /// Also asked every so many seconds.
   every_s?: number;
+  /// Its columns only ever get longer, ordered by this one: then what is new after its last value is asked for.
+  grows?: string;
   /// Shows the answer of the path before while the new one is on its way: for sliders.
   keep?: boolean;
   render: (data: T) => JSX.Element | (JSX.Element | false | null)[] | null;
@@ -18,6 +20,16 @@ interface Props<T> {
 }
 
 interface State { path?: string; data?: unknown; error?: ApiError }
+
+/// Rows of columns; with more they are asked for as a whole: the server may have thinned them out.
+const kMostGrown = 5000;
+
+type Lists = Record<string, any>;
+
+/// Columns with their new rows; the same object when there are none.
+export function grown(before: Lists, more: Lists, by: string): Lists {
+  return more[by].length === 0 ? before : Object.fromEntries(Object.entries(more).map(([name, one]) => [name, Array.isArray(one) ? before[name].concat(one) : one]));
+}
 
 /// What the server says to a path, drawn by `render`, and renewed.
 export class Get<T> extends Component<Props<T>, State> {
@@ -53,11 +65,15 @@ export class Get<T> extends Component<Props<T>, State> {
   #load = async () => {
     clearTimeout(this.#timer);
     this.#started = Date.now();
-    const { path } = this.props;
+    const { path, grows } = this.props;
+    const before = this.state.path === path ? this.state.data as Lists : undefined;
+    if (before && document.hidden) return this.#load_later(1000);
+    const list = grows && before?.[grows], last = list?.length < kMostGrown ? list[list.length - 1] : undefined;
     let next: State;
     try {
-      const { data, cost_ms } = await ask(path);
+      const { data: got, cost_ms } = await ask(last === undefined ? path : path_of(path, { after: last }));
       this.#cost_ms = cost_ms;
+      const data = last === undefined ? got : grown(before!, got as Lists, grows!);
       // "Nothing yet" is an answer: browsers complain of every request that fails.
       const { nothing } = data as { nothing?: string };
       if (nothing !== undefined) throw new ApiError(404, nothing);

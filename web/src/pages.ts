@@ -1,4 +1,5 @@
 // All pages, a line each; the order is that of the navigation.
+import { is_snapshot } from "./api";
 import { Page } from "./page";
 import { Campaigns } from "./pages/campaigns";
 import { DesignPage } from "./pages/design";
@@ -12,7 +13,7 @@ import { Modules } from "./pages/modules";
 import { Fleet } from "./pages/fleet";
 import { Data } from "./pages/data";
 
-export const pages: Page[] = [
+const all: Page[] = [
   { pattern: ":c?", label: "Campaigns", letter: "o", view: Campaigns },
   { pattern: ":c/:d", label: "Design", letter: "d", view: DesignPage },
   { pattern: ":c/:d/race/:iteration?", label: "Race", letter: "r", view: RacePage,
@@ -28,3 +29,6 @@ export const pages: Page[] = [
   { pattern: "fleet", label: "Fleet", letter: "f", view: Fleet },
   { pattern: ":c/sql", label: "Data", letter: "s", view: Data, keys: [["Ctrl Enter", "ask"]] },
 ];
+
+/// A file answers no SQL.
+export const pages = all.filter((page) => !is_snapshot || page.view !== Data);

@@ -18,6 +18,8 @@ export interface Design {
   version: number;
   stage?: string;
   search?: string;
+  /// Its campaign's name, in a store of several.
+  campaign?: string;
 }
 
 export interface Campaign {

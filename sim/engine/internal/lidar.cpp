@@ -20,6 +20,9 @@ double ray_through(const Point& at) {
   return atan2(at.y, at.x) * kRaysPerRadian;
 }
 
+/// Scans that are so far beyond the line of a face, or before it, surely see it, or not.
+constexpr double kSurelyBeyond_m = 1e-6;
+
 /// Quick rays are wrong by less than half of this.
 constexpr double kQuickError = 3e-3;
 
@@ -135,6 +138,87 @@ const Directions& directions_by_coordinate() {
   return directions;
 }
 
+/// The part of a face that its rays need.
+struct TwoFaces {
+  Two edge_x;
+  Two edge_y;
+  Two area;
+};
+
+/// Two robots as a scan sees them: the faces that look at it, which are one or two, and between
+/// which rays they are.
+struct TwoRobots {
+  TwoFaces right;
+  TwoFaces left;
+  Two border;  ///< the rays before it meet the face on the right
+  std::array<int, 2> first;
+  std::array<int, 2> last;  ///< may be beyond the last ray
+  std::array<bool, 2> sure;
+};
+
+/// Points in the scanning robot's frame.
+struct TwoPoints {
+  Two x;
+  Two y;
+};
+
+TwoFaces faces_between(const TwoPoints& from, const TwoPoints& to) {
+  const Two edge_x = to.x - from.x;
+  const Two edge_y = to.y - from.y;
+  return {edge_x, edge_y, from.x * edge_y - from.y * edge_x};
+}
+
+TwoRobots look_at(const Body& self, const Body& one, const Body& other) {
+  const Two at_x = {one.x, other.x};
+  const Two at_y = {one.y, other.y};
+  const Two cosine = {one.cos, other.cos};
+  const Two sine = {one.sin, other.sin};
+  // Where the scan is, seen from them, tells which of their faces it sees.
+  const Two from_x = self.x - at_x;
+  const Two from_y = self.y - at_y;
+  const Two ahead = cosine * from_x + sine * from_y;
+  const Two aside = cosine * from_y - sine * from_x;
+  const Two x = ahead < 0 ? both(-kHalfSide_m) : both(kHalfSide_m);
+  const Two y = aside < 0 ? both(-kHalfSide_m) : both(kHalfSide_m);
+  const Two beyond_x = size_of(ahead) - kHalfSide_m;
+  const Two beyond_y = size_of(aside) - kHalfSide_m;
+  const Two end_x = beyond_y > 0 ? -x : x;
+  const Two end_y = beyond_x > 0 ? -y : y;
+  const auto corners = [&](Two corner_x, Two corner_y) {
+    const Two dx = at_x + cosine * corner_x - sine * corner_y - self.x;
+    const Two dy = at_y + sine * corner_x + cosine * corner_y - self.y;
+    return TwoPoints{self.cos * dx + self.sin * dy, self.cos * dy - self.sin * dx};
+  };
+  const auto turned = x * y > 0;
+  const TwoPoints right = corners(turned ? end_x : x, turned ? y : end_y);
+  const TwoPoints middle = corners(x, y);
+  const TwoPoints left = corners(turned ? x : end_x, turned ? end_y : y);
+  Two right_ray = quick_rays_through(right.x, right.y);
+  const Two middle_ray = quick_rays_through(middle.x, middle.y);
+  const Two left_ray = quick_rays_through(left.x, left.y);
+  constexpr double kTurn = kLidarRays;
+  constexpr double kWidest = kTurn / 2 - 2 * kQuickError;
+  const auto upwards = [](Two ray) { return ray < 0 ? ray + kTurn : ray; };
+  const Two right_width = upwards(middle_ray - right_ray);
+  const Two left_width = upwards(left_ray - middle_ray);
+  const Two beside =
+      lesser(beside_whole(middle_ray), lesser(beside_whole(right_ray), beside_whole(left_ray)));
+  const auto sure =
+      (beside >= kQuickError) & (size_of(beyond_x) > kSurelyBeyond_m) &
+      (size_of(beyond_y) > kSurelyBeyond_m) & ((beyond_x > 0) | (beyond_y > 0)) &
+      ((right_width == 0) | ((right_width > 2 * kQuickError) & (right_width < kWidest))) &
+      ((left_width == 0) | ((left_width > 2 * kQuickError) & (left_width < kWidest)));
+  right_ray = upwards(right_ray);
+  const Two border = right_ray + right_width;
+  const Two end = border + left_width;
+  return {.right = faces_between(right, middle),
+          .left = faces_between(middle, left),
+          .border = border,
+          .first = {static_cast<int>(right_ray[0]) + 1, static_cast<int>(right_ray[1]) + 1},
+          .last = {static_cast<int>(end[0]), static_cast<int>(end[1])},
+          .sure = {sure[0] != 0, sure[1] != 0}};
+}
+
 /// Distances between these are within the lidar's limits, whatever rounding does.
 constexpr double kSurelyFar_m = kLidarLeast_m + 1e-6;
 constexpr double kSurelySeen_m = kLidarMost_m - 1e-6;
@@ -142,11 +226,10 @@ constexpr double kSurelySeen_m = kLidarMost_m - 1e-6;
 /// One scan under way.
 class Scanner {
  public:
-  Scanner(const Body& self, std::span<double> ranges_m) : self_(self), ranges_(ranges_m.data()) {
-    std::fill(ranges_m.begin(), ranges_m.end(), kInfinity);
-  }
+  Scanner(const Body& self, std::span<double> ranges_m) : self_(self), ranges_(ranges_m.data()) {}
 
-  /// Faces that can be seen from their left only, each from a corner to the next of its index.
+  /// Faces that can be seen from their left only, each from a corner to the next of its index. To
+  /// be met before all else.
   void meet_walls(const std::vector<WallPlane>& walls) {
     const std::size_t n = walls.size();
     start_faces(n);
@@ -164,7 +247,28 @@ class Scanner {
       const double edge2 = face.edge.x * face.edge.x + face.edge.y * face.edge.y;
       within_limits_ &= face.area * face.area >= kSurelyFar_m * kSurelyFar_m * edge2;
     }
-    meet_faces();
+    if (are_all_around(n)) {
+      for (std::size_t i = 0; i < n; ++i)
+        end_at_face(faces_[i]);
+    } else {
+      std::fill_n(ranges_, kLidarRays, kInfinity);
+      meet_faces();
+    }
+  }
+
+  /// Other robots, RVRs.
+  template <class Next>
+  void meet_robots(int many, const Next& body) {
+    constexpr int kTogether = 32;
+    std::array<TwoRobots, kTogether / 2> seen;
+    for (int begin = 0; begin < many; begin += kTogether) {
+      const int end = std::min(begin + kTogether, many);
+      for (int i = begin; i < end; i += 2)
+        seen[static_cast<std::size_t>(i - begin) / 2] =
+            look_at(self_, body(i), body(std::min(i + 1, end - 1)));
+      for (int i = begin; i < end; ++i)
+        meet_robot(seen[static_cast<std::size_t>(i - begin) / 2], (i - begin) % 2, body(i));
+    }
   }
 
   void meet_solid(const Form& form, const Body& at) {
@@ -185,7 +289,7 @@ class Scanner {
     // Counter-clockwise corners: seen from outside, on the right.
     for (std::size_t i = 0; i < n; ++i)
       add_face(i + 1 < n ? i + 1 : 0, i);
-    if (seen_ != 2 || !meet_corner()) meet_faces();
+    meet_faces();
   }
 
   /// Whether all distances so far are surely within the lidar's limits.
@@ -245,52 +349,75 @@ class Scanner {
       meet_face(faces_[i]);
   }
 
-  /// Both faces that are seen, if they are neighbours and all three corners are surely between
-  /// rays; says whether it met them. In one go, since how many rays meet a face is what nobody can
-  /// guess. No ray is near a corner here, nor along a face, so that each ends within its face: the
-  /// farther corner, which is the bound elsewhere, is farther by 1e-10 of the distance at least,
-  /// and rounding is far below.
-  bool meet_corner() {
-    const bool in_order = faces_[0].second == faces_[1].first;
-    const Face& right = faces_[in_order ? 0 : 1];
-    const Face& left = faces_[in_order ? 1 : 0];
-    if (right.second != left.first) return false;
-    const Sweep on_right = corners_.quick_sweep(right.first, right.second);
-    const Sweep on_left = corners_.quick_sweep(left.first, left.second);
-    if (!corners_.is_sure(on_right, right.first, right.second) ||
-        !corners_.is_sure(on_left, left.first, left.second)) {
-      return false;
+  /// Whether each ray surely ends at one of the faces.
+  bool are_all_around(std::size_t faces) const {
+    if (faces != seen_) return false;
+    bool sure = true;
+    int rays = 0;
+    for (std::size_t i = 0; i < faces; ++i) {
+      const Sweep sweep = corners_.quick_sweep(faces_[i].first, faces_[i].second);
+      sure &= corners_.is_sure(sweep, faces_[i].first, faces_[i].second);
+      rays += floor_of(sweep.from + sweep.width) - floor_of(sweep.from);
     }
-    const double corner = on_right.from + on_right.width;
-    const Two right_x = both(right.edge.x);
-    const Two right_y = both(right.edge.y);
-    const Two right_area = both(right.area);
-    const Two left_x = both(left.edge.x);
-    const Two left_y = both(left.edge.y);
-    const Two left_area = both(left.area);
-    for_stretches(on_right.from, corner + on_left.width, [&](int first, int last, int shift) {
-      const Two border = both(corner + shift);
-      const auto meet = [&](Two ray, Two x, Two y, Two range) {
-        const auto is_right = ray < border;
+    return sure && rays == kLidarRays;
+  }
+
+  void end_at_face(const Face& face) {
+    const Sweep sweep = corners_.quick_sweep(face.first, face.second);
+    const Two edge_x = both(face.edge.x);
+    const Two edge_y = both(face.edge.y);
+    const Two area = both(face.area);
+    for_stretches(sweep.from, sweep.from + sweep.width, [&](int first, int last, int /*shift*/) {
+      int i = first;
+      for (; i < last; i += 2)
+        store_two(area / (load_two(x_ + i) * edge_y - load_two(y_ + i) * edge_x), ranges_ + i);
+      if (i == last) ranges_[i] = face.area / (x_[i] * face.edge.y - y_[i] * face.edge.x);
+    });
+  }
+
+  void meet_robot(const TwoRobots& two, int which, const Body& at) {
+    const double distance2 = distance2_of(self_, at);
+    constexpr double kNear = kCornerRadius_m + kSurelyFar_m;
+    constexpr double kFar = kSurelySeen_m - kCornerRadius_m;
+    within_limits_ &= distance2 >= kNear * kNear && distance2 <= kFar * kFar;
+    if (!two.sure[static_cast<std::size_t>(which)]) [[unlikely]]
+      return meet_solid(rvr_form(), at);
+    const Two right_x = both(two.right.edge_x[which]);
+    const Two right_y = both(two.right.edge_y[which]);
+    const Two right_area = both(two.right.area[which]);
+    const Two left_x = both(two.left.edge_x[which]);
+    const Two left_y = both(two.left.edge_y[which]);
+    const Two left_area = both(two.left.area[which]);
+    const auto meet = [&](int first, int last, double border) {
+      const auto meet_one = [&](Two before, Two x, Two y, Two range) {
+        const auto is_right = before > 0;
         const Two edge_x = is_right ? right_x : left_x;
         const Two edge_y = is_right ? right_y : left_y;
         const Two area = is_right ? right_area : left_area;
         return lesser(range, area / (x * edge_y - y * edge_x));
       };
       if (first == last) {
-        ranges_[last] = meet(both(last), both(x_[last]), both(y_[last]), both(ranges_[last]))[0];
+        ranges_[last] =
+            meet_one(both(border - last), both(x_[last]), both(y_[last]), both(ranges_[last]))[0];
         return;
       }
-      const auto meet_two = [&](int i) {
-        const Two ray = both(i) + Two{0, 1};
-        store_two(meet(ray, load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)),
+      const auto meet_two = [&](int i, Two before) {
+        store_two(meet_one(before, load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)),
                   ranges_ + i);
       };
-      for (int i = first; i < last - 1; i += 2)
-        meet_two(i);
-      meet_two(last - 1);
-    });
-    return true;
+      Two before = border - first - Two{0, 1};
+      for (int i = first; i < last - 1; i += 2, before -= 2.0)
+        meet_two(i, before);
+      meet_two(last - 1, border - (last - 1) - Two{0, 1});
+    };
+    const int first = two.first[static_cast<std::size_t>(which)];
+    const int last = two.last[static_cast<std::size_t>(which)];
+    if (last < kLidarRays) [[likely]] {
+      if (first <= last) meet(first, last, two.border[which]);
+    } else {
+      if (first < kLidarRays) meet(first, kLidarRays - 1, two.border[which]);
+      meet(std::max(first - kLidarRays, 0), last - kLidarRays, two.border[which] - kLidarRays);
+    }
   }
 
   /// Neighbouring faces end at the same place between two rays, so that no ray slips between them.
@@ -361,7 +488,13 @@ bool scan_surroundings(const World& world, int robot, std::span<double> ranges_m
   for (const FixedSolid& obstacle : world.obstacles()) {
     if (obstacle.form.height_m >= kLidarHeight_m) scanner.meet_solid(obstacle.form, obstacle.at);
   }
-  for (int mover = 0; mover < world.movers(); ++mover) {
+  int objects = 0;
+  if (world.form(robot).is_rvr) {
+    scanner.meet_robots(world.robots() - 1,
+                        [&](int i) -> const Body& { return world.body(i < robot ? i : i + 1); });
+    objects = world.robots();
+  }
+  for (int mover = objects; mover < world.movers(); ++mover) {
     if (mover == robot || world.form(mover).height_m < kLidarHeight_m) continue;
     scanner.meet_solid(world.form(mover), world.body(mover));
   }
@@ -369,6 +502,7 @@ bool scan_surroundings(const World& world, int robot, std::span<double> ranges_m
 }
 
 void scan_turrets(const World& world, int robot, std::span<double> ranges_m) {
+  std::fill(ranges_m.begin(), ranges_m.end(), kInfinity);
   Scanner scanner(world.body(robot), ranges_m);
   for (int other = 0; other < world.robots(); ++other) {
     if (other != robot) scanner.meet_circle(world.body(other), kTurretRadius_m);

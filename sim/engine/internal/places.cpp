@@ -14,7 +14,10 @@ Places::Places(std::size_t movers) {
   if (movers <= kFew) return;
   cell_.resize(movers);
   sorted_.resize(movers);
-  near_.resize(movers);
+  sorted_at_.resize(movers);
+  list_.resize(movers + 1);
+  end_.resize(movers);
+  later_.resize(movers);
 }
 
 void Places::update(std::span<const Mover> movers) {
@@ -23,8 +26,8 @@ void Places::update(std::span<const Mover> movers) {
   for (const Mover& mover : movers)
     made_at_.push_back({mover.body.x, mover.body.y});
   lay_grid(movers);
-  sort_into_cells(movers);
-  list_near(movers);
+  sort_into_cells();
+  list_near();
 }
 
 /// Not, with a place that is no number.
@@ -38,30 +41,49 @@ bool Places::is_valid(std::span<const Mover> movers) const {
   return valid;
 }
 
-void Places::sort_into_cells(std::span<const Mover> movers) {
+void Places::sort_into_cells() {
   begin_.assign(columns_ * rows_ + 1, 0);
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    cell_[i] = row_of(movers[i].body.y) * columns_ + column_of(movers[i].body.x);
+  for (std::size_t i = 0; i < made_at_.size(); ++i) {
+    cell_[i] = row_of(made_at_[i].y) * columns_ + column_of(made_at_[i].x);
     ++begin_[cell_[i]];
   }
   // From counts to ends; then the movers, last first, push the ends down to the beginnings.
   for (std::size_t cell = 1; cell < begin_.size(); ++cell)
     begin_[cell] += begin_[cell - 1];
-  for (std::size_t i = movers.size(); i-- > 0;)
-    sorted_[--begin_[cell_[i]]] = i;
+  for (std::size_t i = made_at_.size(); i-- > 0;) {
+    const std::size_t place = --begin_[cell_[i]];
+    sorted_[place] = i;
+    sorted_at_[place] = made_at_[i];
+  }
 }
 
-void Places::list_near(std::span<const Mover> movers) {
+void Places::list_near() {
   constexpr double kReach_m = kListed_m + kSkin_m + kSlack_m;
-  for (std::vector<int>& near : near_)
-    near.clear();
-  // Each mover is added to the lists of the others, which are ascending then without being sorted.
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    const Body& self = movers[i].body;
-    for_cells(self, kReach_m, [&](std::size_t other) {
-      const bool is_near = distance2_of(self, movers[other].body) <= kReach_m * kReach_m;
-      if (is_near && other != i) near_[other].push_back(static_cast<int>(i));
+  // Each is written, and counted where it is near: which are near nobody can guess.
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < made_at_.size(); ++i) {
+    list_[i] = count;
+    const Point self = made_at_[i];
+    for_cells(self, kReach_m, [&](std::size_t begin, std::size_t end) {
+      if (found_.size() < count + (end - begin)) found_.resize(2 * (count + (end - begin)));
+      for (std::size_t k = begin; k < end; ++k) {
+        const double dx = sorted_at_[k].x - self.x;
+        const double dy = sorted_at_[k].y - self.y;
+        found_[count] = sorted_[k];
+        count += static_cast<std::size_t>(dx * dx + dy * dy <= kReach_m * kReach_m) &
+                 static_cast<std::size_t>(sorted_[k] != i);
+      }
     });
+  }
+  list_.back() = count;
+  if (near_.size() < count) near_.resize(found_.size());
+  // Whom it has on its list has it on theirs. So each is added to the lists of the others, which
+  // are ascending then without being sorted.
+  std::copy(list_.begin(), list_.end() - 1, end_.begin());
+  for (std::size_t i = 0; i < made_at_.size(); ++i) {
+    later_[i] = end_[i];
+    for (std::size_t k = list_[i]; k < list_[i + 1]; ++k)
+      near_[end_[found_[k]]++] = i;
   }
 }
 

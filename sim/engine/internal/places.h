@@ -45,14 +45,17 @@ class Places {
       return;
     }
     if (radius_m <= kListed_m) {
-      for (const int other : near_[mover]) {
-        if (is_near(static_cast<std::size_t>(other))) visit(other);
+      const std::size_t end = list_[mover + 1];
+      for (std::size_t i = first > mover ? later_[mover] : list_[mover]; i < end; ++i) {
+        if (is_near(near_[i])) visit(static_cast<int>(near_[i]));
       }
       return;
     }
     room.clear();
-    for_cells(self, radius_m + kSkin_m, [&](std::size_t other) {
-      if (is_near(other)) room.push_back(static_cast<int>(other));
+    for_cells({self.x, self.y}, radius_m + kSkin_m, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (is_near(sorted_[i])) room.push_back(static_cast<int>(sorted_[i]));
+      }
     });
     std::sort(room.begin(), room.end());
     for (const int other : room)
@@ -84,17 +87,15 @@ class Places {
   static constexpr double kSkin_m = 0.3;
   static constexpr double kCell_m = 0.75;
 
-  /// All movers of the cells that a circle met when the grid was laid.
+  /// Calls take(begin, end) with what of `sorted_` is in the cells that a circle met when the grid
+  /// was laid, row by row.
   template <class Take>
-  void for_cells(const Body& self, double radius_m, const Take& take) const {
-    const std::size_t left = column_of(self.x - radius_m);
-    const std::size_t right = column_of(self.x + radius_m);
-    const std::size_t top = row_of(self.y + radius_m);
-    for (std::size_t row = row_of(self.y - radius_m); row <= top; ++row) {
-      const std::size_t end = begin_[row * columns_ + right + 1];
-      for (std::size_t i = begin_[row * columns_ + left]; i < end; ++i)
-        take(sorted_[i]);
-    }
+  void for_cells(const Point& centre, double radius_m, const Take& take) const {
+    const std::size_t left = column_of(centre.x - radius_m);
+    const std::size_t right = column_of(centre.x + radius_m);
+    const std::size_t top = row_of(centre.y + radius_m);
+    for (std::size_t row = row_of(centre.y - radius_m); row <= top; ++row)
+      take(begin_[row * columns_ + left], begin_[row * columns_ + right + 1]);
   }
 
   std::size_t column_of(double x) const { return cell_of((x - left_m_) / cell_m_, columns_); }
@@ -106,19 +107,24 @@ class Places {
   }
   bool is_valid(std::span<const Mover> movers) const;
   void lay_grid(std::span<const Mover> movers);
-  void sort_into_cells(std::span<const Mover> movers);
-  void list_near(std::span<const Mover> movers);
+  void sort_into_cells();
+  void list_near();
 
   double left_m_ = 0;
   double bottom_m_ = 0;
   double cell_m_ = kCell_m;
   std::size_t columns_ = 1;
   std::size_t rows_ = 1;
-  std::vector<std::size_t> cell_;       ///< of each mover
-  std::vector<std::size_t> begin_;      ///< of each cell in `sorted_`, and the end of the last
-  std::vector<std::size_t> sorted_;     ///< movers, cell by cell
-  std::vector<Point> made_at_;          ///< where each mover was then
-  std::vector<std::vector<int>> near_;  ///< each mover's list, ascending
+  std::vector<std::size_t> cell_;    ///< of each mover
+  std::vector<std::size_t> begin_;   ///< of each cell in `sorted_`, and the end of the last
+  std::vector<std::size_t> sorted_;  ///< movers, cell by cell
+  std::vector<Point> made_at_;       ///< where each mover was then
+  std::vector<Point> sorted_at_;     ///< the same, cell by cell
+  std::vector<std::size_t> found_;   ///< the lists, each in the order of cells
+  std::vector<std::size_t> near_;    ///< the lists, one behind the other, each ascending
+  std::vector<std::size_t> list_;    ///< where in them that of each mover begins; the end of all
+  std::vector<std::size_t> end_;     ///< and where it ends so far
+  std::vector<std::size_t> later_;   ///< and where in that those behind itself begin
 };
 
 }  // namespace swarmsmith

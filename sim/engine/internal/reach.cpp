@@ -24,7 +24,7 @@ Reach::Reach(const Surroundings& surroundings, std::size_t movers, double larges
     : surroundings_(&surroundings),
       largest_radius_m_(largest_radius_m),
       parent_(movers),
-      size_(movers),
+      in_group_(movers),
       island_(movers),
       margin_m_(movers),
       speed_mps_(movers),
@@ -76,6 +76,9 @@ bool Reach::any_obstacle_near(const Swarm& swarm, double span_s) const {
 }
 
 void Reach::bound_motion(const Swarm& swarm, double span_s) {
+  for (const std::size_t i : grouped_)
+    in_group_[i] = 0;
+  grouped_.clear();
   for (std::size_t i = 0; i < parent_.size(); ++i) {
     const Mover& mover = swarm.movers[i];
     parent_[i] = i;
@@ -113,26 +116,30 @@ bool Reach::may_touch(const Swarm& swarm, const Pair& pair) const {
 }
 
 bool Reach::join_pairs(const Swarm& swarm) {
+  const bool anew = grouped_.empty();
   bool joined = false;
   for (const Pair& pair : near_) {
+    // Whom no group has made faster reaches what it did in the round before.
+    if (!anew && !in_group_[pair.a] && !in_group_[pair.b]) continue;
     const std::size_t a = root(pair.a);
     const std::size_t b = root(pair.b);
     if (a == b || !may_touch(swarm, pair)) continue;
     parent_[std::max(a, b)] = std::min(a, b);
+    for (const std::size_t i : {pair.a, pair.b}) {
+      if (!in_group_[i]) grouped_.push_back(i);
+      in_group_[i] = 1;
+    }
     joined = true;
   }
   return joined;
 }
 
 void Reach::widen_groups(double span_s) {
-  std::fill(size_.begin(), size_.end(), 0);
-  for (std::size_t i = 0; i < parent_.size(); ++i) {
+  for (const std::size_t i : grouped_) {
     parent_[i] = root(i);
-    ++size_[parent_[i]];
     speed_mps_[parent_[i]] = std::max(speed_mps_[parent_[i]], speed_mps_[i]);
   }
-  for (std::size_t i = 0; i < parent_.size(); ++i) {
-    if (size_[parent_[i]] < 2) continue;
+  for (const std::size_t i : grouped_) {
     speed_mps_[i] = speed_mps_[parent_[i]];
     margin_m_[i] = kPushed * speed_mps_[i] * span_s + kRounding_m;
   }
@@ -173,9 +180,6 @@ void Reach::add_surroundings(const Swarm& swarm, std::size_t mover, Island& isla
 }
 
 void Reach::gather(const Swarm& swarm) {
-  std::fill(size_.begin(), size_.end(), 0);
-  for (std::size_t i = 0; i < parent_.size(); ++i)
-    ++size_[root(i)];
   for (std::size_t i = 0; i < parent_.size(); ++i) {
     const std::size_t group = root(i);
     if (group == i) {
@@ -188,12 +192,13 @@ void Reach::gather(const Swarm& swarm) {
     }
     Island& island = islands_[island_[group]];
     add_surroundings(swarm, i, island);
-    if (size_[group] < 2 && island.walls.empty() && island.obstacles.empty()) continue;
+    if (!in_group_[i] && island.walls.empty() && island.obstacles.empty()) continue;
     island.movers.push_back(static_cast<int>(i));
     in_island_[i] = 1;
     if (group == i) ++count_;
   }
   for (const Pair& pair : near_) {
+    if (!in_group_[pair.a] || !in_group_[pair.b]) continue;
     const std::size_t group = root(pair.a);
     if (group == root(pair.b) && may_touch(swarm, pair)) {
       islands_[island_[group]].pairs.push_back(

@@ -56,13 +56,14 @@ class Reach {
 
   const Surroundings* surroundings_;
   double largest_radius_m_;
-  std::vector<Pair> near_;           ///< pairs that may touch even when pushed
-  std::vector<int> room_;            ///< for numbers of movers
-  std::vector<std::size_t> parent_;  ///< union-find; the root is the first of its group
-  std::vector<std::size_t> size_;    ///< of a root's group
-  std::vector<std::size_t> island_;  ///< of a root's group
-  std::vector<double> margin_m_;     ///< how far any point of the body can get
-  std::vector<double> speed_mps_;    ///< how fast any point of the body can be
+  std::vector<Pair> near_;            ///< pairs that may touch even when pushed
+  std::vector<int> room_;             ///< for numbers of movers
+  std::vector<std::size_t> parent_;   ///< union-find; the root is the first of its group
+  std::vector<std::size_t> grouped_;  ///< movers that were joined to another
+  std::vector<char> in_group_;        ///< the same, for each mover
+  std::vector<std::size_t> island_;   ///< of a root's group
+  std::vector<double> margin_m_;      ///< how far any point of the body can get
+  std::vector<double> speed_mps_;     ///< how fast any point of the body can be
   std::vector<char> in_island_;
   std::vector<Island> islands_;
   std::size_t count_ = 0;

@@ -29,7 +29,7 @@ inline constexpr double kGroundSensorAhead_m = 0.05;
 /// Noise is counter-based: a reading's is a function of seed, robot, sensor, cycle and channel, so
 /// that what is asked for, and when, changes no other reading (decided so that a machine that
 /// ignores a sensor for a while meets the same noise as one that does not).
-class RobotSenses final : public Senses {
+class RobotSenses final : public SimulatedSenses {
  public:
   /// The robot stands at its start. World, arena and profile must outlive the object.
   RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
@@ -58,11 +58,7 @@ class RobotSenses final : public Senses {
   const LightReadings& light() override;
   double time_s() override { return cycle_.time_s; }
 
-  /// The sensors' readings of this cycle; what control asked for is not read again.
-  ///
-  /// The accelerometer and the gyroscope compare with their reading before: ask for them in every
-  /// cycle or in none.
-  const Readings& read(Sensors sensors);
+  const Readings& read(Sensors sensors) override;
 
   /// What was computed in this cycle so far.
   Sensors computed() const { return computed_; }

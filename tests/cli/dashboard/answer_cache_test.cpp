@@ -10,8 +10,10 @@
 namespace swarmsmith::cli {
 namespace {
 
-using std::chrono::hours;
-using std::chrono::milliseconds;
+using Time = AnswerCache::Clock::time_point;
+/// Any answer is young enough, or none that there is.
+constexpr Time kAny = Time::min();
+constexpr Time kNone = Time::max();
 
 KeptAnswer of(const std::string& bytes) {
   KeptAnswer answer;
@@ -20,11 +22,11 @@ KeptAnswer of(const std::string& bytes) {
 }
 
 std::string get(AnswerCache& cache, const std::string& question, const std::string& stamp,
-                const KeptAnswer& fresh, milliseconds young = milliseconds(0)) {
+                const KeptAnswer& fresh, Time oldest = kNone) {
   bool shared = false;
   return cache
       .get(
-          question, stamp, young, [&] { return fresh; }, shared)
+          question, stamp, oldest, [&] { return fresh; }, shared)
       ->packed;
 }
 
@@ -39,14 +41,14 @@ TEST(AnswerCacheTest, AnswersOfTheSameStampAreKept) {
 
 TEST(AnswerCacheTest, YoungAndFinalAnswersAreKept) {
   AnswerCache cache(1 << 20);
-  EXPECT_EQ(get(cache, "live", "", of("a"), hours(1)), "a");
-  EXPECT_EQ(get(cache, "live", "", of("b"), hours(1)), "a");
+  EXPECT_EQ(get(cache, "live", "", of("a"), kAny), "a");
+  EXPECT_EQ(get(cache, "live", "", of("b"), kAny), "a");
   KeptAnswer last = of("over");
   last.is_final = true;
   EXPECT_EQ(get(cache, "race 3", "1", last), "over");
   EXPECT_EQ(get(cache, "race 3", "2", of("b")), "over");
   cache.forget();
-  EXPECT_EQ(get(cache, "live", "", of("b"), hours(1)), "b");
+  EXPECT_EQ(get(cache, "live", "", of("b"), kAny), "b");
   EXPECT_EQ(get(cache, "race 3", "3", of("b")), "over");
 }
 
@@ -54,8 +56,8 @@ TEST(AnswerCacheTest, ErrorsAreNotKept) {
   AnswerCache cache(1 << 20);
   KeptAnswer error = of("no");
   error.is_good = false;
-  EXPECT_EQ(get(cache, "race", "1", error, hours(1)), "no");
-  EXPECT_EQ(get(cache, "race", "1", of("yes"), hours(1)), "yes");
+  EXPECT_EQ(get(cache, "race", "1", error, kAny), "no");
+  EXPECT_EQ(get(cache, "race", "1", of("yes"), kAny), "yes");
 }
 
 TEST(AnswerCacheTest, WhatWasNotAskedForGoesFirst) {
@@ -83,7 +85,7 @@ TEST(AnswerCacheTest, EqualQuestionsShareOneComputation) {
       others.count_down();
     }
     const auto answer = cache.get(
-        "race", "", hours(1),
+        "race", "", kAny,
         [&] {
           ++made;
           begun.count_down();
@@ -102,6 +104,23 @@ TEST(AnswerCacheTest, EqualQuestionsShareOneComputation) {
   askers.clear();
   EXPECT_EQ(made, 1);
   EXPECT_EQ(shared_by, kAskers - 1);
+}
+
+TEST(AnswerCacheTest, AnswersThatBeganTooEarlyAreNotShared) {
+  AnswerCache cache(1 << 20);
+  std::string inner;
+  const auto before = AnswerCache::Clock::now();
+  bool shared = false;
+  cache.get(
+      "race", "", kNone,
+      [&] {
+        inner = get(cache, "race", "", of("newer"), kNone);
+        return of("older");
+      },
+      shared);
+  EXPECT_EQ(inner, "newer") << "it asked after something had been told";
+  EXPECT_EQ(get(cache, "race", "", of("other"), before), "newer");
+  EXPECT_EQ(get(cache, "race", "", of("newest"), AnswerCache::Clock::now()), "newest");
 }
 
 TEST(TurnstileTest, SomePassSomeWaitOthersAreTurnedAway) {

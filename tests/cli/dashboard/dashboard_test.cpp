@@ -126,6 +126,14 @@ TEST_F(DashboardTest, NoPathIsAFile) {
   }
 }
 
+TEST_F(DashboardTest, AStatementIsNotCutAtAZeroByte) {
+  serve();
+  const std::string answer = get("/api/v1/c1/query?sql=SELECT%201%00%20FROM%20nothing");
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(answer, HasSubstr("zero byte"));
+  EXPECT_THAT(get("/api/v1/c1/scores?design=d1%00"), StartsWith("HTTP/1.1 400"));
+}
+
 TEST_F(DashboardTest, AnUnchangedAnswerIsNotSentAgain) {
   serve();
   const std::string path = "/api/v1/c1/designs/d1";

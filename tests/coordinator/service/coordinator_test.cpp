@@ -162,6 +162,24 @@ TEST_F(Coordinators, CountResultsOfAnotherCampaign) {
   EXPECT_EQ(coordinator.malformed().at("campaign"), 1U);
 }
 
+TEST_F(Coordinators, ReadTheLastWordsOfAPeerThatHasGoneBeforeTheyJudge) {
+  hello(1);
+  hello(2);
+  const std::size_t leased = coordinator.scheduler().leases().leased();
+  ASSERT_GT(leased, 0U);
+  coordinator.on_unreachable({1, "", {}});
+  coordinator.on_unreachable({2, "", {}});
+  EXPECT_TRUE(coordinator.has_unreachable());
+  pb::ToCoordinator goodbye;
+  goodbye.mutable_goodbye();
+  say(goodbye, 1);
+  EXPECT_EQ(coordinator.scheduler().counters().lost_workers, 0U);
+  coordinator.on_all_read(now);
+  EXPECT_FALSE(coordinator.has_unreachable());
+  EXPECT_EQ(coordinator.scheduler().counters().lost_workers, 1U);
+  EXPECT_EQ(coordinator.scheduler().leases().leased(), 0U);
+}
+
 pb::ToCoordinator command(pb::Command::Kind kind, std::int64_t design) {
   pb::ToCoordinator message;
   message.mutable_command()->set_kind(kind);

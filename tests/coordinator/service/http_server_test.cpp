@@ -62,6 +62,31 @@ TEST(HttpServerTest, AnAddressOfAnotherHostIsSaidToBeThat) {
   EXPECT_EQ(server.error().kind, ErrorKind::BadInput);
 }
 
+TEST(HttpServerTest, OtherNamesOfTheHostAreRefusedWithTheWayOut) {
+  const auto server = HttpServer::start(on_loopback()).value();
+  const std::string answer = HttpPeer(port_of(*server))
+                                 .say("GET /healthz HTTP/1.1\r\nHost: lab.example.org\r\n\r\n")
+                                 .hear();
+  // The door answers /healthz itself, after the same checks.
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 421"));
+  EXPECT_THAT(answer, HasSubstr("the Host header names another host"));
+  EXPECT_THAT(answer, HasSubstr("--http-name"));
+}
+
+TEST(HttpServerTest, NamesThatWereGivenCountWhateverTheirCase) {
+  HttpOptions options = on_loopback();
+  options.names = {"Lab.Example.org"};
+  const auto server = HttpServer::start(options).value();
+  for (const char* host : {"lab.example.org", "LAB.example.ORG:8443", "Lab.Example.org"}) {
+    const std::string request = std::string("GET /healthz HTTP/1.1\r\nHost: ") + host + "\r\n\r\n";
+    EXPECT_THAT(HttpPeer(port_of(*server)).say(request).hear(), EndsWith("ok\n")) << host;
+  }
+  EXPECT_THAT(HttpPeer(port_of(*server))
+                  .say("GET /healthz HTTP/1.1\r\nHost: lab.example.org.evil.example\r\n\r\n")
+                  .hear(),
+              StartsWith("HTTP/1.1 421"));
+}
+
 TEST(HttpServerTest, RangesMultiplyNoAnswer) {
   const auto server = HttpServer::start(on_loopback()).value();
   server->publish(large_status());

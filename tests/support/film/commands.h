@@ -44,7 +44,12 @@ struct FilmWish {
   bool sidecar = true;
   bool measured_layout = false;        ///< the log names no patches
   std::vector<int> hidden_references;  ///< floor tags that something lies on
-  double second_ahead_s = 0.37;        ///< clock of the second camera minus the first's
+  bool robot_logs = false;             ///< each robot writes a log of what it commanded
+  /// Somebody else's sidecar with `clock_s`, which says when frames are taken, and the run's start
+  /// on that clock. Then neither sidecar nor run log is written.
+  std::string camera_clock;
+  double start_clock_s = 0;
+  double second_ahead_s = 0.37;  ///< clock of the second camera minus the first's
 };
 
 /// As JSON, in truth.json under "wish", and back from that file's text.

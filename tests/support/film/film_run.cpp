@@ -4,7 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/text/sha256.h"
 #include "base/text/toml_text.h"
+#include "base/text/whole_file.h"
+#include "robot/log/log_file.h"
+#include "robot/log/log_text.h"
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/mission/trajectory_csv.h"
@@ -65,6 +69,11 @@ std::string log_toml(const Lab& lab, const RecordedRun& run, const FilmWish& wis
       text += fmt::format("times = {}\n", quoted_text(sidecar_of(clips[i]).string()));
     if (i > 0) text += fmt::format("ahead = \"{} s\"\n", number_text(wish.second_ahead_s));
   }
+  for (std::size_t i = 0; wish.robot_logs && i < run.poses.size(); ++i) {
+    const std::string& robot = lab.robots.at(i).name;
+    text += fmt::format("\n[[robot]]\nname = {}\nlog = {}\n", quoted_text(robot),
+                        quoted_text(log_files_of("", name, robot).rows.string()));
+  }
   if (wish.measured_layout) return text;
   for (const Patch& patch : run.instance.patches) {
     const Point centre = std::get<Rectangle>(patch.shape).centre;
@@ -72,6 +81,42 @@ std::string log_toml(const Lab& lab, const RecordedRun& run, const FilmWish& wis
                         number_text(centre.y), quoted_text(color_text(patch.color)));
   }
   return text;
+}
+
+/// What the robot's node would have written, with a clock of its own.
+void write_robot_log(const RecordedRun& run, std::size_t robot, const std::string& run_name,
+                     const std::string& name, const std::filesystem::path& folder) {
+  constexpr double kBegin_s = 7000.125;
+  const LogFiles files = log_files_of(folder, run_name, name);
+  std::string rows = log_columns();
+  for (std::size_t i = 0; i < run.decided[robot].size(); ++i) {
+    const RobotRecord& decided = run.decided[robot][i];
+    LogRow row;
+    row.cycle = static_cast<std::int64_t>(i) + 1;
+    row.sensed.time_s = static_cast<double>(row.cycle) * kControlPeriod_s;
+    row.clock_s = kBegin_s + row.sensed.time_s + 0.0002;
+    row.late_ms = 0.2;
+    row.state = decided.state;
+    row.command = decided.command;
+    row.age_ms[0] = 12.5;
+    rows += log_line(row);
+  }
+  write_text(files.rows, rows);
+  LogHead head{.run = run_name,
+               .robot = name,
+               .robot_index = static_cast<std::int64_t>(robot),
+               .machine = run.machine,
+               .machine_digest = sha256_of(run.machine).substr(0, 32),
+               .flavour = run.flavour,
+               .turn_clock = "cycles",
+               .seconds = run.mission.cycles * kControlPeriod_s,
+               .max_mps = 0.35,
+               .program = "film",
+               .host = "film",
+               .scheduling = "none"};
+  head.start_clock_s = kBegin_s;
+  head.end = RunEnd{.state = "ended", .stepped = run.mission.cycles};
+  write_text(files.head, log_head_text(head));
 }
 
 std::string trajectory_csv(const RecordedRun& run) {
@@ -85,6 +130,12 @@ std::string trajectory_csv(const RecordedRun& run) {
     }
   }
   return text;
+}
+
+std::string text_of_file(const std::string& file) {
+  auto text = read_file(file, "frame times");
+  if (!text) throw std::runtime_error(to_string(text.error()));
+  return std::move(*text);
 }
 
 std::string truth_csv(const Scene& scene, const std::vector<ShotFrame>& frames) {
@@ -139,9 +190,12 @@ std::string film_run(const LabWish& lab_wish, const FilmWish& wish, const std::s
     schedule.clock_ahead_s = wish.before_s + (i == 0 ? 0 : wish.second_ahead_s);
     const Scene scene = scene_of(lab, run, wish);
     const Rng rng = Rng(seed).split("frames of " + seen_by.name);
-    const std::vector<ShotFrame> frames = frames_of(schedule, rng);
+    const bool is_told = !wish.camera_clock.empty();
+    const std::vector<ShotFrame> frames =
+        is_told ? frames_of_clock(text_of_file(wish.camera_clock), wish.start_clock_s)
+                : frames_of(schedule, rng);
     const VirtualCamera camera(scene, shooting, seed + i);
-    write_clip(camera, frames, file, lab_wish.form, wish.rate_hz, wish.sidecar);
+    write_clip(camera, frames, file, lab_wish.form, wish.rate_hz, wish.sidecar && !is_told);
     if (i == 0) write_text(beside(".truth.csv"), truth_csv(scene, frames));
   }
 
@@ -150,9 +204,14 @@ std::string film_run(const LabWish& lab_wish, const FilmWish& wish, const std::s
     mission = stem.filename().string() + ".mission.toml";
     write_text(beside(".mission.toml"), mission_text({run.mission, 100}));
   }
-  write_text(beside(".toml"), log_toml(lab, run, wish, stem.filename().string(), mission, clips));
+  const std::string run_name = stem.filename().string();
+  if (wish.camera_clock.empty())
+    write_text(beside(".toml"), log_toml(lab, run, wish, run_name, mission, clips));
+  for (std::size_t i = 0; wish.robot_logs && i < run.decided.size(); ++i)
+    write_robot_log(run, i, run_name, lab.robots.at(i).name, stem.parent_path());
   write_text(beside(".trajectory.csv"), trajectory_csv(run));
   nlohmann::json truth = {{"mission", run.mission.name}, {"score", run.score}};
+  truth["latency_s"] = run.latency_s ? nlohmann::json(*run.latency_s) : nlohmann::json(nullptr);
   for (std::size_t i = 0; i < run.poses.size(); ++i)
     truth["borders"].push_back(distance_to_change(run, i));
   write_text(beside(".truth.json"), truth.dump() + "\n");

@@ -94,7 +94,14 @@ int run(int argc, char** argv) {
   run_app->add_option("NAME", name, "path of the files, without an ending")->required();
   run_app->add_option("--lab", lab_folder, "folder of `film lab`")->required();
   run_app->add_option("--mission", film.run.mission);
-  run_app->add_option("--machine", film.run.machine, "text, or a design of --designs")->required();
+  run_app->add_option("--machine", film.run.machine, "text, or a design of --designs");
+  run_app->add_option("--trajectory", film.run.trajectory, "a recorded one, in place of --machine");
+  double latency_ms = 0;
+  run_app->add_option("--latency-ms", latency_ms, "from command to treads");
+  run_app->add_flag("--robot-logs", film.robot_logs, "what robots would have written");
+  run_app->add_option("--camera-clock", film.camera_clock,
+                      "a sidecar with clock_s: when frames are taken");
+  run_app->add_option("--start-clock", film.start_clock_s, "the start of the run on that clock");
   run_app->add_option("--designs", designs, "CSV of machines");
   run_app->add_option("--flavour", film.run.flavour);
   run_app->add_option("--profile", film.run.profile);
@@ -147,6 +154,7 @@ int run(int argc, char** argv) {
   if (run_app->count("--fps") == 0) film.rate_hz = there.rate_hz;
   film.sidecar = !no_sidecar;
   film.faults.jitter_s = jitter_ms / 1000;
+  film.run.latency_s = latency_ms / 1000;
   if (seconds > 0) film.run.seconds = seconds;
   for (const std::string& word : arms) {
     const auto n = numbers_of(word, 3);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "sim/engine/simulate.h"
 #include "sim/mission/mission.h"
 #include "sim/mission/trajectory.h"
 
@@ -20,6 +21,12 @@ struct RecordedRun {
   /// A robot's poses from the start on, some cycles beyond the mission's end, since real robots do
   /// not freeze there.
   std::vector<std::vector<Pose>> poses;
+  /// What ran; empty of a run that somebody else recorded.
+  std::string machine;
+  std::string flavour;
+  std::optional<double> latency_s;  ///< from command to treads; none when it varies
+  /// A robot's commands and states, decided at cycle 1, 2, ...; none of a recorded run.
+  std::vector<std::vector<RobotRecord>> decided;
 };
 
 struct RunWish {
@@ -29,6 +36,11 @@ struct RunWish {
   std::string profile = "rvr";
   std::int64_t seed = 1;
   std::optional<double> seconds;  ///< instead of the mission's duration
+  /// From each command to the treads, at a steady control period; 0: timing as the profile has it.
+  double latency_s = 0;
+  /// A trajectory that somebody else recorded, as CSV, in place of machine and profile; the seed is
+  /// that of its patches.
+  std::string trajectory;
 };
 
 /// `designs` is the CSV of the thesis' machines (tests/golden/argos/argos-thesis-designs.csv).

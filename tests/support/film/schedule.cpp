@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
+
+#include "base/text/csv.h"
 
 namespace swarmsmith::film {
 
@@ -35,6 +38,20 @@ std::vector<ShotFrame> frames_of(const Schedule& schedule, Rng rng) {
       frame.picture = frames.back().picture;
     }
     frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::vector<ShotFrame> frames_of_clock(const std::string& sidecar, double start_clock_s) {
+  const auto table = parse_csv(sidecar, "frame times");
+  if (!table) throw std::runtime_error(to_string(table.error().front()));
+  std::vector<ShotFrame> frames;
+  for (const CsvRow& row : table->rows) {
+    const auto clock_s = number_in(cell_of(*table, row, "clock_s"));
+    const auto stamp_s = number_in(cell_of(*table, row, "time_s"));
+    if (!clock_s || !stamp_s) throw std::runtime_error(table->place(row) + ": no time");
+    frames.push_back(
+        {*clock_s - start_clock_s, *stamp_s, static_cast<std::int64_t>(frames.size())});
   }
   return frames;
 }

@@ -19,6 +19,7 @@ MISSIONS = (("aggregation", "tA"), ("grid_exploration", "tG"), ("color_selection
 
 # Targets: docs/tracking.md, accuracy.
 RMS_MM, WORST_MM, HEADING_DEG = 2.0, 5.0, 0.5
+LATENCY_MS = 20
 SURVEY_RMS_MM, SURVEY_WORST_MM = 5.0, 8.0  # with a survey of 1 mm
 # A lab, what it is made with, and the faults of runs in it, in turn.
 LABS = {
@@ -60,7 +61,12 @@ def plan_of_long(count):
         # H.264 and MJPEG by turns.
         form = "mjpg" if number % 2 else "h264"
         yield (lab, name, ("--mission", mission, "--machine", machine, "--seed", str(100 + number),
-                           "--form", form, *faults))
+                           "--form", form, "--robot-logs", *latency_of(number, faults), *faults))
+
+
+def latency_of(number, faults):
+    """One that the camera must find; of pseudo-reality it varies."""
+    return () if "pseudo-reality" in faults else ("--latency-ms", str((0, 60, 200)[number % 3]))
 
 
 def plan_of_short():
@@ -68,21 +74,24 @@ def plan_of_short():
         profile = "pseudo-reality" if number == 1 else "rvr"
         yield ("good", "20 s", ("--mission", mission, "--machine", f"{designs}5", "--seed",
                                 str(7 + number), "--seconds", "20", "--profile", profile,
+                                "--robot-logs", "--latency-ms", str((0, 60, 200)[number]),
                                 "--form", "h264" if number == 0 else "mjpg"))
 
 
 class Table:
     HEAD = ("| run | mission | what | score | true | centre RMS, max mm | heading RMS deg "
-            "| measured % | verdict |\n|---|---|---|---|---|---|---|---|---|\n")
+            "| latency off, ms | measured % | verdict |\n|---|---|---|---|---|---|---|---|---|---|\n")
 
     def __init__(self):
         self.rows = []
 
     def add(self, name, what, seen):
+        off_ms = seen.latency_ms()
+        latency = "-" if off_ms is None else f"{off_ms:+.1f}"
         close = " (too close to call)" if not seen.is_grid() and seen.too_close() else ""
         row = (f"| {name} | {seen.truth['mission']} | {what} | {seen.score:g} "
                f"| {seen.truth['score']:g}{close} | {seen.rms_mm:.2f}, {seen.worst_mm:.2f} "
-               f"| {seen.heading_deg:.2f} | {100 * seen.found:.1f} | {seen.verdict} |")
+               f"| {seen.heading_deg:.2f} | {latency} | {100 * seen.found:.1f} | {seen.verdict} |")
         self.rows.append(row)
         print(row, flush=True)
 
@@ -100,6 +109,11 @@ def failures_of(name, seen, what):
                f"heading RMS {seen.heading_deg:.2f} deg, at most {HEADING_DEG:g}"),
               (seen.score_is_right(), f"score {seen.score:g}, true is {seen.truth['score']:g}, "
                                       f"borders {seen.truth['borders']}"),
+              (abs(seen.latency_ms() or 0) <= LATENCY_MS,
+               f"latencies {seen.latencies}, true is {seen.truth['latency_s']}"),
+              (len(seen.latencies) == len(seen.truth["borders"]), f"logs of {len(seen.latencies)} robots"),
+              (all(found is not None or reason for _, found, _, reason in seen.latencies),
+               f"a latency is missing without a reason: {seen.latencies}"),
               (seen.verdict != "INVALID", f"is INVALID: {seen.reasons}"))
     return [f"{name}: {text}" for good, text in checks if not good]
 

@@ -141,6 +141,9 @@ class Outcome:
             self.reasons = base.execute(
                 "SELECT reasons FROM v_real_scores WHERE id = ? ORDER BY scoring DESC LIMIT 1",
                 (self.id,)).fetchone()[0]
+            self.latencies = base.execute(
+                "SELECT name, latency_s, latency_error_s, latency_reason FROM v_real_logs WHERE id = ? ORDER BY robot",
+                (self.id,)).fetchall()
         self.truth = truth
         true_poses = trajectory_of(trajectory)
         squares = turns = 0.0
@@ -163,6 +166,13 @@ class Outcome:
         """Relative to the truth, where scores are continuous; else the difference."""
         difference = self.score - self.truth["score"]
         return difference / abs(self.truth["score"]) if self.is_grid() else difference
+
+    def latency_ms(self):
+        """The worst difference of a robot's latency from the truth; none where it cannot be told, or varies."""
+        if self.truth["latency_s"] is None:
+            return None
+        off = [1000 * (found - self.truth["latency_s"]) for _, found, _, _ in self.latencies if found is not None]
+        return max(off, key=abs) if off else None
 
     def too_close(self):
         """Robots whose true end is so near to another score that nobody could tell."""

@@ -51,6 +51,37 @@ TEST(QualityTest, JsonSaysHowCameraAndFloorTagsFared) {
   EXPECT_EQ(camera["shift_px"], 0.25);
 }
 
+TEST(QualityTest, SaysWhatRobotsWroteDownAndHowLateTheyMoved) {
+  const MadeUpRun run;
+  const Json robots = Json::parse(quality_json(run.reported()))["robots"];
+  EXPECT_EQ(robots[0]["log"]["verdict"], "VALID");
+  EXPECT_EQ(robots[0]["log"]["stepped"], 600);
+  EXPECT_EQ(robots[0]["log"]["late_median_ms"], 1.5);
+  EXPECT_EQ(robots[0]["log"]["late_most_ms"], 2.5);
+  EXPECT_EQ(robots[0]["log"]["clock_offset_s"], -0.0035);
+  EXPECT_EQ(robots[0]["latency"]["seconds"], 0.0625);
+  EXPECT_TRUE(robots[1]["log"]["verdict"].is_null());
+  EXPECT_EQ(robots[1]["log"]["skipped"], 1);
+  EXPECT_TRUE(robots[1]["latency"]["seconds"].is_null());
+  EXPECT_EQ(robots[1]["latency"]["reason"], "its commands did not move it");
+  EXPECT_TRUE(robots[2]["log"].is_null());
+  EXPECT_TRUE(robots[2]["latency"].is_null());
+  const std::string page = quality_html(run.reported());
+  EXPECT_EQ(xml_trouble(page), "");
+  for (const char* said : {"62 +- 0.5", "cannot be told: its commands did not move it", "1.5, 2.5",
+                           "-3.5", "none: it was killed", "SCHED_FIFO 20"})
+    EXPECT_THAT(page, HasSubstr(said));
+}
+
+TEST(QualityTest, ARunWithoutLogsSpeaksOfNone) {
+  MadeUpRun run;
+  run.observations.logs.clear();
+  run.scored.latencies.clear();
+  EXPECT_THAT(quality_html(run.reported()), Not(HasSubstr("SCHED_FIFO")));
+  EXPECT_THAT(quality_html(run.reported()), Not(HasSubstr("Latency")));
+  EXPECT_TRUE(Json::parse(quality_json(run.reported()))["robots"][0]["latency"].is_null());
+}
+
 TEST(QualityTest, AnOverrideCountsAboveTheVerdict) {
   MadeUpRun run;
   run.overrides = {{Verdict::Valid, "A. Person", "seen on the film"}};

@@ -139,6 +139,24 @@ MadeUpRun::MadeUpRun() : rig(rig_of()) {
   tracked.frame_rate_least = 14.5;
   tracked.frame_rate_median = 30;
   tracked.frame_rate_most = 31;
+  // The second robot's node was killed; the third has no log.
+  for (const int robot : {1, 2}) {
+    const std::string name = "rvr" + std::to_string(robot);
+    RobotLog& own =
+        observations.logs.emplace_back(RobotLog{name, "run07." + name + ".log.csv", {}});
+    own.record.head.scheduling = "SCHED_FIFO 20";
+    for (int cycle = 1; cycle <= 10; ++cycle) {
+      if (robot == 2 && cycle == 4) continue;
+      LogRow& row = own.record.rows.emplace_back();
+      row.cycle = cycle;
+      row.late_ms = 0.25 * cycle;
+    }
+  }
+  observations.logs[0].record.head.clock_offset_s = -0.0035;
+  observations.logs[0].record.head.end =
+      RunEnd{.state = "ended", .verdict = RunVerdict::Valid, .stepped = 600};
+  scored.latencies = {Latency{.seconds = 0.0625, .error_s = 0.0005, .agreement = 0.97},
+                      Latency{.reason = "its commands did not move it"}, std::nullopt};
   scored.score = 2;
   scored.verdict = Verdict::Degraded;
   scored.reasons = {"rvr2 was bridged for 0.83 s from 30.0 s on <its tag was covered>"};

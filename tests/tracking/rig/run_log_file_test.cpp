@@ -66,6 +66,11 @@ TEST(RunLogFile, ReadsBackToTheSameBits) {
                  .middle = {0.1, 7},
                  .heading_deg = -33.3,
                  .who = "B"}};
+  log.notes = {{"rvr1", "run07.rvr1.log.csv", Verdict::Valid, {}},
+               {"rvr2", "", Verdict::Invalid, {"proximity: silent for 1.2 s", "2 \"late\""}},
+               {"rvr3", "logs/run07.rvr3.toml", std::nullopt, {}}};
+  log.start.sync_tag = 99;
+  log.start.sync = RunStart::Sync::Hidden;
   RunLog synced = log;
   synced.start = {std::nullopt, 99, RunStart::Sync::Shown};
   synced.robots = {"rvr1", "rvr \"3\""};
@@ -118,7 +123,6 @@ color = "gren"
           AllOf(HasSubstr("run.toml:4:10: E_CONFIG: `design`"), HasSubstr("\"best\"")),
           HasSubstr("run.toml:5:10: E_CONFIG: `source`"),
           AllOf(HasSubstr("run.toml:6:9: E_CONFIG: `start` must be from")),
-          HasSubstr("run.toml:7:8: E_CONFIG: `start` and `sync`"),
           AllOf(HasSubstr("run.toml:7:16: E_CONFIG: `tag` must be from 0"), HasSubstr("-1")),
           AllOf(HasSubstr("E_CONFIG: `when` cannot be \"gone\""), HasSubstr("hidden, shown")),
           AllOf(HasSubstr("E_CONFIG: `layout` cannot be \"guessed\""), HasSubstr("measured")),
@@ -127,6 +131,35 @@ color = "gren"
           HasSubstr("E_CONFIG: `ahead` must be a text"),
           AllOf(HasSubstr("E_CONFIG: `x` must be from -100 to 100, this is nan")),
           AllOf(HasSubstr("E_CONFIG: there is no colour \"gren\""), HasSubstr("green"))));
+}
+
+TEST(RunLogFile, HasANoteOfEachRobotAndACheckOfTheStart) {
+  const auto log = parse_run_log(R"(format = 1
+robots = ["rvr1", "rvr2"]
+start = "12.4 s"
+sync = { tag = 99, when = "hidden" }
+[[robot]]
+name = "rvr1"
+log = "run07.rvr1.log.csv"
+[[robot]]
+name = "rvr2"
+verdict = "DEGRADED"
+reasons = ["1.5 % of the cycles were skipped"]
+)",
+                                 "run.toml");
+  ASSERT_TRUE(log) << to_string(log.error().front());
+  EXPECT_EQ(log->start.time_s, 12.4);
+  EXPECT_EQ(log->start.sync_tag, 99);
+  EXPECT_THAT(
+      log->notes,
+      ElementsAre(RobotNote{"rvr1", "run07.rvr1.log.csv", std::nullopt, {}},
+                  RobotNote{"rvr2", "", Verdict::Degraded, {"1.5 % of the cycles were skipped"}}));
+  EXPECT_THAT(complaints_about("format = 1\n[[robot]]\nverdict = \"fine\"\nlogs = \"a\"\n"),
+              testing::UnorderedElementsAre(HasSubstr("E_CONFIG: [[robot]] needs a `name`"),
+                                            HasSubstr("E_CONFIG: `verdict` cannot be \"fine\""),
+                                            HasSubstr("did you mean \"log\"?")));
+  EXPECT_THAT(complaints_about("format = 1\n[[robot]]\nname = \"a\"\n[[robot]]\nname = \"a\"\n"),
+              ElementsAre(HasSubstr("E_CONFIG: two [[robot]] are of robot \"a\"")));
 }
 
 TEST(RunLogFile, SaysWhichMissionsThereAre) {

@@ -8,6 +8,7 @@
 
 #include "base/math.h"
 #include "tests/tracking/motion/seen_run.h"
+#include "tracking/robots/robot_logs.h"
 #include "tracking/scoring/score_run.h"
 
 namespace swarmsmith {
@@ -179,6 +180,78 @@ TEST_F(RealRunRowsTest, AreTheSameRowsAfterARoundTrip) {
   ASSERT_EQ(again.calibrations.size(), run.calibrations.size());
   for (std::size_t i = 0; i < run.calibrations.size(); ++i)
     EXPECT_EQ(again.calibrations[i].file, run.calibrations[i].file);
+}
+
+/// Two robots have logs; the second one's node was killed.
+TEST_F(RealRunRowsTest, HoldTheRobotsLogsFromWhichLatencyFollowsAgain) {
+  for (const int robot : {0, 1}) {
+    RobotLog& own = seen.observations.logs.emplace_back();
+    own.robot = fmt::format("rvr{}", robot + 1);
+    own.file = own.robot + ".log.csv";
+    LogHead& head = own.record.head;
+    head.run = "run07";
+    head.robot = own.robot;
+    head.machine = "--nstates 1 --s0 1";
+    head.machine_digest = "aa11";
+    head.flavour = "watermelon";
+    head.turn_clock = "seconds";
+    head.host = "pi";
+    head.start_clock_s = 1.0 / 3;
+    head.clock_offset_s = 0.004;
+    if (robot == 0) {
+      head.end = RunEnd{.state = "ended",
+                        .verdict = RunVerdict::Degraded,
+                        .reasons = {"late"},
+                        .stepped = 198,
+                        .held = 1,
+                        .skipped = 1};
+    }
+    for (int cycle = 1; cycle <= 200; ++cycle) {
+      if (cycle == 77) continue;
+      LogRow& row = own.record.rows.emplace_back();
+      row.cycle = cycle;
+      row.sensed.time_s = cycle * 0.1;
+      row.clock_s = head.start_clock_s + cycle * 0.1;
+      row.late_ms = 0.1 + robot;
+      row.act = cycle == 78 ? Act::Hold : Act::Step;
+      row.state = cycle % 2;
+      row.command = {0.3, 0.3 - 0.002 * (cycle % 40)};
+      row.age_ms[0] = 1.0 / 7;
+      row.drawn = 5;
+      row.event = cycle == 78 ? "proximity: silent, \"so\"" : "";
+    }
+  }
+  const RobotFindings found = judge_robots(tracked, seen.observations.logs, log);
+  scored.latencies = found.latencies;
+  const RealRunRows run = rows();
+  ASSERT_EQ(run.logs.size(), 2U);
+  EXPECT_EQ(run.logs[0].verdict, "DEGRADED");
+  EXPECT_EQ(run.logs[0].reasons, R"(["late"])");
+  EXPECT_EQ(run.logs[0].skipped, 1);
+  EXPECT_EQ(run.logs[1].state, "");
+  EXPECT_EQ(run.logs[1].skipped, 1);
+  EXPECT_EQ(run.logs[1].held, 1);
+  EXPECT_EQ(run.logs[1].stepped, 198);
+  EXPECT_EQ(run.logs[1].agreement, found.latencies[1]->agreement);
+  ASSERT_EQ(run.log_cycles.size(), 398U);
+  EXPECT_EQ(run.log_cycles[1].robot, 1);
+  EXPECT_EQ(run.log_cycles[1].cycle, 1);
+  EXPECT_EQ(run.log_cycles[1].ages_ms[0], 1.0 / 7);
+  EXPECT_FALSE(run.log_cycles[1].ages_ms[1]);
+  const auto stored = stored_run(run);
+  ASSERT_TRUE(stored) << to_string(stored.error().front());
+  const RobotFindings again = judge_robots(tracked, stored->observations.logs, stored->log);
+  EXPECT_EQ(again.issues, found.issues);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(again.latencies[i]->seconds, found.latencies[i]->seconds);
+    EXPECT_EQ(again.latencies[i]->agreement, found.latencies[i]->agreement);
+    EXPECT_EQ(again.latencies[i]->reason, found.latencies[i]->reason);
+  }
+  const RealRunRows once_more =
+      real_run_rows({stored->rig, run.arena_file, stored->log, stored->observations,
+                     seen.options.span.starts_s, tracked, patches, scored});
+  EXPECT_EQ(once_more.logs, run.logs);
+  EXPECT_EQ(once_more.log_cycles, run.log_cycles);
 }
 
 /// The key is of what was filmed, not of what it was scored with.

@@ -97,6 +97,12 @@ CameraFinding camera_finding(const ReportedRun& run, const CameraRecord& record)
   return finding;
 }
 
+const RobotLog* log_of(const ReportedRun& run, std::size_t robot) {
+  const auto found =
+      std::ranges::find(run.observations.logs, run.tracked.robots[robot].name, &RobotLog::robot);
+  return found == run.observations.logs.end() ? nullptr : &*found;
+}
+
 Verdict counting_verdict(const ReportedRun& run) {
   return run.overrides.empty() ? run.scored.verdict : run.overrides.back().verdict;
 }

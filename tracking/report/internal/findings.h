@@ -47,6 +47,9 @@ struct CameraFinding {
 };
 CameraFinding camera_finding(const ReportedRun& run, const CameraRecord& record);
 
+/// The log of a robot, by its number; null when it has none.
+const RobotLog* log_of(const ReportedRun& run, std::size_t robot);
+
 /// The verdict that counts.
 Verdict counting_verdict(const ReportedRun& run);
 

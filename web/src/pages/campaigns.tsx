@@ -20,12 +20,13 @@ export function stage_of({ stage, iteration }: Design): string {
 }
 
 function card(c: string, design: Design, leads: boolean) {
-  const { id, method, repetition, state, alive } = design;
+  const { id, method, repetition, state, alive, campaign } = design;
   return <a key={id} class={leads ? "card leads" : "card"} href={href([c, id])}
-    aria-label={`${id}, ${words(design.mission)}, ${method}, repetition ${repetition}: ${design.paused ? "paused" : state}`}>
+    aria-label={`${id}, ${words(design.mission)}, ${method}, repetition ${repetition}${campaign ? `, of ${campaign}` : ""}: ${design.paused ? "paused" : state}`}>
     <span class="card-head"><b>{id}</b>{state_word(design)}</span>
     <Bar value={design.used} of={design.budget} name={`${id}: experiments used`} />
     <span><b>{number(design.best_mean)}</b>{leads && <span class="faint"> best</span>}</span>
+    {campaign && <small>{campaign}</small>}
     <small>{is_over(design) ? `${whole(design.used)} used` : stage_of(design)}{state === "racing" && alive !== null && `, ${whole(alive)} alive`}</small>
   </a>;
 }
@@ -61,21 +62,21 @@ function events({ c, last_event }: Campaign) {
     <Table name={"e" + c} caption="Events, newest first" rows={one.events} page_size={12}
       row_key={({ kind, seq, at }) => `${kind}-${seq}-${at}`}
       row_class={(event) => event.severity === "error" && "bad"}
-      empty="Nothing has happened that people should know of: no failure, no command, no conflict. Progress is not an event."
+      empty="No failure, no command, no conflict. Progress is not an event."
       columns={[{ key: "at", label: "when" }, "severity", { key: "kind", label: "what", value: (one) => words(one.kind) },
         { key: "data", label: "details", value: (one) => said(one.data) }]} />} />;
 }
 
 /// Of a campaign or of a design. It begins with the end of an iteration.
-export function convergence(c: string, designs: Design[], version: number, design?: string) {
+export function convergence(c: string, designs: Design[], design?: string) {
   const none = <Empty>{designs.every(is_over) ? "None." : "No iteration has ended yet: convergence comes after the first."}</Empty>;
   return designs.some(({ state, iteration }) => iteration > (state === "racing" || state === "interrupted" ? 1 : 0))
-    ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version} missing={none} /> : none;
+    ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version_of(designs)} missing={none} /> : none;
 }
 
-/// Moves when any design of it does.
-export function version_of({ designs }: Campaign): number {
-  return designs.reduce((sum, { version, state }) => sum + version + (state === "finished" ? 1 : 0), 0);
+/// Moves when an iteration of any of them ends, or a design does: what winners and elites are does not change between.
+export function version_of(designs: Design[]): string {
+  return designs.map(({ iteration, state }) => iteration + state).join();
 }
 
 function campaign_panels(live: Live, campaign: Campaign) {
@@ -102,7 +103,7 @@ function campaign_panels(live: Live, campaign: Campaign) {
       {designs.length ? grid(campaign)
         : <Empty>This store holds no design yet. {run} begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>}
     </Panel>
-    {designs.length > 0 && <Panel title="Convergence: mean score of the best, over experiments used">{convergence(c, designs, version_of(campaign))}</Panel>}
+    {designs.length > 0 && <Panel title="Convergence: mean score of the best, over experiments used">{convergence(c, designs)}</Panel>}
     <Panel title="Events, newest first">{events(campaign)}</Panel>
   </div>;
 }

@@ -62,7 +62,7 @@ export class Data extends Component<PageProps, State> {
         <Panel wide title="Result">
           {error && <Failure error={error} />}
           {asked ? <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.#result(rows)} />
-            : <Empty>Ask something, and the answer stands here.</Empty>}</Panel>
+            : <Empty>Nothing was asked yet.</Empty>}</Panel>
       </div>
     </div>;
   }

@@ -40,7 +40,7 @@ export function rows_of(columns: Columns): Row[] {
 }
 
 function iterations_table(c: string, { id, version }: Design, { iterations, elites }: DesignAnswer) {
-  return <Get<Columns> path={`${c}/designs/${id}/steps`} version={version} render={(columns) => {
+  return <Get<Columns> path={`${c}/designs/${id}/steps`} version={version} grows="step" render={(columns) => {
     const steps = rows_of(columns);
     const rows = iterations.map((one) => {
       const own = steps.filter((step) => step.iteration === one.iteration);
@@ -78,7 +78,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
       row.reason && ["why it ended", <span class="small">{row.reason}</span>]])}
     <div class="grid">
       <Panel title="Convergence: mean score of the best, band of the elites" command={command("figure convergence", `--design ${id} -o convergence.svg`)}>
-        {convergence(c, [design], design.version, id)}</Panel>
+        {convergence(c, [design], id)}</Panel>
       <Panel title={best ? `${over ? "The winner" : "Best so far"}: ${best}` : "Best so far"}
         command={best ? command(`show ${best}`) : ""} tools={machine && <Copy what="Copy its text" text={machine.text} />}>
         {!best ? <Empty>None yet: it comes with the end of the first step.</Empty>
@@ -96,7 +96,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
             { key: "n", label: "pairs", title: "(instance, seed) that it has met" }]} /></Panel>
       <Panel title="Commands that people gave">
         <Table name="co" caption="Commands" rows={commands} row_key={(one) => one.number}
-          empty="None: nobody paused, resumed, extended or cancelled it." columns={[
+          empty="None." columns={[
             { key: "at", label: "when" }, { key: "kind", label: "command" }, "who",
             { key: "budget", label: "experiments" }, { key: "step", label: "after step" }]} /></Panel>
     </div>

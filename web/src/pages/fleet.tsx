@@ -107,7 +107,7 @@ export function Fleet({ live: { status, running } }: PageProps) {
     <div class="grid">
       {status && running && <Panel title="Where the slots' time goes">
         <Get<{ causes: Cause[] }> path="causes" render={(one) => slot_time(status, one.causes)} /></Panel>}
-      {running && <Panel title="The last minutes"><Get<History> path="history" every_s={2} render={past} /></Panel>}
+      {running && <Panel title="The last minutes"><Get<History> path="history" grows="t_s" every_s={2} render={past} /></Panel>}
       <Panel wide title="Workers, worst first" command={command("status", "--watch")}>
         <Get<{ workers: Worker[] }> path="workers" every_s={running ? 1 : 30} render={(one) => workers_table(one.workers, running)} /></Panel>
     </div>

@@ -1,4 +1,5 @@
 import { h } from "preact";
+import { is_snapshot } from "../api";
 import { choice_of, command, Empty, Panel, Table } from "../components";
 import { Figure } from "../figure";
 import { count, in_order, number, percent, shell_word, words } from "../format";
@@ -25,7 +26,7 @@ function table(c: string, rows: Use[], missions: string[]) {
         if (!use || part === null) return <span class="faint">–</span>;
         const sql = "SELECT d.design, d.best_candidate, m.occurrences, m.reachable FROM v_designs AS d JOIN v_modules AS m ON m.candidate = d.best_candidate"
           + ` WHERE d.state = 'finished' AND d.mission = ${quoted(mission)} AND d.method = ${quoted(method)} AND m.module = ${quoted(module)}`;
-        return <a class="meter-cell" href={href([c, "sql"], { q: sql })} title={`which designs; ${percent(Number(use.reachable_rate))} have it in a state that can be reached`}>
+        return <a class="meter-cell" href={is_snapshot ? undefined : href([c, "sql"], { q: sql })} title={`which designs; ${percent(Number(use.reachable_rate))} have it in a state that can be reached`}>
           <span class="bar" aria-hidden="true"><span style={{ width: `${100 * part}%` }} /></span>{percent(part)}<small>{number(use.avg_occurrences as number, 2)}</small></a>;
       },
     }))]} />;
@@ -36,8 +37,8 @@ export function Modules({ params: { c }, campaign, query: { mission = "", method
   const finished = designs.filter(({ state }) => state === "finished").length;
   const missions = in_order(designs.map((one) => one.mission));
   const title = "How often winners have each module";
-  const nothing = <Panel title={title}><Empty>{finished ? "No winner here is a machine of modules: networks and parameters of programs have none." : "No design has finished yet: modules are counted in the machines that won."}</Empty></Panel>;
-  const version = version_of(campaign);
+  const nothing = <Panel title={title}><Empty>{finished ? "No winner here is a machine of modules." : "No design has finished yet: modules are counted in the machines that won."}</Empty></Panel>;
+  const version = version_of(designs);
   const option = (name: string, value: string) => value && `--${name} ${shell_word(value)} `;
   return <div>
     <h1>Modules <small>of the winners of {count(finished, "finished design")}</small></h1>

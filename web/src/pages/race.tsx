@@ -204,7 +204,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
         onKeyDown: this.#key,
       }} />
       <p class="hover-line" aria-hidden="true">{at ? matrix.sentence(at) : "Point at a cell, or move with the arrows: its score, rank and seed stand here."}</p>
-      <p id="race-help" class="unseen">Arrows move from cell to cell, with shift by ten; Home and End go to the first and last step, Page Up and Page Down to the best and last candidate; Enter watches the run.</p>
+      <p id="race-help" class="unseen">Arrows move by a cell, with shift by ten; Home and End to the first and last step, Page Up and Page Down to the best and last candidate; Enter watches the run.</p>
     </div>;
   }
 }

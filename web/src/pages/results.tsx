@@ -8,10 +8,11 @@ import { duration, when, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { Cell, Columns, Row } from "../types";
+import { version_of } from "./campaigns";
 import { rows_of } from "./design";
 
 export function Results({ params: { c }, query, campaign: { designs } }: PageProps) {
-  const version = designs.map((one) => one.version).join(" ");
+  const version = version_of(designs);
   const missions = designs.map((one) => one.mission);
   const ways = ["method", "source"];
   const by = ways.includes(query.by) ? query.by : new Set(designs.map((one) => one.method)).size > 1 ? "method" : "source";

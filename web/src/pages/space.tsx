@@ -66,7 +66,7 @@ export class Space extends Component<PageProps, { asked: number }> {
       <h1>Search space <small>of {link(id)}, {words(mission)}, {method}</small></h1>
       <Get<Sample> path={path_of(`${c}/designs/${id}/parameters`, { sample })} version={asked}
         render={(data) => data.candidates.length === 0
-          ? <Empty>No candidate yet: the first iteration draws them as soon as the design's turn has come.</Empty>
+          ? <Empty>No candidate yet: the first iteration draws them.</Empty>
           : Object.keys(data.parameters).length === 0 ? <Empty>This design searches no named parameters.</Empty>
           : <Parallel d={id} data={data} query={query} again={() => this.setState({ asked: asked + 1 })} />} />
     </div>;

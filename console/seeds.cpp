@@ -1,4 +1,4 @@
-#include "cli/arguments/seeds.h"
+#include "console/seeds.h"
 
 #include <charconv>
 #include <optional>

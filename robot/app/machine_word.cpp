@@ -1,0 +1,54 @@
+#include "robot/app/machine_word.h"
+
+#include <utility>
+
+#include "base/text/whole_file.h"
+#include "sim/files/machine_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+Expected<FiledMachine> filed_machine(const std::string& word) {
+  if (architecture_of_text(word))
+    return FiledMachine{.head = {}, .name = "", .text = word, .place = "--machine"};
+  const auto text = read_file(word, "machine");
+  if (!text) return Unexpected(text.error());
+  auto machines = parse_machine_file(*text, word);
+  if (!machines) return Unexpected(machines.error().front());
+  if (machines->size() > 1) {
+    return bad_input("the file has " + std::to_string(machines->size()) +
+                         " machines, and a robot runs one: write it into a file of its own "
+                         "(swarmsmith show c812 > best.fsm)",
+                     word);
+  }
+  return std::move(machines->front());
+}
+
+}  // namespace
+
+Expected<RobotMachine> robot_machine(const std::string& word, std::string flavour,
+                                     const std::string& turn_clock) {
+  const auto filed = filed_machine(word);
+  if (!filed) return Unexpected(filed.error());
+  if (flavour.empty()) flavour = filed->head.flavour;
+  if (flavour.empty()) {
+    return bad_input(
+        "the machine does not say for which flavour it was designed, and means "
+        "something else under another one: give --flavour",
+        filed->place);
+  }
+  TurnClock clock = filed->head.turn_clock.value_or(TurnClock::Cycles);
+  if (!turn_clock.empty())
+    clock = turn_clock == name_of(TurnClock::Seconds) ? TurnClock::Seconds : TurnClock::Cycles;
+  auto known = find_flavour(flavour, clock);
+  if (!known) return Unexpected(known.error());
+  auto controller = parse_controller(filed->text, *known);
+  if (!controller) {
+    Error error = controller.error();
+    error.where = filed->place + (error.where.empty() ? "" : ", " + error.where);
+    return Unexpected(std::move(error));
+  }
+  return RobotMachine{std::move(*known), std::move(*controller)};
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,24 @@
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "robot/app/commands.h"
+
+int main(int argc, char** argv) {
+  using namespace swarmsmith::cli;
+  Output output = standard_output();
+  const Program program{"swarmsmith robot",
+                        "Runs machines on real robots, or in a simulated world.", robot_commands(),
+                        "docs/robot-runtime.md leads from a flashed computer to a first run."};
+  try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    const ExitCode code = run_program(program, arguments, output);
+    if (output.out.flush() || code != ExitCode::Done) return static_cast<int>(code);
+    return static_cast<int>(fail(output, ExitCode::Failed,
+                                 "standard output: the answer could not be written; is the disk "
+                                 "full, or the output closed?"));
+  } catch (const std::exception& error) {
+    // What the environment refused: a full disk, no memory, a device that goes away.
+    return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));
+  }
+}

@@ -1,0 +1,264 @@
+#include "robot/app/node_loop.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "base/overloaded.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr Duration kTellEvery = std::chrono::milliseconds(500);
+/// Messages that are taken behind a deadline: a flood must not keep the node from its cycle.
+constexpr int kMostBehindDeadline = 64;
+constexpr Duration kFlush = std::chrono::milliseconds(500);
+constexpr Duration kLastLog = std::chrono::seconds(10);
+
+TimePoint steady_now() {
+  return SystemClock().now();
+}
+
+}  // namespace
+
+Now now_on_both_clocks() {
+  const std::chrono::duration<double> wall = std::chrono::system_clock::now().time_since_epoch();
+  return {steady_now(), wall.count()};
+}
+
+NodeLoop::NodeLoop(RobotNode& node, RobotEnd& end, LoopOptions options)
+    : node_(node), end_(end), options_(std::move(options)) {}
+
+NodeLoop::Ending NodeLoop::run() {
+  const Now now = now_on_both_clocks();
+  const std::chrono::duration<double> wall(now.unix_s);
+  node_.feeds().set_wall_offset(std::chrono::duration_cast<Duration>(wall) -
+                                now.clock.time_since_epoch());
+  world_heard_ = now.clock;
+  while (turn()) {
+  }
+  close();
+  if (ending_ == Ending::NoMoreRuns && node_.phase() == Phase::Failed) return Ending::Wrong;
+  return *ending_;
+}
+
+bool NodeLoop::turn() {
+  if (auto why = options_.ends()) {
+    node_.stop(*why);
+    finish(Ending::Asked);
+    return false;
+  }
+  if (options_.pace == Pace::Clock) return turn_by_clock();
+  return turn_in_lock_step();
+}
+
+bool NodeLoop::turn_by_clock() {
+  const TimePoint deadline = node_.next_tick(steady_now());
+  int behind = 0;
+  while (const auto message = end_.receive(deadline)) {
+    hear(*message);
+    if (ending_) return false;
+    if (steady_now() >= deadline && ++behind >= kMostBehindDeadline) break;
+  }
+  node_.set_driver(end_.connected());
+  const Now now = now_on_both_clocks();
+  carry_out(node_.tick(now));
+  tend_log();
+  tell_state(false);
+  return true;
+}
+
+bool NodeLoop::turn_in_lock_step() {
+  constexpr Duration kSlice = std::chrono::milliseconds(100);  // `ends` is asked as often
+  const TimePoint now = steady_now();
+  if (const auto message = end_.receive(now + kSlice)) {
+    world_heard_ = steady_now();
+    hear(*message);
+  } else {
+    if (node_.is_on() && steady_now() - world_heard_ > options_.patience) {
+      const std::string why =
+          fmt::format("the world is silent for {:.1f} s",
+                      std::chrono::duration<double>(steady_now() - world_heard_).count());
+      node_.fail(why);
+      options_.note(why);
+      finish(Ending::Lost);
+    }
+    tell_state(false);
+  }
+  tend_log();
+  return !ending_;
+}
+
+void NodeLoop::hear(const ToRobot& message) {
+  std::visit(Overloaded{[this](const OrderMessage& order) { hear_order(order); },
+                        [this](const SensesMessage& senses) {
+                          if (options_.pace == Pace::Senses) answer(senses);
+                        },
+                        [this](const TroubleMessage& trouble) {
+                          if (trouble.text != last_trouble_) options_.note(trouble.text);
+                          last_trouble_ = trouble.text;
+                          if (!trouble.ended) return;
+                          node_.fail(trouble.text);
+                          finish(Ending::Lost);
+                        },
+                        [this](const BatteryMessage& battery) { node_.hear(battery); },
+                        [](const ImuMessage&) {}, [](const OdometryMessage&) {},
+                        [this](const auto& reading) {
+                          node_.feeds().hear(reading);
+                          if (options_.pace == Pace::CountedTopics) step_counted();
+                        }},
+             message);
+}
+
+void NodeLoop::hear_order(const OrderMessage& message) {
+  const auto order = parse_order(message.text);
+  if (!order) {
+    node_.refuse_order(order.error().message);
+    tell_state(true);
+    return;
+  }
+  const bool was_on = node_.is_on();
+  node_.hear(*order, now_on_both_clocks());
+  if (!was_on && node_.is_on()) open_log();
+  if (order->kind != Order::Kind::Alive) tell_state(true);
+}
+
+void NodeLoop::answer(const SensesMessage& senses) {
+  const Now now = now_on_both_clocks();
+  if (senses.cycle <= 1) {  // a run is over
+    if (senses.cycle == 0) static_cast<void>(node_.answer(senses, now));
+    if (senses.cycle == 1 && node_.is_on()) node_.end_run();
+    tend_log();
+    if (senses.cycle == 0) {
+      finish(node_.phase() == Phase::Failed ? Ending::Wrong : Ending::NoMoreRuns);
+      return;
+    }
+  }
+  auto decision = node_.answer(senses, now);
+  if (!decision) {
+    options_.note(decision.error().message);
+    finish(Ending::Wrong);
+    return;
+  }
+  if (senses.cycle == 1) open_log();
+  const swarmsmith::Command& command = *decision->command;  // cli has another
+  end_.send(AnswerMessage{.seed = senses.seed,
+                          .cycle = senses.cycle,
+                          .left_mps = command.left_mps,
+                          .right_mps = command.right_mps,
+                          .state = decision->state});
+  decision->command.reset();
+  carry_out(std::move(*decision));
+}
+
+bool NodeLoop::all_heard(std::int64_t count) const {
+  bool any = false;
+  for (const Feed feed : kAllFeeds) {
+    const std::int64_t heard = node_.feeds().heard(feed);
+    if (node_.needed()[index_of(feed)] && heard < count) return false;
+    any |= heard >= count;
+  }
+  return any;
+}
+
+void NodeLoop::step_counted() {
+  const Now now = now_on_both_clocks();
+  const std::int64_t cycle = node_.is_on() ? node_.cycle() + 1 : 1;
+  if (node_.phase() == Phase::Failed || !all_heard(cycle)) return;
+  if (cycle == 1) {
+    node_.begin_counted(now);
+    open_log();
+  }
+  carry_out(node_.step_counted(now));
+}
+
+void NodeLoop::carry_out(Decision decision) {
+  if (decision.command) {
+    WheelsMessage wheels{.left_mps = decision.command->left_mps,
+                         .right_mps = decision.command->right_mps};
+    if (options_.pace == Pace::CountedTopics) wheels.state = decision.state;
+    end_.send(wheels);
+    if (leds_ != decision.command->leds) {  // after the treads, and not each time: one slow line
+      LedsMessage message;
+      std::size_t i = 0;
+      for (const Rgb& led : decision.command->leds) {
+        for (const std::uint8_t channel : {led.r, led.g, led.b})
+          message.colors[i++] = channel;
+      }
+      end_.send(message);
+      leds_ = decision.command->leds;
+    }
+  }
+  if (decision.row && log_) log_->add(std::move(*decision.row));
+}
+
+void NodeLoop::open_log() {
+  if (!options_.logs) return;
+  if (log_) log_.reset();  // of a run before; writes what is there
+  log_is_ending_ = false;
+  const NodeState state = node_.state(now_on_both_clocks());
+  auto opened = LogWriter::open(log_files_of(*options_.logs, state.run, state.robot), node_.head());
+  if (opened) {
+    log_ = std::move(*opened);
+    return;
+  }
+  const std::string why = "no log can be written: " + to_string(opened.error());
+  options_.note(why);
+  if (options_.pace == Pace::Clock) {
+    node_.disarm(why);
+  } else {
+    node_.fail(why);
+    finish(Ending::Wrong);
+  }
+}
+
+void NodeLoop::tend_log() {
+  if (!log_) return;
+  const std::string trouble = log_->trouble();
+  node_.set_log_trouble(trouble);
+  if (!node_.is_on() && !log_is_ending_) {
+    log_->finish(node_.head());
+    log_is_ending_ = true;
+  }
+  if (!log_is_ending_ || !log_->is_done()) return;
+  const std::string last = log_->trouble();
+  node_.set_log_trouble(last);
+  if (!last.empty()) {
+    node_.lose_log();
+    options_.note("the log is not whole: " + last);
+  }
+  log_.reset();
+  node_.set_log_trouble({});
+}
+
+void NodeLoop::tell_state(bool at_once) {
+  const Now now = now_on_both_clocks();
+  const NodeState state = node_.state(now);
+  std::string part = std::string(name_of(state.phase)) + "\n" + state.run + "\n" + state.order +
+                     "\n" + state.refused + "\n" + state.log_trouble + "\n" +
+                     std::to_string(static_cast<int>(state.verdict));
+  if (!at_once && part == told_ && now.clock - told_at_ < kTellEvery) return;
+  told_ = std::move(part);
+  told_at_ = now.clock;
+  end_.send(StateMessage{.text = state_text(state)});
+}
+
+void NodeLoop::close() {
+  if (options_.pace != Pace::Senses) {
+    end_.send(WheelsMessage{});
+    end_.send(LedsMessage{});
+  }
+  tend_log();
+  if (log_) {
+    const TimePoint until = steady_now() + kLastLog;
+    while (log_ && steady_now() < until) {
+      log_->wait_done(until);
+      tend_log();
+    }
+  }
+  tell_state(true);
+  end_.flush(kFlush);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "base/text/json.h"
+#include "robot/app/commands.h"
+#include "robot/app/node_loop.h"
+#include "robot/app/operator_loop.h"
+#include "robot/app/robot_names.h"
+#include "robot/app/run_file.h"
+#include "robot/app/stop_signal.h"
+#include "robot/app/transports.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr Duration kTurn = std::chrono::milliseconds(20);
+
+struct Words {
+  std::string robots;
+  std::string run;
+  std::string seconds;
+  std::string lead;
+  std::string patience;
+  std::optional<std::int64_t> seed;
+  RunFileWords file;
+  TransportWords transport;
+};
+
+/// Says what happens as it happens.
+class Teller {
+ public:
+  explicit Teller(Output& output) : output_(&output) {}
+
+  void tell(const RunStarter& starter) {
+    if (starter.stage() != stage_) {
+      stage_ = starter.stage();
+      if (stage_ == RunStarter::Stage::Ordered)
+        print_note(*output_, "all robots are ready: the run is ordered");
+      if (stage_ == RunStarter::Stage::Stopping)
+        print_note(*output_, starter.complaints().front() + "; all robots are told to stop");
+    }
+    if (starter.has_begun() && !began_) print_note(*output_, "all robots are running");
+    began_ = starter.has_begun();
+  }
+
+ private:
+  Output* output_;
+  RunStarter::Stage stage_ = RunStarter::Stage::Calling;
+  bool began_ = false;
+};
+
+ExitCode answer(const Words& words, const RunStarter& starter, const std::string& file,
+                Output& output) {
+  const bool valid = starter.verdict() != RunVerdict::Invalid;
+  if (output.json) {
+    output.out
+        << JsonObject()
+               .add("run", words.run)
+               .add("verdict", name_of(starter.verdict()))
+               .add("complaints", starter.complaints())
+               .add("start_clock_s",
+                    std::chrono::duration<double>(starter.start().clock.time_since_epoch()).count())
+               .add("start_unix_s", starter.start().unix_s)
+               .add("file", file)
+               .add("robots", JsonPiece{roll_json(starter.roll(), now_on_both_clocks().clock)})
+               .text()
+        << "\n";
+  } else {
+    for (const RolledRobot& robot : starter.roll().robots()) {
+      if (!robot.state) continue;
+      output.out << fmt::format("{}: {} after {} cycles, {}\n", robot.name,
+                                name_of(robot.state->phase), robot.state->cycle,
+                                name_of(robot.state->verdict));
+      for (const std::string& reason : robot.state->reasons)
+        output.out << "  " << reason << "\n";
+    }
+    for (const std::string& complaint : starter.complaints())
+      output.out << complaint << "\n";
+    output.out << words.run << ": " << name_of(starter.verdict()) << "\n";
+    if (!file.empty()) output.out << file << ": for `swarmsmith track score --run`\n";
+  }
+  if (stop_signal() != 0) return ExitCode::Interrupted;
+  return valid ? ExitCode::Done : ExitCode::InvalidRun;
+}
+
+ExitCode start(const Words& words, Output& output) {
+  const auto names = robot_names(words.robots);
+  if (!names) return fail(output, ExitCode::Usage, names.error());
+  if (!is_plain_name(words.run)) {
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput, "a run's name has letters, digits, - and _", "--run"});
+  }
+  const auto seconds = number_option(words.seconds, "--seconds", 0.5, 86'400);
+  if (!seconds) return fail(output, ExitCode::Usage, seconds.error());
+  const auto lead = number_option(words.lead, "--in", 0.5, 60);
+  if (!lead) return fail(output, ExitCode::Usage, lead.error());
+  const auto patience = number_option(words.patience, "--patience", 0.5, 3600);
+  if (!patience) return fail(output, ExitCode::Usage, patience.error());
+  const auto place = words.file.check(words.run);
+  if (!place) return fail(output, ExitCode::Usage, place.error());
+  catch_stop_signals();
+  const auto end = open_operator_end(words.transport, *names);
+  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
+  RunStarter starter({.run = words.run,
+                      .seconds = seconds->value_or(120),
+                      .seed = words.seed,
+                      .lead_s = lead->value_or(2),
+                      .patience_s = patience->value_or(5)},
+                     *names, operator_id(), now_on_both_clocks());
+  Teller teller(output);
+  bool interrupted = false;
+  bool connected = true;
+  while (connected && starter.stage() != RunStarter::Stage::Over) {
+    const Now now = now_on_both_clocks();
+    if (stop_signal() != 0 && !interrupted) {
+      interrupted = true;
+      starter.interrupt(now);
+    }
+    for (const Order& order : starter.tick(now))
+      send_order(**end, order);
+    teller.tell(starter);
+    connected = hear_states(
+        **end, now.clock + kTurn,
+        [&starter](std::size_t robot, const NodeState& state, const Now& heard) {
+          starter.hear(robot, state, heard);
+        },
+        [&output](const std::string& text) { print_note(output, text); });
+  }
+  (*end)->flush(std::chrono::seconds(1));
+  if (starter.start().unix_s == 0) {  // nothing was ordered
+    for (const std::string& complaint : starter.complaints())
+      print_error(output, {ErrorKind::Unavailable, complaint, ""});
+    if (!output.quiet) output.err << roll_table(starter.roll(), now_on_both_clocks().clock);
+    bool all_answer = true;
+    for (const RolledRobot& robot : starter.roll().robots())
+      all_answer = all_answer && robot.state.has_value();
+    if (interrupted) return ExitCode::Interrupted;
+    return all_answer ? ExitCode::Failed : ExitCode::Unreachable;
+  }
+  const auto written = words.file.write_file(
+      words.run, starter, [&output](const std::string& text) { print_note(output, text); });
+  if (!written) {
+    static_cast<void>(answer(words, starter, "", output));
+    return fail(output, ExitCode::Failed, written.error());
+  }
+  return answer(words, starter, *written, output);
+}
+
+}  // namespace
+
+Run declare_robot_start(Options& options) {
+  auto words = std::make_shared<Words>();
+  options.text("--run NAME", words->run, "Name of the run; no robot takes one twice",
+               Options::Need::Required);
+  options.text("--robots ROBOTS", words->robots,
+               "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
+  options.text("--seconds", words->seconds, "How long the run lasts (default 120)");
+  options.integer("--seed", words->seed, {1, 2147483647},
+                  "Of the random numbers of this run (default: the nodes' own)");
+  options.text("--in", words->lead, "Seconds from the order to the start (default 2)");
+  options.text("--patience SECONDS", words->patience,
+               "Seconds until all robots have answered and are ready (default 5)");
+  words->file.declare(options);
+  words->transport.declare_client(options);
+  return [words](Output& output) { return start(*words, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+namespace swarmsmith::cli {
+
+/// From now on Ctrl-C and SIGTERM ask for an end instead of being one, and a file that grows too
+/// large is an error of writing it.
+void catch_stop_signals();
+/// The signal that asked for an end; 0: none did.
+int stop_signal();
+
+/// Whether whoever holds the other end of standard input has closed it; does not wait, and reads
+/// what comes.
+bool input_has_ended();
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/text/csv.h"
+#include "robot/runtime/run_record.h"
+
+namespace swarmsmith {
+
+/// The two files of a log: `run07.rvr1.log.csv` and `run07.rvr1.toml`.
+struct LogFiles {
+  std::filesystem::path rows;
+  std::filesystem::path head;
+};
+
+/// Those of a robot's run, in a folder.
+LogFiles log_files_of(const std::filesystem::path& folder, const std::string& run,
+                      const std::string& robot);
+/// The same by the name of either; one that ends in neither is an error.
+Expected<LogFiles> log_files_at(const std::filesystem::path& either);
+
+/// Reads a log by the name of either file, or everything that is wrong with it.
+OrErrors<RunRecord> read_robot_log(const std::filesystem::path& either);
+
+}  // namespace swarmsmith

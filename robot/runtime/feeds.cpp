@@ -1,0 +1,110 @@
+#include "robot/runtime/feeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/control/labeler.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFullColor = 255;
+
+/// "proximity sensor 3 (-90 degrees)".
+std::string proximity_sensor(std::size_t index) {
+  return "proximity sensor " + std::to_string(index) + " (" +
+         std::to_string(kProximityDirections_deg[index]) + " degrees)";
+}
+
+std::string wrong_count(std::size_t came) {
+  return std::to_string(kProximitySensors) + " values wanted, " + std::to_string(came) + " came";
+}
+
+std::uint8_t channel(double value, double scale) {
+  const double scaled = std::floor(value * (kFullColor / scale) + 0.5);
+  return static_cast<std::uint8_t>(std::clamp(scaled, 0.0, kFullColor));
+}
+
+}  // namespace
+
+std::optional<Duration> Feeds::age(Feed feed, TimePoint now) const {
+  if (of(feed).heard == 0) return std::nullopt;
+  return now - of(feed).at;
+}
+
+void Feeds::accept(Feed feed, const Arrival& arrival) {
+  State& state = states_[index_of(feed)];
+  ++state.heard;
+  state.at = arrival.at;
+  state.trouble.clear();
+  state.stamp_ms.reset();
+  if (arrival.stamp_ns != 0) {
+    const std::int64_t wall_ns = (arrival.at.time_since_epoch() + wall_offset_).count();
+    state.stamp_ms = 1e-6 * static_cast<double>(wall_ns - arrival.stamp_ns);
+  }
+}
+
+void Feeds::hear(const RangesMessage& message) {
+  const std::vector<double>& ranges = message.ranges_m;
+  if (ranges.size() != kProximitySensors)
+    return refuse(Feed::Proximity, wrong_count(ranges.size()));
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (std::isnan(ranges[i]))
+      return refuse(Feed::Proximity, proximity_sensor(i) + " is missing: its value is NaN");
+    if (std::isfinite(ranges[i]) && ranges[i] < 0)
+      return refuse(Feed::Proximity, proximity_sensor(i) + " has the negative range " +
+                                         std::to_string(ranges[i]) + " m");
+  }
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    double& distance = sensed_.proximity_m[i];
+    distance = ranges[i];
+    if (distance < kBlindZone_m) distance = -kInfinity;
+    if (distance > settings_.proximity_range_m) distance = kInfinity;
+  }
+  accept(Feed::Proximity, message.arrival);
+}
+
+void Feeds::hear(const GroundColorMessage& message) {
+  if (!(std::isfinite(message.r) && std::isfinite(message.g) && std::isfinite(message.b)))
+    return refuse(Feed::Ground, "a colour that is no number");
+  const double scale = settings_.color_scale;
+  ground_as_sent_ = {message.r, message.g, message.b};
+  sensed_.ground = nearest_label(
+      {channel(message.r, scale), channel(message.g, scale), channel(message.b, scale)},
+      settings_.labels);
+  accept(Feed::Ground, message.arrival);
+}
+
+void Feeds::hear(const ScanMessage& message) {
+  if (auto trouble = resample(message, settings_.lidar_turn_rad, rays_m_))
+    return refuse(Feed::Neighbours, std::move(*trouble));
+  cluster_lidar(rays_m_, sensed_.neighbours);
+  accept(Feed::Neighbours, message.arrival);
+}
+
+void Feeds::hear(const NeighboursMessage& message) {
+  for (const SeenRobot& robot : message.robots) {
+    if (!(robot.distance_m >= 0 && std::isfinite(robot.distance_m) &&
+          std::isfinite(robot.direction_x) && std::isfinite(robot.direction_y)))
+      return refuse(Feed::Neighbours, "a neighbour whose place is no number");
+  }
+  sensed_.neighbours.clear();
+  for (const SeenRobot& robot : message.robots)
+    sensed_.neighbours.push_back({robot.distance_m, robot.direction_x, robot.direction_y});
+  accept(Feed::Neighbours, message.arrival);
+}
+
+void Feeds::hear(const LightMessage& message) {
+  if (message.lux.size() != kProximitySensors)
+    return refuse(Feed::Light, wrong_count(message.lux.size()));
+  for (const double lux : message.lux) {
+    if (!(lux >= 0)) return refuse(Feed::Light, "a light sensor is missing: NaN or negative lux");
+  }
+  for (std::size_t i = 0; i < message.lux.size(); ++i)
+    sensed_.light_lux[i] = std::min(message.lux[i], kMostLight_lux);
+  accept(Feed::Light, message.arrival);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "robot/runtime/run_record.h"
+#include "robot/runtime/scan.h"
+#include "robot/runtime/sensed.h"
+#include "robot/transport/messages.h"
+
+namespace swarmsmith {
+
+/// How a robot's drivers measure.
+struct FeedSettings {
+  double proximity_range_m = kProximityRange_m;  ///< what is farther is nothing
+  double color_scale = 255;                      ///< the driver's value of full colour
+  std::vector<Rgb> labels;    ///< the floor's colours (`nearest_label`); empty: no labeler
+  double lidar_turn_rad = 0;  ///< of the lidar's zero from the robot's head, counter-clockwise
+};
+
+/// Drivers' messages as readings, each with the time at which it came. A message that is of no use,
+/// such as one with a sensor that is off, counts as none: its feed grows old, and says why.
+class Feeds {
+ public:
+  explicit Feeds(FeedSettings settings) : settings_(std::move(settings)) {}
+
+  /// -infinity below 0.05 m, +infinity beyond the range. NaN is a missing sensor, not a free way.
+  void hear(const RangesMessage& message);
+  void hear(const GroundColorMessage& message);
+  void hear(const ScanMessage& message);
+  void hear(const NeighboursMessage& message);
+  void hear(const LightMessage& message);
+
+  /// The last readings of all feeds.
+  const Sensed& sensed() const { return sensed_; }
+  const RawColor& ground_as_sent() const { return ground_as_sent_; }
+  /// How many usable messages came.
+  std::int64_t heard(Feed feed) const { return of(feed).heard; }
+  /// Since the last usable message; nothing before the first.
+  std::optional<Duration> age(Feed feed, TimePoint now) const;
+  /// The last usable message's arrival by the wall clock minus its stamp; nothing without a stamp.
+  std::optional<double> stamp_ms(Feed feed) const { return of(feed).stamp_ms; }
+  /// What is wrong with the newest message, when it is of no use; else empty.
+  const std::string& trouble(Feed feed) const { return of(feed).trouble; }
+
+  /// The wall clock minus the steady one, for stamps.
+  void set_wall_offset(Duration offset) { wall_offset_ = offset; }
+
+ private:
+  struct State {
+    std::int64_t heard = 0;
+    TimePoint at;
+    std::optional<double> stamp_ms;
+    std::string trouble;
+  };
+
+  const State& of(Feed feed) const { return states_[index_of(feed)]; }
+  void refuse(Feed feed, std::string why) { states_[index_of(feed)].trouble = std::move(why); }
+  void accept(Feed feed, const Arrival& arrival);
+
+  FeedSettings settings_;
+  Sensed sensed_;
+  RawColor ground_as_sent_;
+  PerFeed<State> states_{};
+  RayRanges rays_m_{};
+  Duration wall_offset_{};
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,501 @@
+#include "robot/runtime/node.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "sim/control/used_senses.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr Rgb kRed = {255, 0, 0};
+/// Of a run's cycles: more that are skipped, and what the run is then.
+constexpr double kDegraded = 0.01;
+constexpr double kInvalid = 0.05;
+constexpr double kLatestStart_s = 60;  ///< a start is at most so far ahead
+
+double seconds_of(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+double milliseconds_of(Duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+double clock_s(TimePoint time) {
+  return seconds_of(time.time_since_epoch());
+}
+
+/// By the other clock.
+TimePoint clock_at(double unix_s, const Now& now) {
+  return now.clock + Duration(std::llround(1e9 * (unix_s - now.unix_s)));
+}
+
+Command standing(bool red) {
+  Command command;
+  if (red) command.leds.fill(kRed);
+  return command;
+}
+
+std::string digest_of(const std::string& machine, const Flavour& flavour) {
+  Digest digest;
+  digest.add(machine);
+  digest.add(flavour.name);
+  digest.add(name_of(flavour.exploration.turn_clock));
+  return digest.hex();
+}
+
+/// Seconds since the start at cycle k of a simulated world with a steady clock: as the engine
+/// counts, in steps of 10 ms.
+double counted_time_s(std::int64_t cycle) {
+  constexpr double kStep_s = 0.01;
+  constexpr std::int64_t kSteps = 10;
+  return kStep_s * static_cast<double>(kSteps * cycle);
+}
+
+}  // namespace
+
+std::optional<Command> within_limits(const Command& command, double max_mps) {
+  if (!(std::isfinite(command.left_mps) && std::isfinite(command.right_mps))) return std::nullopt;
+  Command limited = command;
+  limited.left_mps = std::clamp(command.left_mps, -max_mps, max_mps);
+  limited.right_mps = std::clamp(command.right_mps, -max_mps, max_mps);
+  return limited;
+}
+
+RobotNode::RobotNode(NodeSettings settings, const Controller& controller, const Flavour& flavour)
+    : settings_(std::move(settings)),
+      controller_(&controller),
+      flavour_(&flavour),
+      machine_text_(print_controller(controller, flavour)),
+      machine_digest_(digest_of(machine_text_, flavour)),
+      needed_(feeds_of(senses_used_by(controller, flavour))),
+      feeds_(settings_.feeds),
+      door_(settings_.robot),
+      seed_(settings_.seed) {
+  for (const Feed feed : kAllFeeds)
+    needed_[index_of(feed)] |= settings_.also_needed[index_of(feed)];
+}
+
+std::optional<RobotNode::Silence> RobotNode::silence(TimePoint now,
+                                                     const PerFeed<Duration>& limits) const {
+  std::optional<Silence> worst;
+  for (const Feed feed : kAllFeeds) {
+    if (!needed_[index_of(feed)]) continue;
+    const Duration age = feeds_.age(feed, now).value_or(Duration::max());
+    if (age > limits[index_of(feed)] && (!worst || age > worst->age)) worst = {feed, age};
+  }
+  return worst;
+}
+
+std::string RobotNode::told(const Silence& silence) const {
+  const std::string name(name_of(silence.feed));
+  const std::string& trouble = feeds_.trouble(silence.feed);
+  const std::string why = trouble.empty() ? "" : " (" + trouble + ")";
+  if (silence.age == Duration::max()) return name + ": no message yet" + why;
+  return fmt::format("{}: silent for {:.2f} s{}", name, seconds_of(silence.age), why);
+}
+
+std::vector<std::string> RobotNode::not_ready(TimePoint now) const {
+  std::vector<std::string> reasons;
+  if (killed_) reasons.emplace_back("killed by order: restart the node");
+  for (const Feed feed : kAllFeeds) {
+    if (!needed_[index_of(feed)]) continue;
+    const Duration age = feeds_.age(feed, now).value_or(Duration::max());
+    if (age > settings_.hold[index_of(feed)]) reasons.push_back(told({feed, age}));
+  }
+  if (!driver_) reasons.emplace_back("driver: nobody listens to the speeds of the treads");
+  if (battery_ && *battery_ < settings_.least_battery) {
+    reasons.push_back(fmt::format("battery: {:.0f} %, at least {:.0f} % are wanted",
+                                  100 * *battery_, 100 * settings_.least_battery));
+  }
+  if (!log_trouble_.empty()) reasons.push_back("log: " + log_trouble_);
+  return reasons;
+}
+
+void RobotNode::hear(const BatteryMessage& message) {
+  battery_.reset();
+  if (std::isfinite(message.charge)) battery_ = message.charge;
+}
+
+void RobotNode::hear(const Order& order, const Now& now) {
+  if (!door_.is_for_this_robot(order)) return;
+  auto refusal = door_.refusal(order, now.unix_s);
+  if (order.kind == Order::Kind::Alive) {  // comes often: says nothing of the last real order
+    if (!refusal && is_on() && order.run == run_) operator_heard_ = now.clock;
+    return;
+  }
+  order_ = order.id;
+  refused_.clear();
+  if (refusal) {
+    refused_ = std::move(*refusal);
+  } else {
+    obey(order, now);
+  }
+}
+
+void RobotNode::obey(const Order& order, const Now& now) {
+  switch (order.kind) {
+    case Order::Kind::Start:
+      arm(order, now);
+      return;
+    case Order::Kind::Stop:
+      if (!is_on()) {
+        refused_ = "no run is on";
+      } else if (!order.run.empty() && order.run != run_) {
+        refused_ = "the run " + run_ + " is on, not " + order.run;
+      } else {
+        stop("by order");
+      }
+      return;
+    case Order::Kind::Kill:
+      killed_ = true;
+      fail("killed by order");
+      return;
+    case Order::Kind::Alive:
+    case Order::Kind::Echo:
+      return;
+  }
+}
+
+void RobotNode::arm(const Order& order, const Now& now) {
+  if (is_on()) {
+    refused_ = "the run " + run_ + " is on";
+    return;
+  }
+  if (runs_.contains(order.run)) {
+    refused_ = "the run " + order.run + " was here before; a new run needs a new name";
+    return;
+  }
+  for (const std::string& reason : not_ready(now.clock))
+    refused_ += (refused_.empty() ? "" : "; ") + reason;
+  if (!refused_.empty()) return;
+  const double ahead_s = order.at_unix_s - now.unix_s;
+  if (!(ahead_s > 0 && ahead_s <= kLatestStart_s)) {
+    refused_ = fmt::format("the start is {:.1f} s {}; it must lie 0 to {:.0f} s ahead",
+                           std::fabs(ahead_s), ahead_s > 0 ? "ahead" : "ago", kLatestStart_s);
+    return;
+  }
+  const auto cycles =
+      static_cast<std::int64_t>(std::llround(order.seconds / seconds_of(settings_.period)));
+  const TimePoint start = clock_at(order.at_unix_s, now);
+  begin(order.run, order.seed.value_or(settings_.seed), cycles, {start, order.at_unix_s});
+  phase_ = Phase::Armed;
+  seconds_ = order.seconds;
+  operator_heard_ = now.clock;
+  if (const auto offset = order.clock_offsets_s.find(settings_.robot);
+      offset != order.clock_offsets_s.end())
+    clock_offset_s_ = offset->second;
+}
+
+/// `start`: when the run begins.
+void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& start) {
+  run_ = std::move(run);
+  runs_.insert(run_);
+  seed_ = seed;
+  seconds_ = 0;
+  start_unix_s_ = start.unix_s;
+  clock_offset_s_.reset();
+  clock_.emplace(start.clock, settings_.period, cycles);
+  control_.emplace(*controller_, *flavour_, control_stream(seed, settings_.robot_index));
+  cycle_ = stepped_ = held_ = skipped_ = late_readings_ = cut_ = 0;
+  held_for_ = {};
+  longest_silence_ = {};
+  broken_.clear();
+  log_lost_ = false;
+  phase_ = Phase::Running;
+  judge();
+}
+
+TimePoint RobotNode::next_tick(TimePoint now) const {
+  if (phase_ == Phase::Running && !lock_step_) return clock_->next();
+  const TimePoint regular = std::max(now, last_tick_ + settings_.period);
+  return phase_ == Phase::Armed ? std::min(regular, clock_->start()) : regular;
+}
+
+Decision RobotNode::tick(const Now& now) {
+  last_tick_ = now.clock;
+  if (phase_ == Phase::Idle || phase_ == Phase::Ready) {
+    phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
+    return {};  // whoever carries or drives the robot to its place may do so
+  }
+  if (is_on() && settings_.operator_gone > Duration::zero() &&
+      now.clock - operator_heard_ > settings_.operator_gone) {
+    fail(fmt::format("the operator is silent for {:.2f} s",
+                     seconds_of(now.clock - operator_heard_)));
+  }
+  if (phase_ == Phase::Armed && now.clock >= clock_->start()) phase_ = Phase::Running;
+  if (phase_ == Phase::Running) {
+    const ControlClock::Beat beat = clock_->beat(now.clock);
+    if (beat.cycle == 0) return {};
+    return run_cycle(beat, now);
+  }
+  return {.command = standing(phase_ == Phase::Failed), .state = 0, .row = {}};
+}
+
+Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
+  skipped_ += beat.skipped;
+  if (beat.cycle == clock_->cycles()) {
+    end(Phase::Ended);
+    return {.command = standing(false), .state = 0, .row = {}};
+  }
+  PerFeed<Duration> give_up;
+  give_up.fill(settings_.give_up);
+  if (const auto lost = silence(now.clock, give_up)) {
+    Decision decision = hold(beat.cycle, beat.late, now, told(*lost));
+    fail(told(*lost));
+    return decision;
+  }
+  if (const auto silent = silence(now.clock, settings_.hold)) {
+    ++held_;
+    ++held_for_[index_of(silent->feed)];
+    Duration& longest = longest_silence_[index_of(silent->feed)];
+    longest = std::max(longest, silent->age);
+    Decision decision = hold(beat.cycle, beat.late, now, told(*silent));
+    if (static_cast<double>(held_) > kInvalid * static_cast<double>(clock_->cycles())) {
+      fail(fmt::format("sensors were silent in {} of {} cycles; {}", held_, clock_->cycles(),
+                       told(*silent)));
+    }
+    return decision;
+  }
+  PerFeed<Duration> late;
+  late.fill(settings_.late);
+  const auto old = silence(now.clock, late);
+  if (old) ++late_readings_;
+  sensed_ = feeds_.sensed();
+  sensed_.time_s = seconds_of(now.clock - clock_->start());
+  Decision decision = step(beat.cycle, beat.late, now);
+  if (old && decision.row && decision.row->event.empty()) decision.row->event = told(*old);
+  return decision;
+}
+
+Decision RobotNode::step(std::int64_t cycle, Duration late, const Now& now) {
+  cycle_ = cycle;
+  SensedSenses senses(sensed_);
+  const Command wanted = control_->step(senses);
+  const auto limited = within_limits(wanted, settings_.max_mps);
+  ++stepped_;
+  Decision decision{.command = limited.value_or(standing(true)),
+                    .state = control_->state(),
+                    .row = row_of(cycle, late, now)};
+  decision.row->command = *decision.command;
+  if (!limited) {
+    decision.row->event = "the controller's speeds are no finite numbers";
+    fail(decision.row->event);
+  } else if (limited->left_mps != wanted.left_mps || limited->right_mps != wanted.right_mps) {
+    ++cut_;
+    decision.row->event =
+        fmt::format("speeds cut from {} and {} m/s", wanted.left_mps, wanted.right_mps);
+  }
+  judge();
+  return decision;
+}
+
+Decision RobotNode::hold(std::int64_t cycle, Duration late, const Now& now, std::string why) {
+  cycle_ = cycle;
+  sensed_ = feeds_.sensed();
+  sensed_.time_s = seconds_of(now.clock - clock_->start());
+  Decision decision{
+      .command = standing(true), .state = control_->state(), .row = row_of(cycle, late, now)};
+  decision.row->act = Act::Hold;
+  decision.row->command = *decision.command;
+  decision.row->event = std::move(why);
+  judge();
+  return decision;
+}
+
+LogRow RobotNode::row_of(std::int64_t cycle, Duration late, const Now& now) const {
+  LogRow row;
+  row.cycle = cycle;
+  row.clock_s = clock_s(now.clock);
+  row.late_ms = milliseconds_of(late);
+  row.state = control_->state();
+  row.sensed = sensed_;
+  row.ground_as_sent = feeds_.ground_as_sent();
+  row.drawn = control_->drawn();
+  for (const Feed feed : kAllFeeds) {
+    if (const auto age = feeds_.age(feed, now.clock))
+      row.age_ms[index_of(feed)] = milliseconds_of(*age);
+    row.stamp_ms[index_of(feed)] = feeds_.stamp_ms(feed);
+  }
+  return row;
+}
+
+Expected<Decision> RobotNode::answer(const SensesMessage& senses, const Now& now) {
+  lock_step_ = true;
+  if (senses.cycle == 0) {
+    if (phase_ == Phase::Running) end(Phase::Ended);
+    return Decision{};
+  }
+  if (senses.cycle == 1) {
+    if (phase_ == Phase::Running) end(Phase::Ended);
+    begin(fmt::format("{}-seed{}", settings_.lock_step_run, senses.seed), senses.seed, 0, now);
+  } else if (phase_ != Phase::Running || senses.cycle != cycle_ + 1 || senses.seed != seed_) {
+    std::string wrong =
+        phase_ == Phase::Running
+            ? fmt::format("cycle {} of seed {} came after cycle {} of seed {}", senses.cycle,
+                          senses.seed, cycle_, seed_)
+            : fmt::format("cycle {} of seed {} came, and no run is on", senses.cycle, senses.seed);
+    fail(wrong);
+    return bad_input(std::move(wrong));
+  }
+  sensed_.time_s = senses.time_s;
+  sensed_.proximity_m = senses.ranges_m;
+  sensed_.light_lux = senses.light_lux;
+  const auto channel = [&senses](std::size_t i) {
+    return static_cast<std::uint8_t>(std::clamp(senses.color[i], 0.0, 255.0));
+  };
+  sensed_.ground = {channel(0), channel(1), channel(2)};
+  sensed_.neighbours.clear();
+  for (const SeenRobot& robot : senses.neighbours)
+    sensed_.neighbours.push_back({robot.distance_m, robot.direction_x, robot.direction_y});
+  Decision decision = step(senses.cycle, {}, now);
+  if (decision.row)
+    decision.row->ground_as_sent = {senses.color[0], senses.color[1], senses.color[2]};
+  return decision;
+}
+
+void RobotNode::begin_counted(const Now& now) {
+  lock_step_ = true;
+  begin(fmt::format("{}-seed{}", settings_.lock_step_run, settings_.seed), settings_.seed, 0, now);
+}
+
+Decision RobotNode::step_counted(const Now& now) {
+  sensed_ = feeds_.sensed();
+  sensed_.time_s = counted_time_s(cycle_ + 1);
+  return step(cycle_ + 1, {}, now);
+}
+
+void RobotNode::end(Phase phase) {
+  phase_ = phase;
+  judge();
+}
+
+void RobotNode::stop(const std::string& why) {
+  if (!is_on()) return;
+  broken_ = lock_step_ || cycle_ == 0
+                ? "stopped " + why
+                : fmt::format("stopped {} after {:.1f} s of {:.1f} s", why,
+                              seconds_of(settings_.period) * static_cast<double>(cycle_), seconds_);
+  end(Phase::Stopped);
+}
+
+void RobotNode::fail(const std::string& why) {
+  if (broken_.empty()) broken_ = why;
+  end(Phase::Failed);
+}
+
+void RobotNode::disarm(const std::string& why) {
+  refused_ = why;
+  run_.clear();
+  phase_ = Phase::Idle;
+}
+
+void RobotNode::set_log_trouble(std::string why) {
+  log_trouble_ = std::move(why);
+}
+
+void RobotNode::lose_log() {
+  log_lost_ = true;
+  end(Phase::Failed);
+}
+
+void RobotNode::judge() {
+  verdict_ = RunVerdict::Valid;
+  reasons_.clear();
+  const auto add = [this](RunVerdict verdict, std::string reason) {
+    verdict_ = std::max(verdict_, verdict);
+    reasons_.push_back(std::move(reason));
+  };
+  if (!broken_.empty()) add(RunVerdict::Invalid, broken_);
+  if (log_lost_) add(RunVerdict::Invalid, "the log is not whole: " + log_trouble_);
+  if (clock_ && clock_->cycles() > 0) {
+    const double share = static_cast<double>(skipped_) / static_cast<double>(clock_->cycles());
+    if (share > kDegraded) {
+      add(share > kInvalid ? RunVerdict::Invalid : RunVerdict::Degraded,
+          fmt::format("{} of {} cycles were skipped: the computer was too busy", skipped_,
+                      clock_->cycles()));
+    }
+  }
+  for (const Feed feed : kAllFeeds) {
+    const std::size_t i = index_of(feed);
+    if (held_for_[i] == 0) continue;
+    add(RunVerdict::Degraded,
+        fmt::format("{} was silent for up to {:.2f} s: {} cycles were not stepped", name_of(feed),
+                    seconds_of(longest_silence_[i]), held_for_[i]));
+  }
+  if (cut_ > 0) {
+    add(RunVerdict::Degraded,
+        fmt::format("speeds were cut to {} m/s in {} cycles", settings_.max_mps, cut_));
+  }
+}
+
+NodeState RobotNode::state(const Now& now) const {
+  NodeState state{.robot = settings_.robot,
+                  .phase = phase_,
+                  .run = run_,
+                  .cycle = cycle_,
+                  .machine_digest = machine_digest_,
+                  .flavour = flavour_->name,
+                  .turn_clock = std::string(name_of(flavour_->exploration.turn_clock)),
+                  .seed = is_on() ? seed_ : settings_.seed,
+                  .robot_index = settings_.robot_index,
+                  .version = settings_.version,
+                  .scheduling = settings_.scheduling,
+                  .age_ms = {},
+                  .held = held_,
+                  .skipped = skipped_,
+                  .battery = battery_,
+                  .verdict = verdict_,
+                  .reasons = reasons_,
+                  .not_ready = not_ready(now.clock),
+                  .log_trouble = log_trouble_,
+                  .order = order_,
+                  .refused = refused_,
+                  .start_unix_s = is_on() ? start_unix_s_ : 0,
+                  .clock_s = clock_s(now.clock),
+                  .unix_s = now.unix_s};
+  for (const Feed feed : kAllFeeds) {
+    if (!needed_[index_of(feed)]) continue;
+    const auto age = feeds_.age(feed, now.clock);
+    state.age_ms[index_of(feed)] = age ? milliseconds_of(*age) : -1;
+  }
+  return state;
+}
+
+LogHead RobotNode::head() const {
+  LogHead head{.run = run_,
+               .robot = settings_.robot,
+               .robot_index = settings_.robot_index,
+               .machine = machine_text_,
+               .machine_digest = machine_digest_,
+               .flavour = flavour_->name,
+               .turn_clock = std::string(name_of(flavour_->exploration.turn_clock)),
+               .seed = seed_,
+               .lock_step = lock_step_,
+               .period_s = seconds_of(settings_.period),
+               .seconds = seconds_,
+               .max_mps = settings_.max_mps,
+               .program = settings_.version,
+               .host = settings_.host,
+               .scheduling = settings_.scheduling,
+               .topics = settings_.topics,
+               .start_clock_s = clock_ ? clock_s(clock_->start()) : 0,
+               .start_unix_s = start_unix_s_,
+               .clock_offset_s = clock_offset_s_,
+               .end = {}};
+  if (phase_ == Phase::Ended || phase_ == Phase::Stopped || phase_ == Phase::Failed) {
+    head.end = RunEnd{.state = std::string(name_of(phase_)),
+                      .verdict = verdict_,
+                      .reasons = reasons_,
+                      .stepped = stepped_,
+                      .held = held_,
+                      .skipped = skipped_};
+  }
+  return head;
+}
+
+}  // namespace swarmsmith

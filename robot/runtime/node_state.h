@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "robot/runtime/run_record.h"
+
+namespace swarmsmith {
+
+/// Where a node is in its life:
+///
+///     idle <-> ready -> armed -> running -> ended | stopped | failed -> (a new start) armed
+enum class Phase {
+  Idle,   ///< something is missing: `not_ready` says what
+  Ready,  ///< may be started
+  Armed,  ///< waits for the agreed instant
+  Running,
+  Ended,    ///< the run's time was over
+  Stopped,  ///< by an order or a signal
+  Failed,
+};
+/// `idle`, `ready`, ...
+std::string_view name_of(Phase phase);
+std::optional<Phase> phase_from(std::string_view name);
+
+/// What a node says of itself, twice a second and whenever it changes.
+struct NodeState {
+  std::string robot;
+  Phase phase = Phase::Idle;
+  std::string run;  ///< the present or the last one
+  std::int64_t cycle = 0;
+  std::string machine_digest;
+  std::string flavour;
+  std::string turn_clock;
+  std::int64_t seed = 0;
+  std::int64_t robot_index = 0;
+  std::string version;
+  std::string scheduling;
+  /// Age of a needed feed's last message; -1 before the first, none of a feed that is not needed.
+  PerFeed<std::optional<double>> age_ms;
+  std::int64_t held = 0;
+  std::int64_t skipped = 0;
+  std::optional<double> battery;  ///< charge, 0 to 1
+  RunVerdict verdict = RunVerdict::Valid;
+  std::vector<std::string> reasons;    ///< of the verdict
+  std::vector<std::string> not_ready;  ///< why no run can start
+  std::string log_trouble;             ///< why the log cannot be written
+  std::string order;                   ///< id of the last order
+  std::string refused;                 ///< why that one was refused; empty: obeyed
+  double start_unix_s = 0;             ///< the run's agreed instant, by the wall clock
+  double clock_s = 0;                  ///< CLOCK_MONOTONIC
+  double unix_s = 0;                   ///< wall clock
+
+  friend bool operator==(const NodeState&, const NodeState&) = default;
+};
+
+/// As JSON, and back.
+std::string state_text(const NodeState& state);
+Expected<NodeState> parse_state(std::string_view text);
+
+}  // namespace swarmsmith

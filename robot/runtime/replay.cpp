@@ -1,0 +1,81 @@
+#include "robot/runtime/replay.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "robot/runtime/node.h"
+#include "sim/control/control_software.h"
+
+namespace swarmsmith {
+namespace {
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// How the row differs from what the controller did; empty when it does not.
+std::string difference(const LogRow& row, const Command& command, int state, std::uint64_t drawn) {
+  if (!same_bits(row.command.left_mps, command.left_mps) ||
+      !same_bits(row.command.right_mps, command.right_mps)) {
+    return fmt::format("the log has the speeds {} and {} m/s, the controller gives {} and {} m/s",
+                       row.command.left_mps, row.command.right_mps, command.left_mps,
+                       command.right_mps);
+  }
+  if (row.command.leds != command.leds) return "other LEDs than the controller's";
+  if (row.state != state)
+    return fmt::format("the log has state {}, the controller is in {}", row.state, state);
+  if (row.drawn != drawn)
+    return fmt::format("the log has {} random numbers, the controller drew {}", row.drawn, drawn);
+  return {};
+}
+
+Expected<TurnClock> turn_clock_of(const std::string& name) {
+  for (const TurnClock clock : {TurnClock::Cycles, TurnClock::Seconds}) {
+    if (name_of(clock) == name) return clock;
+  }
+  return bad_input("there is no turn clock `" + name + "`; there are cycles and seconds");
+}
+
+}  // namespace
+
+Expected<LogReplay> replay_log(const RunRecord& record) {
+  const LogHead& head = record.head;
+  const auto turn_clock = turn_clock_of(head.turn_clock);
+  if (!turn_clock) return Unexpected(turn_clock.error());
+  const auto flavour = find_flavour(head.flavour, *turn_clock);
+  if (!flavour) return Unexpected(flavour.error());
+  const auto controller = parse_controller(head.machine, *flavour);
+  if (!controller) return Unexpected(controller.error());
+  ControlSoftware control(*controller, *flavour,
+                          control_stream(head.seed, static_cast<int>(head.robot_index)));
+  LogReplay replay;
+  std::int64_t before = 0;
+  for (const LogRow& row : record.rows) {
+    if (row.cycle <= before) {
+      replay.difference = {row.cycle,
+                           fmt::format("cycle {} comes after cycle {}", row.cycle, before)};
+      return replay;
+    }
+    before = row.cycle;
+    if (row.act == Act::Hold) {
+      if (row.command.left_mps != 0 || row.command.right_mps != 0) {
+        replay.difference = {row.cycle, "a cycle that was held has a speed"};
+        return replay;
+      }
+      continue;
+    }
+    SensedSenses senses(row.sensed);
+    const Command wanted = control.step(senses);
+    ++replay.stepped;
+    const auto sent = within_limits(wanted, head.max_mps);
+    if (!sent) continue;  // the node stopped, and says so
+    const std::string what = difference(row, *sent, control.state(), control.drawn());
+    if (what.empty()) continue;
+    replay.difference = {row.cycle, what};
+    return replay;
+  }
+  return replay;
+}
+
+}  // namespace swarmsmith

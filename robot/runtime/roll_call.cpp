@@ -1,0 +1,272 @@
+#include "robot/runtime/roll_call.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarmsmith {
+namespace {
+
+constexpr Duration kEchoPatience = std::chrono::milliseconds(250);
+constexpr Duration kAliveEvery = std::chrono::milliseconds(200);
+constexpr Duration kStopEvery = std::chrono::milliseconds(200);
+constexpr Duration kMostSilence = std::chrono::seconds(1);
+constexpr Duration kArmPatience = std::chrono::seconds(1);
+constexpr Duration kRunningPatience = std::chrono::milliseconds(500);
+constexpr Duration kStopPatience = std::chrono::seconds(2);
+constexpr Duration kEndPatience = std::chrono::seconds(2);
+
+Duration duration_of(double seconds) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+}
+
+bool is_on(Phase phase) {
+  return phase == Phase::Armed || phase == Phase::Running;
+}
+
+/// "rvr2: has the seed 3, and rvr1 has 1".
+void compare(const RolledRobot& robot, const RolledRobot& first, const char* what,
+             const std::string& its, const std::string& of_first,
+             std::vector<std::string>& complaints) {
+  if (its == of_first) return;
+  complaints.push_back(
+      fmt::format("{}: {} {}, and {} has {}", robot.name, what, its, first.name, of_first));
+}
+
+}  // namespace
+
+RollCall::RollCall(const std::vector<std::string>& robots, std::string id)
+    : id_(std::move(id)), answered_(robots.size(), true) {
+  for (const std::string& name : robots)
+    robots_.push_back({.name = name, .state = {}, .heard = {}});
+}
+
+void RollCall::hear(std::size_t at, const NodeState& state, const Now& now) {
+  RolledRobot& robot = robots_[at];
+  robot.state = state;
+  robot.heard = now.clock;
+  if (answered_[at] || state.order != fmt::format("{}-echo{}", id_, round_)) return;
+  answered_[at] = true;
+  const double took_s = std::chrono::duration<double>(now.clock - sent_.clock).count();
+  if (robot.echoes == 0 || took_s < robot.echo_s) {
+    robot.echo_s = took_s;
+    robot.offset_s = state.unix_s - (sent_.unix_s + took_s / 2);
+  }
+  ++robot.echoes;
+}
+
+std::optional<Order> RollCall::tick(const Now& now) {
+  if (is_complete()) return std::nullopt;
+  const bool all = std::ranges::all_of(answered_, [](bool answered) { return answered; });
+  if (!all && now.clock - sent_.clock < kEchoPatience) return std::nullopt;
+  ++round_;
+  sent_ = now;
+  answered_.assign(robots_.size(), false);
+  Order echo;
+  echo.kind = Order::Kind::Echo;
+  echo.id = fmt::format("{}-echo{}", id_, round_);
+  echo.sent_unix_s = now.unix_s;
+  echo.valid_s = 10;  // also a clock that is far off is to be measured
+  return echo;
+}
+
+bool RollCall::is_complete() const {
+  return std::ranges::all_of(robots_,
+                             [](const RolledRobot& robot) { return robot.echoes >= kEchoes; });
+}
+
+std::vector<std::string> RollCall::complaints(TimePoint now) const {
+  std::vector<std::string> complaints;
+  const RolledRobot* first = nullptr;
+  for (const RolledRobot& robot : robots_) {
+    if (!robot.state || now - robot.heard > kMostSilence) {
+      complaints.push_back(robot.name +
+                           ": does not answer; is its node running, and on this network?");
+      continue;
+    }
+    const NodeState& state = *robot.state;
+    if (state.robot != robot.name)
+      complaints.push_back(robot.name + ": its node calls itself " + state.robot);
+    if (is_on(state.phase)) complaints.push_back(robot.name + ": the run " + state.run + " is on");
+    for (const std::string& reason : state.not_ready)
+      complaints.push_back(robot.name + ": " + reason);
+    if (std::fabs(robot.offset_s) > kMostOffset_s) {
+      complaints.push_back(
+          fmt::format("{}: its clock is {:.0f} ms {} this computer's, more than {:.0f} ms: "
+                      "synchronise them (chrony)",
+                      robot.name, 1000 * std::fabs(robot.offset_s),
+                      robot.offset_s > 0 ? "ahead of" : "behind", 1000 * kMostOffset_s));
+    }
+    if (first == nullptr) {
+      first = &robot;
+      continue;
+    }
+    const NodeState& other = *first->state;
+    compare(robot, *first, "has the machine", state.machine_digest, other.machine_digest,
+            complaints);
+    compare(robot, *first, "has the flavour", state.flavour, other.flavour, complaints);
+    compare(robot, *first, "has the turn clock", state.turn_clock, other.turn_clock, complaints);
+    compare(robot, *first, "has the seed", std::to_string(state.seed), std::to_string(other.seed),
+            complaints);
+    compare(robot, *first, "has the version", state.version, other.version, complaints);
+    for (const RolledRobot& before : robots_) {
+      if (&before == &robot) break;
+      if (before.state && before.state->robot_index == state.robot_index) {
+        complaints.push_back(
+            fmt::format("{}: has the random stream {} of {}: give it another "
+                        "--index",
+                        robot.name, state.robot_index, before.name));
+      }
+    }
+  }
+  return complaints;
+}
+
+RunStarter::RunStarter(Settings settings, const std::vector<std::string>& robots, std::string id,
+                       const Now& now)
+    : settings_(std::move(settings)),
+      roll_(robots, id),
+      id_(std::move(id)),
+      called_(now.clock),
+      names_(robots) {}
+
+void RunStarter::hear(std::size_t robot, const NodeState& state, const Now& now) {
+  roll_.hear(robot, state, now);
+}
+
+Order RunStarter::order(Order::Kind kind, const Now& now) {
+  Order made;
+  made.kind = kind;
+  made.id = fmt::format("{}-{}", id_, ++orders_);
+  made.run = settings_.run;
+  made.robots = names_;
+  made.sent_unix_s = now.unix_s;
+  return made;
+}
+
+bool RunStarter::is_in_run(const RolledRobot& robot) const {
+  return robot.state && robot.state->run == settings_.run && is_on(robot.state->phase);
+}
+
+bool RunStarter::is_over_for(const RolledRobot& robot) const {
+  return robot.state && robot.state->run == settings_.run && !is_on(robot.state->phase) &&
+         robot.state->phase != Phase::Idle && robot.state->phase != Phase::Ready;
+}
+
+void RunStarter::give_up(std::string why, const Now& now) {
+  complaints_.push_back(std::move(why));
+  if (stage_ == Stage::Stopping) return;
+  stage_ = Stage::Stopping;
+  stopping_ = now.clock;
+  alive_ = {};
+}
+
+void RunStarter::interrupt(const Now& now) {
+  if (stage_ == Stage::Calling) {
+    complaints_.emplace_back("interrupted before the start");
+    stage_ = Stage::Over;
+  } else if (stage_ == Stage::Ordered || stage_ == Stage::Watching) {
+    give_up("interrupted: all robots are told to stop", now);
+  }
+}
+
+std::vector<Order> RunStarter::tick(const Now& now) {
+  std::vector<Order> orders;
+  switch (stage_) {
+    case Stage::Calling: {
+      if (auto echo = roll_.tick(now)) orders.push_back(std::move(*echo));
+      const bool late = now.clock - called_ > duration_of(settings_.patience_s);
+      if (!roll_.is_complete() && !late) break;
+      complaints_ = roll_.complaints(now.clock);
+      if (!complaints_.empty()) {
+        if (late) stage_ = Stage::Over;  // until then it may get ready
+        break;
+      }
+      Order start = order(Order::Kind::Start, now);
+      start.at_unix_s = now.unix_s + settings_.lead_s;
+      start.seconds = settings_.seconds;
+      start.seed = settings_.seed;
+      for (const RolledRobot& robot : roll_.robots())
+        start.clock_offsets_s[robot.name] = robot.offset_s;
+      start_ = {now.clock + duration_of(settings_.lead_s), start.at_unix_s};
+      start_id_ = start.id;
+      stage_ = Stage::Ordered;
+      called_ = alive_ = now.clock;
+      orders.push_back(std::move(start));
+      break;
+    }
+    case Stage::Ordered:
+    case Stage::Watching:
+      watch(now);
+      if (stage_ != Stage::Stopping && stage_ != Stage::Over && now.clock - alive_ >= kAliveEvery) {
+        alive_ = now.clock;
+        orders.push_back(order(Order::Kind::Alive, now));
+      }
+      break;
+    case Stage::Stopping:
+      break;
+    case Stage::Over:
+      return orders;
+  }
+  if (stage_ != Stage::Stopping) return orders;
+  const bool none = std::ranges::none_of(
+      roll_.robots(), [this](const RolledRobot& robot) { return is_in_run(robot); });
+  if (now.clock - alive_ >= kStopEvery) {
+    alive_ = now.clock;
+    orders.push_back(order(Order::Kind::Stop, now));
+  } else if (none || now.clock - stopping_ > kStopPatience) {
+    for (const RolledRobot& robot : roll_.robots()) {
+      if (is_in_run(robot))
+        complaints_.push_back(robot.name + ": did not say that it stopped: look after it");
+    }
+    stage_ = Stage::Over;
+  }
+  return orders;
+}
+
+void RunStarter::watch(const Now& now) {
+  for (const RolledRobot& robot : roll_.robots()) {
+    if (robot.state->order == start_id_ && !robot.state->refused.empty())
+      return give_up(robot.name + ": refuses the start: " + robot.state->refused, now);
+    if (now.clock - robot.heard > kMostSilence && !is_over_for(robot))
+      return give_up(robot.name + ": is silent for 1 s", now);
+    if (is_over_for(robot) && robot.state->phase != Phase::Ended) {
+      const auto& reasons = robot.state->reasons;
+      return give_up(fmt::format("{}: {}: {}", robot.name, name_of(robot.state->phase),
+                                 reasons.empty() ? "no reason given" : reasons.front()),
+                     now);
+    }
+  }
+  const auto all = [this](auto what) { return std::ranges::all_of(roll_.robots(), what); };
+  if (stage_ == Stage::Ordered) {
+    if (!all([this](const RolledRobot& robot) { return is_in_run(robot); })) {
+      if (now.clock - called_ > kArmPatience) give_up("not all robots took the start", now);
+      return;
+    }
+    stage_ = Stage::Watching;
+  }
+  if (!begun_ && now.clock > start_.clock + kRunningPatience) {
+    for (const RolledRobot& robot : roll_.robots()) {
+      if (robot.state->phase == Phase::Armed) {
+        return give_up(robot.name + ": is not running 0.5 s after the start", now);
+      }
+    }
+    begun_ = true;
+  }
+  if (all([this](const RolledRobot& robot) { return is_over_for(robot); })) {
+    begun_ = true;
+    stage_ = Stage::Over;
+  } else if (now.clock > start_.clock + duration_of(settings_.seconds) + kEndPatience) {
+    give_up("not all robots ended the run", now);
+  }
+}
+
+RunVerdict RunStarter::verdict() const {
+  RunVerdict worst = complaints_.empty() ? RunVerdict::Valid : RunVerdict::Invalid;
+  for (const RolledRobot& robot : roll_.robots())
+    worst = std::max(worst, is_over_for(robot) ? robot.state->verdict : RunVerdict::Invalid);
+  return worst;
+}
+
+}  // namespace swarmsmith

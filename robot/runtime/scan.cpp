@@ -1,0 +1,54 @@
+#include "robot/runtime/scan.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/math.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Half an increment, and what angles lose as float32 on the way.
+constexpr double kFarthest = 0.5 + 1e-3;
+
+/// The index of the value nearest to the ray whose place is `place` values after the first one;
+/// `turn` values are a full turn. The earlier one of equals.
+std::optional<std::size_t> nearest(double place, double turn, std::size_t values) {
+  const auto last = static_cast<double>(values - 1);
+  std::optional<std::size_t> found;
+  double least = kFarthest;
+  place -= std::floor((place + kFarthest) / turn) * turn;  // the first turn that can reach a value
+  for (; place <= last + kFarthest; place += turn) {
+    const double index = std::fmin(std::fmax(std::floor(place + 0.5), 0), last);
+    const double distance = std::fabs(place - index);
+    if (distance >= least) continue;
+    least = distance;
+    found = static_cast<std::size_t>(index);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<std::string> resample(const ScanMessage& scan, double turn_rad, RayRanges& ranges_m) {
+  const double increment = scan.angle_increment_rad;
+  if (scan.ranges_m.empty()) return "a scan without values";
+  if (!std::isfinite(scan.angle_min_rad)) return "a scan whose angle_min is no number";
+  if (!(std::fabs(increment) > 1e-5 && std::fabs(increment) < 1))
+    return "a scan with an angle_increment of " + std::to_string(increment) + " rad";
+  const double turn = 2 * kPi / std::fabs(increment);
+  for (int ray = 0; ray < kLidarRays; ++ray) {
+    double& range = ranges_m[static_cast<std::size_t>(ray)];
+    range = std::numeric_limits<double>::infinity();
+    const double angle = 2 * kPi * ray / kLidarRays - turn_rad;
+    const auto index =
+        nearest((angle - scan.angle_min_rad) / increment, turn, scan.ranges_m.size());
+    if (!index) continue;
+    const double value = scan.ranges_m[*index];
+    // false for NaN, as it shall be
+    if (value > 0 && value >= scan.range_min_m && value <= scan.range_max_m) range = value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "robot/transport/ends.h"
+
+namespace swarmsmith {
+
+/// All ends of a swarm in one process, for tests: what is sent arrives at once, with the bits that
+/// it has. Ends may be used by a thread each, and must not outlive the swarm.
+class InProcessSwarm {
+ public:
+  explicit InProcessSwarm(std::vector<std::string> names, Keep keep = Keep::All);
+  ~InProcessSwarm();
+
+  RobotEnd& robot(std::size_t robot);
+  WorldEnd& world();
+  OperatorEnd& operator_end();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,175 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/clock.h"
+
+namespace swarmsmith {
+
+/// What travels between a robot's control software, its drivers (or a simulated world in their
+/// place) and the operator. Plain values in SI units, as they were sent: nothing is clamped,
+/// resampled or labelled yet. `kTopic` is the topic's name in the robot's name space. Robot frame:
+/// x forward, y left, angles counter-clockwise.
+
+inline constexpr std::size_t kRangeSensors = 8;
+
+/// When a message came.
+struct Arrival {
+  TimePoint at{};             ///< when it arrived here, by the steady clock; set by the transport
+  std::int64_t stamp_ns = 0;  ///< of its header, by the sender's clock; 0: it has none
+};
+
+/// The proximity sensors, by index. As drivers have them: -infinity too near, +infinity nothing
+/// there, NaN a sensor that is off.
+struct RangesMessage {
+  static constexpr const char* kTopic = "ranges";
+  Arrival arrival{};
+  std::vector<double> ranges_m{};
+};
+
+/// The floor's colour, in the driver's scale (0 to 255 or 0 to 1).
+struct GroundColorMessage {
+  static constexpr const char* kTopic = "ground_color";
+  Arrival arrival{};
+  double r = 0;
+  double g = 0;
+  double b = 0;
+};
+
+/// One turn of the lidar: value i was measured at `angle_min_rad` + i * `angle_increment_rad`.
+struct ScanMessage {
+  static constexpr const char* kTopic = "scan";
+  Arrival arrival{};
+  double angle_min_rad = 0;
+  double angle_max_rad = 0;
+  double angle_increment_rad = 0;
+  double range_min_m = 0;
+  double range_max_m = 0;
+  std::vector<double> ranges_m{};  ///< of any length; 0, NaN, infinity: no return
+};
+
+/// A robot nearby: distance of its centre and the unit vector towards it in the robot's frame.
+struct SeenRobot {
+  double distance_m = 0;
+  double direction_x = 1;
+  double direction_y = 0;
+};
+
+/// Robots nearby, of hardware that finds them without a scan.
+struct NeighboursMessage {
+  static constexpr const char* kTopic = "neighbours";
+  Arrival arrival{};
+  std::vector<SeenRobot> robots{};
+};
+
+/// Lux at the directions of the proximity sensors, by index.
+struct LightMessage {
+  static constexpr const char* kTopic = "light";
+  Arrival arrival{};
+  std::vector<double> lux{};
+};
+
+/// For the log alone, as are the next two.
+struct ImuMessage {
+  static constexpr const char* kTopic = "imu";
+  Arrival arrival{};
+  std::array<double, 4> orientation{0, 0, 0, 1};  ///< quaternion x, y, z, w
+  std::array<double, 3> angular_velocity_radps{};
+  std::array<double, 3> acceleration_mps2{};
+};
+
+struct OdometryMessage {
+  static constexpr const char* kTopic = "odom";
+  Arrival arrival{};
+  double x_m = 0;
+  double y_m = 0;
+  double heading_rad = 0;
+  double vx_mps = 0;
+  double vy_mps = 0;
+  double turn_radps = 0;
+};
+
+struct BatteryMessage {
+  static constexpr const char* kTopic = "battery";
+  Arrival arrival{};
+  double voltage_V = 0;
+  double charge = 0;  ///< 0 empty to 1 full; NaN not known
+};
+
+/// An order of the operator, to all robots: a JSON object. What it means is robot/runtime's.
+struct OrderMessage {
+  static constexpr const char* kTopic = "order";
+  Arrival arrival{};
+  std::string text{};
+};
+
+/// Lock-step by number: all that the control software may read in one cycle, with the bits that the
+/// simulator has. It is answered by an AnswerMessage, and only then comes the next.
+struct SensesMessage {
+  static constexpr const char* kTopic = "senses";
+  Arrival arrival{};
+  std::int64_t seed = 0;   ///< of the run
+  std::int64_t cycle = 0;  ///< from 1, where a run begins; 0: there are no more runs
+  double time_s = 0;       ///< since the start, as the robot's clock has it
+  std::array<double, kRangeSensors> ranges_m{};
+  std::array<double, 3> color{};  ///< r, g, b, 0 to 255
+  std::array<double, kRangeSensors> light_lux{};
+  std::vector<SeenRobot> neighbours{};
+};
+
+/// What went wrong on the way, as a sentence: a name that does not resolve, a peer that hung up.
+struct TroubleMessage {
+  std::string text{};
+  bool ended = false;  ///< nothing comes or goes any more: stop
+};
+
+/// What reaches a robot's node.
+using ToRobot = std::variant<RangesMessage, GroundColorMessage, ScanMessage, NeighboursMessage,
+                             LightMessage, ImuMessage, OdometryMessage, BatteryMessage,
+                             OrderMessage, SensesMessage, TroubleMessage>;
+
+/// Speeds of the treads over ground.
+struct WheelsMessage {
+  static constexpr const char* kTopic = "wheels";
+  Arrival arrival{};
+  double left_mps = 0;
+  double right_mps = 0;
+  /// State of the machine after the cycle; sent in lock-step alone, -1 elsewhere.
+  int state = -1;
+  std::string sender{};  ///< who sent it, where the transport knows; a driver obeys only one
+};
+
+/// Two in front, one on each side, one at the back; r, g, b of each, 0 to 255.
+struct LedsMessage {
+  static constexpr const char* kTopic = "leds";
+  Arrival arrival{};
+  std::array<double, 15> colors{};
+};
+
+/// A node's state: a JSON object. What is in it is robot/runtime's.
+struct StateMessage {
+  static constexpr const char* kTopic = "state";
+  Arrival arrival{};
+  std::string text{};
+};
+
+/// The answer to a SensesMessage; seed and cycle are those of it.
+struct AnswerMessage {
+  static constexpr const char* kTopic = "answer";
+  Arrival arrival{};
+  std::int64_t seed = 0;
+  std::int64_t cycle = 0;
+  double left_mps = 0;
+  double right_mps = 0;
+  int state = 0;  ///< of the machine, after the cycle
+};
+
+using FromRobot =
+    std::variant<WheelsMessage, LedsMessage, StateMessage, AnswerMessage, TroubleMessage>;
+
+}  // namespace swarmsmith

@@ -1,0 +1,205 @@
+#include "robot/world/real_time.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "base/overloaded.h"
+#include "robot/world/sensor_messages.h"
+#include "robot/world/simulated_driver.h"
+
+namespace swarmsmith {
+
+namespace {
+
+/// Ends the run from inside of the engine: for a reason, or (none) because the real one begins.
+struct Broken : std::exception {
+  explicit Broken(std::optional<Error> why) : error(std::move(why)) {}
+  std::optional<Error> error;
+};
+
+Duration seconds(double value) {
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(value));
+}
+
+std::string time_text(double time_s) {
+  char buffer[32];
+  const int size = std::snprintf(buffer, sizeof buffer, "%.2f s: ", time_s);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+class Laboratory final : public Decider {
+ public:
+  Laboratory(WorldEnd& end, const SensorTopics& sensors, const RealTimeOptions& options)
+      : end_(&end), sensors_(sensors), options_(&options), robots_(end.robots()) {
+    for (std::size_t i = 0; i < robots_.size(); ++i)
+      robots_[i].faults.emplace(options.faults, end.name(i));
+  }
+
+  /// The robots wait in their places, from now on.
+  void wait_for_start() {
+    waits_ = true;
+    zero_ = SystemClock().now();
+  }
+  void begin_at(TimePoint zero) {
+    waits_ = false;
+    zero_ = zero;
+  }
+  std::optional<TimePoint> start() const { return start_; }
+
+  bool wants_every_step() const override { return true; }
+
+  /// Until then, messages come in.
+  void begin(double time_s) override {
+    time_s_ = time_s;
+    const TimePoint due = zero_ + seconds(time_s);
+    if (waits_ && start_ && due >= *start_) throw Broken(std::nullopt);
+    if (options_->is_over()) throw Broken(Error{ErrorKind::Unavailable, "stopped", {}});
+    while (const auto received = end_->receive(due))
+      hear(*received);
+    now_ = SystemClock().now();
+    if (!waits_) latest_ = std::max(latest_, now_ - due);
+  }
+
+  void ask(const Question& question) override {
+    const auto robot = static_cast<std::size_t>(question.robot);
+    // Faults are of the run.
+    const double time_s = waits_ ? -1 : question.time_s;
+    const Arrival arrival{{}, stamp_now()};
+    const FaultySensors& faults = *robots_[robot].faults;
+    const auto send = [&](auto message) {
+      message.arrival = arrival;
+      if (auto passed = faults.pass(std::move(message), time_s)) end_->send(robot, *passed);
+    };
+    if (sensors_.ranges) send(ranges_message(question.senses));
+    if (sensors_.ground_color) send(ground_color_message(question.senses));
+    if (sensors_.scan) send(scan_message(question.senses));
+    if (sensors_.neighbours) send(neighbours_message(question.senses));
+    if (sensors_.light) send(light_message(question.senses));
+    if (!sensors_.body) return;
+    const auto send_body = [&](auto message) {
+      message.arrival = arrival;
+      end_->send(robot, message);
+    };
+    send_body(imu_message(question.senses));
+    send_body(odometry_message(question.senses));
+    BatteryMessage battery;
+    battery.voltage_V = 7.4;
+    battery.charge = 1;
+    send_body(battery);
+  }
+
+  std::optional<Answer> answer(int index) override {
+    Robot& robot = robots_[static_cast<std::size_t>(index)];
+    const auto treads = robot.driver.act(now_);
+    for (const std::string& event : robot.driver.take_events()) {
+      if (!waits_) {
+        options_->tell(time_text(time_s_) + end_->name(static_cast<std::size_t>(index)) + ": " +
+                       event);
+      }
+    }
+    stops_by_silence_ += !waits_ && robot.driver.silent() && !robot.was_silent ? 1 : 0;
+    stops_by_rivals_ += !waits_ && robot.driver.has_rivals() && !robot.had_rivals ? 1 : 0;
+    robot.was_silent = robot.driver.silent();
+    robot.had_rivals = robot.driver.has_rivals();
+    // While they wait for the start, robots that are told to drive do: real ones would. Here they
+    // would not start where the mission says, so that it is refused.
+    if (!treads) return std::nullopt;
+    if (waits_ && treads->move()) {
+      throw Broken(Error{ErrorKind::BadInput,
+                         "its node drives before a run was started; the robots are not where the "
+                         "mission begins any more",
+                         end_->name(static_cast<std::size_t>(index))});
+    }
+    return Answer{
+        .command = {.left_mps = treads->left_mps, .right_mps = treads->right_mps, .leds = {}},
+        .state = 0};
+  }
+
+  Duration latest() const { return latest_; }
+  int stops_by_silence() const { return stops_by_silence_; }
+  int stops_by_rivals() const { return stops_by_rivals_; }
+
+ private:
+  struct Robot {
+    SimulatedDriver driver;
+    std::optional<FaultySensors> faults;
+    bool was_silent = true;
+    bool had_rivals = false;
+  };
+
+  static std::int64_t stamp_now() {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::system_clock::now().time_since_epoch())
+        .count();
+  }
+
+  void hear(const WorldEnd::Received& received) {
+    std::visit(Overloaded{[&](const WheelsMessage& wheels) {
+                            robots_[received.robot].driver.hear(wheels);
+                          },
+                          [&](const StateMessage& state) {
+                            if (!waits_ || !options_->start_of) return;
+                            if (const auto start = options_->start_of(state)) start_ = start;
+                          },
+                          [&](const TroubleMessage& trouble) {
+                            if (trouble.ended)
+                              throw Broken(Error{ErrorKind::Unavailable, trouble.text, {}});
+                            options_->tell(trouble.text);
+                          },
+                          [](const LedsMessage&) {}, [](const AnswerMessage&) {}},
+               received.message);
+  }
+
+  WorldEnd* end_;
+  SensorTopics sensors_;
+  const RealTimeOptions* options_;
+  std::vector<Robot> robots_;
+  bool waits_ = false;
+  TimePoint zero_{};
+  std::optional<TimePoint> start_;  ///< of the run, once it is known
+  double time_s_ = 0;
+  TimePoint now_{};
+  Duration latest_{};
+  int stops_by_silence_ = 0;
+  int stops_by_rivals_ = 0;
+};
+
+}  // namespace
+
+Expected<RealTimeResult> run_in_real_time(WorldEnd& end, const SensorTopics& sensors,
+                                          const WorldRun& run, const RealTimeOptions& options,
+                                          const Recorder& recorder) {
+  if (const auto good = run.check(end); !good) return tl::unexpected(good.error());
+  Laboratory laboratory(end, sensors, options);
+  try {
+    TimePoint zero = SystemClock().now();
+    if (options.start_of) {
+      Mission before = run.mission;
+      before.cycles = std::numeric_limits<int>::max();
+      laboratory.wait_for_start();
+      try {
+        const WorldRun waiting{run.profile, before, run.instance, run.seed};
+        simulate(waiting.setup(), {}, &laboratory);
+      } catch (const Broken& broken) {
+        if (broken.error) throw;
+      }
+      zero = *laboratory.start();
+    }
+    laboratory.begin_at(zero);
+    const SimulationResult result = simulate(run.setup(), recorder, &laboratory);
+    return RealTimeResult{.simulation = result,
+                          .start = zero,
+                          .latest = laboratory.latest(),
+                          .stops_by_silence = laboratory.stops_by_silence(),
+                          .stops_by_rivals = laboratory.stops_by_rivals()};
+  } catch (const Broken& broken) {
+    return tl::unexpected(*broken.error);
+  } catch (const std::invalid_argument& error) {
+    return bad_input(error.what());
+  }
+}
+
+}  // namespace swarmsmith

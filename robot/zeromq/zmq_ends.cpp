@@ -1,0 +1,449 @@
+#include "robot/zeromq/zmq_ends.h"
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "proto/access/address.h"
+#include "proto/socket.h"
+#include "robot/transport/inbox.h"
+#include "robot/zeromq/frames.h"
+
+namespace swarmsmith {
+
+namespace {
+
+constexpr std::string_view kDriver = "driver";
+constexpr std::string_view kOperator = "operator";
+
+/// How often a thread looks whether it shall end, and whether its connection stands.
+constexpr std::chrono::milliseconds kLook{50};
+constexpr std::chrono::milliseconds kTryAgain{200};
+
+template <class Variant>
+void set_arrival(Variant& message) {
+  const TimePoint now = SystemClock().now();
+  std::visit(
+      [&](auto& one) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, TroubleMessage>)
+          one.arrival.at = now;
+      },
+      message);
+}
+
+/// Frames on their way out, put by any thread.
+class Outbox {
+ public:
+  /// `topic` is dropped where it waits already, unless it is empty.
+  void put(std::string frame, bool newest_only) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (newest_only) {
+        const std::string topic = frame.substr(0, frame.find(' ') + 1);
+        std::erase_if(frames_, [&](const std::string& old) { return old.starts_with(topic); });
+      }
+      frames_.push_back(std::move(frame));
+    }
+    wakeup_.notify();
+  }
+  std::vector<std::string> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(frames_, {});
+  }
+  bool empty() const {
+    const std::lock_guard lock(mutex_);
+    return frames_.empty();
+  }
+  Wakeup& wakeup() { return wakeup_; }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> frames_;
+  Wakeup wakeup_;
+};
+
+/// Waits until all was handed to the sockets, whose threads then send it.
+void wait_until_sent(const std::function<bool()>& sent, Duration most) {
+  const TimePoint until = SystemClock().now() + most;
+  while (!sent() && SystemClock().now() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+std::vector<std::string> topics_of(const SensorTopics& sensors) {
+  std::vector<std::string> topics;
+  const auto add = [&](bool wanted, std::string_view topic) {
+    if (wanted) topics.emplace_back(topic);
+  };
+  add(sensors.senses, SensesMessage::kTopic);
+  if (sensors.senses) return topics;
+  add(sensors.ranges, RangesMessage::kTopic);
+  add(sensors.ground_color, GroundColorMessage::kTopic);
+  add(sensors.scan, ScanMessage::kTopic);
+  add(sensors.neighbours, NeighboursMessage::kTopic);
+  add(sensors.light, LightMessage::kTopic);
+  return topics;
+}
+
+class ServingEnd final : public RobotEnd {
+ public:
+  ServingEnd(std::unique_ptr<ServerSocket> socket, const std::string& name,
+             const EndOptions& options)
+      : keep_(options.keep),
+        hello_(topics_of(options.sensors)),
+        inbox_(options.keep),
+        socket_(std::move(socket)) {
+    hello_.insert(hello_.begin(), name);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~ServingEnd() override {
+    ends_ = true;
+    outbox_.wakeup().notify();
+    thread_.join();
+  }
+
+  std::optional<ToRobot> receive(TimePoint until) override { return inbox_.take(until); }
+  void send(const WheelsMessage& wheels) override {
+    outbox_.put(frame_of(wheels), keep_ == Keep::Newest);
+  }
+  void send(const LedsMessage& leds) override {
+    outbox_.put(frame_of(leds), keep_ == Keep::Newest);
+  }
+  void send(const StateMessage& state) override { outbox_.put(frame_of(state), false); }
+  void send(const AnswerMessage& answer) override { outbox_.put(frame_of(answer), false); }
+  bool connected() override { return drivers_ > 0; }
+  void flush(Duration most) override {
+    wait_until_sent([this] { return outbox_.empty() && !sending_; }, most);
+  }
+
+ private:
+  struct Peer {
+    bool drives = false;
+  };
+
+  void run() {
+    while (true) {
+      const bool last = ends_;
+      socket_->wait(outbox_.wakeup(), last ? std::chrono::milliseconds(0) : kLook);
+      outbox_.wakeup().clear();
+      ServerSocket::Received received;
+      while (socket_->receive(received))
+        hear(received);
+      sending_ = true;
+      for (const std::string& frame : outbox_.take())
+        send_out(frame);
+      sending_ = false;
+      if (last) return;
+    }
+  }
+
+  void hear(const ServerSocket::Received& received) {
+    if (const auto hello = hello_of(received.frame)) return greet(received, *hello);
+    auto message = message_to_robot(received.frame);
+    if (!message) {
+      return complain(received.peer, "sent what is no message of a driver or operator: `" +
+                                         std::string(received.frame.substr(0, 40)) +
+                                         "`; it is not used");
+    }
+    const bool is_order = std::holds_alternative<OrderMessage>(*message);
+    if (is_order ? !may_command(received.role) : !may_work(received.role)) {
+      return complain(received.peer, is_order
+                                         ? "gave an order, and its key is no operator's"
+                                         : "sent a sensor's message, and its key is no worker's");
+    }
+    set_arrival(*message);
+    std::visit([this](auto& one) { inbox_.put(std::move(one)); }, *message);
+  }
+
+  void greet(const ServerSocket::Received& received, const std::vector<std::string>& words) {
+    const bool drives = !words.empty() && words.front() == kDriver;
+    if (drives && !may_work(received.role))
+      return complain(received.peer, "wants to drive, and its key is no worker's");
+    peers_[received.peer].drives = drives;
+    if (socket_->send(received.peer, hello_frame(hello_)) != SendStatus::Sent)
+      peers_.erase(received.peer);
+    else if (!state_.empty())
+      socket_->send(received.peer, state_);
+    count_drivers();
+  }
+
+  void send_out(const std::string& frame) {
+    const bool is_state = frame.starts_with("state ");
+    if (is_state) state_ = frame;
+    std::erase_if(peers_, [&](const auto& known) {
+      if (!is_state && !known.second.drives) return false;
+      const SendStatus status = socket_->send(known.first, frame);
+      return status == SendStatus::Gone || status == SendStatus::Full;
+    });
+    count_drivers();
+  }
+
+  void count_drivers() {
+    drivers_ = static_cast<int>(std::count_if(
+        peers_.begin(), peers_.end(), [](const auto& known) { return known.second.drives; }));
+  }
+
+  void complain(PeerId peer, const std::string& what) {
+    if (complained_.insert(peer).second) inbox_.put(TroubleMessage{"a client " + what, false});
+  }
+
+  Keep keep_;
+  std::vector<std::string> hello_;
+  RobotInbox inbox_;
+  Outbox outbox_;
+  std::unique_ptr<ServerSocket> socket_;
+  std::map<PeerId, Peer> peers_;
+  std::set<PeerId> complained_;
+  std::string state_;  ///< the last one, for who comes later
+  std::atomic<int> drivers_{0};
+  std::atomic<bool> sending_{false};
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+/// A connection to one robot's node, in a thread of its own.
+class NodeLink {
+ public:
+  struct Events {
+    std::function<void(FromRobot)> message;
+    std::function<void(std::string)> trouble;
+  };
+
+  NodeLink(RobotPlace place, std::string_view greeting, std::optional<ClientKeys> keys,
+           Events events)
+      : place_(std::move(place)),
+        greeting_(greeting),
+        events_(std::move(events)),
+        socket_(place_.endpoint, {}, std::move(keys)) {
+    thread_ = std::thread([this] { run(); });
+  }
+  NodeLink(const NodeLink&) = delete;
+  NodeLink& operator=(const NodeLink&) = delete;
+  ~NodeLink() {
+    ends_ = true;
+    outbox_.wakeup().notify();
+    thread_.join();
+  }
+
+  const std::string& name() const { return place_.name; }
+  void send(std::string frame, bool newest_only) {
+    if (connected_) outbox_.put(std::move(frame), newest_only);
+  }
+  bool connected() const { return connected_; }
+  bool sent() const { return outbox_.empty() && !sending_; }
+
+ private:
+  void run() {
+    connect();
+    while (true) {
+      const bool last = ends_;
+      socket_.wait(outbox_.wakeup(), last ? std::chrono::milliseconds(0) : kLook);
+      outbox_.wakeup().clear();
+      while (socket_.receive(frame_))
+        hear();
+      sending_ = true;
+      for (const std::string& frame : outbox_.take())
+        socket_.send(frame);
+      sending_ = false;
+      if (last) return socket_.close(std::chrono::milliseconds(200));
+      if (socket_.lost()) lose();
+      if (!stands_ && SystemClock().now() >= again_) connect();
+    }
+  }
+
+  void connect() {
+    stands_ = true;
+    socket_.connect();
+    socket_.send(hello_frame({greeting_}));
+  }
+
+  void lose() {
+    const bool was = std::exchange(stands_, false);
+    const bool had = connected_.exchange(false);
+    again_ = SystemClock().now() + kTryAgain;
+    if (was && socket_.refused()) {
+      tell(place_.name + "'s node at " + place_.endpoint + " does not accept this key");
+    } else if (had) {
+      told_.clear();
+      tell("the connection to " + place_.name + "'s node at " + place_.endpoint +
+           " broke; it is tried again");
+    }
+  }
+
+  void tell(const std::string& text) {
+    if (std::exchange(told_, text) != text) events_.trouble(text);
+  }
+
+  void hear() {
+    if (const auto hello = hello_of(frame_)) {
+      if (!hello->empty() && hello->front() != place_.name) {
+        return tell("the node at " + place_.endpoint + " is " + hello->front() + "'s, not " +
+                    place_.name + "'s");
+      }
+      connected_ = true;
+      return;
+    }
+    auto message = message_from_robot(frame_);
+    if (!message) {
+      return tell(place_.name + " sent what is no message of a node: `" + frame_.substr(0, 40) +
+                  "`");
+    }
+    set_arrival(*message);
+    if (auto* wheels = std::get_if<WheelsMessage>(&*message)) wheels->sender = place_.endpoint;
+    events_.message(std::move(*message));
+  }
+
+  RobotPlace place_;
+  std::string greeting_;
+  Events events_;
+  Outbox outbox_;
+  ClientSocket socket_;
+  std::string frame_;
+  std::string told_;
+  bool stands_ = false;
+  TimePoint again_{};
+  std::atomic<bool> connected_{false};
+  std::atomic<bool> sending_{false};
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+bool all_sent(const std::vector<std::unique_ptr<NodeLink>>& links) {
+  return std::all_of(links.begin(), links.end(), [](const auto& link) { return link->sent(); });
+}
+
+class ClientWorldEnd final : public WorldEnd {
+ public:
+  ClientWorldEnd(std::vector<RobotPlace> places, const NodeClientOptions& options)
+      : keep_(options.end.keep), inbox_(options.end.keep) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      links_.push_back(std::make_unique<NodeLink>(
+          std::move(places[i]), kDriver, options.keys,
+          NodeLink::Events{.message =
+                               [this, i](FromRobot message) {
+                                 std::visit([&](auto& one) { inbox_.put(i, std::move(one)); },
+                                            message);
+                               },
+                           .trouble =
+                               [this, i](std::string text) {
+                                 inbox_.put(i, TroubleMessage{std::move(text), false});
+                               }}));
+    }
+  }
+
+  std::size_t robots() const override { return links_.size(); }
+  const std::string& name(std::size_t robot) const override { return links_[robot]->name(); }
+  std::optional<Received> receive(TimePoint until) override { return inbox_.take(until); }
+  void send(std::size_t robot, const RangesMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const GroundColorMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const ScanMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const NeighboursMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const LightMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const ImuMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const OdometryMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const BatteryMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const SensesMessage& m) override { put(robot, m); }
+  bool connected(std::size_t robot) override { return links_[robot]->connected(); }
+  void flush(Duration most) override {
+    wait_until_sent([this] { return all_sent(links_); }, most);
+  }
+
+ private:
+  template <class Message>
+  void put(std::size_t robot, const Message& message) {
+    links_[robot]->send(frame_of(message), keep_ == Keep::Newest);
+  }
+
+  Keep keep_;
+  WorldInbox inbox_;
+  std::vector<std::unique_ptr<NodeLink>> links_;  ///< end first: they put into the inbox
+};
+
+class ClientOperatorEnd final : public OperatorEnd {
+ public:
+  ClientOperatorEnd(std::vector<RobotPlace> places, const NodeClientOptions& options) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      links_.push_back(std::make_unique<NodeLink>(
+          std::move(places[i]), kOperator, options.keys,
+          NodeLink::Events{.message =
+                               [this, i](FromRobot message) {
+                                 if (auto* state = std::get_if<StateMessage>(&message))
+                                   inbox_.put({i, std::move(*state)});
+                               },
+                           .trouble =
+                               [this, i](std::string text) {
+                                 inbox_.put({i, TroubleMessage{std::move(text), false}});
+                               }}));
+    }
+  }
+
+  std::size_t robots() const override { return links_.size(); }
+  const std::string& name(std::size_t robot) const override { return links_[robot]->name(); }
+  std::optional<Received> receive(TimePoint until) override { return inbox_.take(until); }
+  void send(const OrderMessage& order) override {
+    for (const auto& link : links_)
+      link->send(frame_of(order), false);
+  }
+  bool connected(std::size_t robot) override { return links_[robot]->connected(); }
+  void flush(Duration most) override {
+    wait_until_sent([this] { return all_sent(links_); }, most);
+  }
+
+ private:
+  Inbox<Received> inbox_;
+  std::vector<std::unique_ptr<NodeLink>> links_;
+};
+
+std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool has_keys) {
+  for (const RobotPlace& place : places) {
+    if (!is_tcp_address(place.endpoint) || place.endpoint.ends_with("*")) {
+      return Error{ErrorKind::BadInput,
+                   "`" + place.endpoint + "` is no address; write tcp://HOST:PORT", place.name};
+    }
+    if (!has_keys && !is_loopback(*address_of(place.endpoint))) {
+      return Error{ErrorKind::BadInput,
+                   place.endpoint +
+                       " is on another host: connections there need a key, else "
+                       "anybody could drive the robots",
+                   place.name};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions options) {
+  if (!is_tcp_address(options.endpoint)) {
+    return bad_input("`" + options.endpoint + "` is no address; write tcp://HOST:PORT");
+  }
+  if (!options.keys && !is_loopback(*address_of(options.endpoint))) {
+    return bad_input(
+        "other hosts can reach this address: it needs keys, else anybody could drive the robot "
+        "(`swarmsmith keygen` makes them)",
+        options.endpoint);
+  }
+  auto socket = ServerSocket::bind(options.endpoint, {}, std::move(options.keys));
+  if (!socket) return tl::unexpected(socket.error());
+  NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};
+  server.end = std::make_unique<ServingEnd>(std::move(*socket), name, options.end);
+  return server;
+}
+
+Expected<std::unique_ptr<WorldEnd>> zmq_world_end(std::vector<RobotPlace> robots,
+                                                  const NodeClientOptions& options) {
+  if (auto wrong = check_places(robots, options.keys.has_value())) return tl::unexpected(*wrong);
+  return std::make_unique<ClientWorldEnd>(std::move(robots), options);
+}
+
+Expected<std::unique_ptr<OperatorEnd>> zmq_operator_end(std::vector<RobotPlace> robots,
+                                                        const NodeClientOptions& options) {
+  if (auto wrong = check_places(robots, options.keys.has_value())) return tl::unexpected(*wrong);
+  return std::make_unique<ClientOperatorEnd>(std::move(robots), options);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "sim/control/controller.h"
+#include "sim/control/flavour.h"
+
+namespace swarmsmith {
+
+/// Kinds of readings of `Senses`.
+struct UsedSenses {
+  bool proximity = false;
+  bool ground_color = false;
+  bool neighbours = false;
+  bool light = false;
+
+  friend bool operator==(const UsedSenses&, const UsedSenses&) = default;
+};
+
+/// What a controller may ask for in some cycle or other: what a robot must have to run it, and what
+/// must travel if it runs elsewhere. It never asks for anything else but the time. States to which
+/// no transition leads ask for nothing.
+UsedSenses senses_used_by(const Controller& controller, const Flavour& flavour);
+
+}  // namespace swarmsmith

@@ -1,0 +1,82 @@
+"""The programs for 64-bit ARM, under emulation: their runs have the bits of those of this machine."""
+import json
+import os
+import pathlib
+import shutil
+import unittest
+
+import robots
+from programs import BIN, SWARMSMITH, ProgramTest, call
+from robot_lock_step_test import WATERMELON
+from robots import Process, ZeroMq
+
+FOLDER = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "build-aarch64"
+EMULATOR = "qemu-aarch64-static"
+
+
+def emulated(program):
+    return [EMULATOR, "-L", FOLDER / "sysroot", FOLDER / "bin" / program]
+
+
+def why_not():
+    if not shutil.which(EMULATOR):
+        return f"skipped: {EMULATOR} is not here (qemu-user-static)"
+    if not (FOLDER / "bin" / "swarmsmith-robot").exists():
+        return "skipped: the programs for aarch64 are not built (./dev build --target aarch64)"
+    return None
+
+
+@unittest.skipIf(why_not(), why_not() or "")
+class Aarch64(ProgramTest):
+    budget = 300
+    tests = 10
+
+    def test_nodes_of_a_run_decide_the_same(self):
+        self.compared(node_program=emulated("swarmsmith-robot"))
+
+    def test_a_simulated_world_has_the_same_score_and_last_state(self):
+        rows = self.compared(world_program=emulated("swarmsmith-robot"))
+        self.assertEqual(rows, self.compared())
+
+    def compared(self, node_program=(robots.ROBOT,), world_program=(robots.ROBOT,)):
+        """What the world says of a run with three nodes; `--compare` runs it in the world's process, too."""
+        way = ZeroMq(command=node_program)
+        words = ("--flavour", "watermelon")
+        nodes = way.nodes(self, 3, WATERMELON, *words, "--lock-step", "senses", "--logs", self.folder)
+        way.command = world_program
+        world = way.program(self, "world", "--mission", "aggregation", "--seeds", "4", "--lock-step", "--compare",
+                            "--machine", WATERMELON, *words, "--json")
+        self.assertEqual(world.end(), 0, world.said() + "".join(node.said() for node in nodes))
+        rows = world.rows()
+        self.assertTrue(all(row["same_in_process"] for row in rows), rows)
+        done = call("evaluate", *WATERMELON.split(), *words, "--mission", "aggregation", "--seeds", "4", "--json")
+        self.assertEqual(rows[0]["score"], json.loads(done.stdout)["score"])
+        for node in nodes:
+            self.assertEqual(node.end(), 0, node.said())
+        logs = sorted(self.folder.glob("*.log.csv"))
+        self.assertEqual(len(logs), 3)
+        for program in (node_program, world_program):
+            replay = Process(self, [*program, "replay", *logs])
+            self.assertEqual(replay.end(), 0, replay.said())
+        for log in logs:
+            log.unlink()
+        return rows
+
+    def test_a_campaign_with_workers_of_both_kinds_has_one_digest(self):
+        """The coordinator takes no worker whose self test has other bits."""
+        local = self.folder / "local.db"
+        done = self.run_campaign(local, "--workers", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        store = self.folder / "both.db"
+        serve = Process(self, [SWARMSMITH, "serve", self.file, "--store", store, "--bind", "127.0.0.1:0", "--http", "none"])
+        address = serve.wait_for(r"--connect (\S+)\n").group(1)
+        for program in (emulated("swarmsmith-worker"), [BIN / "swarmsmith-worker"]):
+            Process(self, [*program, "--connect", address, "--slots", "1"])
+        self.assertEqual(serve.end(), 0, serve.said())
+        self.assertEqual(self.digest(store), self.digest(local))
+        shares = self.query(store, "SELECT worker, count(*) AS n FROM evaluation WHERE worker IS NOT NULL GROUP BY worker")
+        self.assertEqual(len([share for share in shares if share["n"] > 0]), 2, shares)
+
+
+if __name__ == "__main__":
+    unittest.main()

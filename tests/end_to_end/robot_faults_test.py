@@ -1,0 +1,142 @@
+"""What goes wrong between robots' nodes and a simulated world is said by name, and no tread goes on turning."""
+import signal
+import unittest
+
+import robots
+from programs import ProgramTest
+from robots import Master, ZeroMq
+from robot_lock_step_test import WATERMELON
+
+NO_ROS = robots.why_no_ros()
+FORWARD = "--nstates 1 --s0 0 --rwm0 1"
+LOCK_STEP = ("--flavour", "watermelon", "--lock-step", "senses")
+
+
+class Faults(ProgramTest):
+    def world_in_steps(self, way, *words):
+        return way.program(self, "world", "--mission", "aggregation", "--seeds", "1-1000000", "--lock-step", "--json",
+                           "--patience", "1", *words)
+
+    def assert_killed_node_is_named(self, way):
+        nodes = way.nodes(self, 3, WATERMELON, *LOCK_STEP)
+        world = self.world_in_steps(way)
+        world.wait_for('"digest"')
+        nodes[1].signal(signal.SIGKILL)
+        self.assertEqual(world.end(), 5, world.said())
+        self.assertRegex(world.said(), r"rvr2: no answer from rvr2 in cycle \d+ of seed \d+ within 1 s; "
+                                       r"its node is gone")
+
+    def assert_killed_world_is_told(self, way):
+        nodes = way.nodes(self, 3, WATERMELON, *LOCK_STEP, "--patience", "1")
+        world = self.world_in_steps(way)
+        world.wait_for('"digest"')
+        world.signal(signal.SIGKILL)
+        for node in nodes:
+            self.assertEqual(node.end(), 5, node.said())
+            self.assertIn("the world is silent", node.said())
+
+    def assert_stopped_node_is_named(self, way):
+        nodes = way.nodes(self, 3, WATERMELON, *LOCK_STEP)
+        world = self.world_in_steps(way)
+        world.wait_for('"digest"')
+        nodes[2].signal(signal.SIGSTOP)
+        self.assertEqual(world.end(), 5, world.said())
+        self.assertRegex(world.said(), r"no answer from rvr3 in cycle \d+")
+
+
+@unittest.skipIf(NO_ROS, NO_ROS or "")
+class OverRos(Faults):
+    def setUp(self):
+        super().setUp()
+        self.master = Master(self, self.folder)
+
+    def test_a_killed_node_is_named_with_the_cycle(self):
+        self.assert_killed_node_is_named(self.master)
+
+    def test_a_stopped_node_is_named_with_the_cycle(self):
+        self.assert_stopped_node_is_named(self.master)
+
+    def test_a_killed_world_ends_the_nodes(self):
+        self.assert_killed_world_is_told(self.master)
+
+    def test_a_node_that_is_missing_is_named(self):
+        self.master.nodes(self, 2, WATERMELON, *LOCK_STEP)
+        world = self.world_in_steps(self.master, "--wait", "1")
+        self.assertEqual(world.end(), 5, world.said())
+        self.assertIn("no node of rvr3 after 1 s", world.said())
+
+    def test_a_killed_master_ends_no_run(self):
+        self.master.nodes(self, 3, WATERMELON, *LOCK_STEP)
+        world = self.world_in_steps(self.master)
+        world.wait_for('"digest"')
+        self.master.kill()
+        before = len(world.out)
+        robots.wait_for(lambda: len(world.out) > before + 3, "runs after the master's end")
+        world.signal(signal.SIGTERM)
+        self.assertEqual(world.end(), 143, world.said())
+
+    def test_without_a_master_it_is_said_where_it_was_looked_for(self):
+        self.master.kill()
+        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        self.assertEqual(node.end(), 5, node.said())
+        self.assertIn("no ROS master answers", node.said())
+        self.assertIn(self.master.variables["ROS_MASTER_URI"].rstrip("/"), node.said())
+
+    def test_a_second_node_of_the_same_name_ends_the_first(self):
+        first = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        first.wait_for("random stream 0")
+        # Registered when the second comes: the world sees its state.
+        second = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        self.assertEqual(first.end(), 5, first.said())
+        self.assertIn("another node took the name /rvr1/control", first.said())
+        self.assertIsNone(second.process.poll())
+
+    def test_a_host_name_that_does_not_resolve_is_said_on_both_sides(self):
+        self.master.variables["ROS_HOSTNAME"] = "nosuch-robot.invalid"
+        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        node.wait_for("told to find this one at `nosuch-robot.invalid`, which does not even resolve here; set ROS_IP")
+        self.master.variables["ROS_HOSTNAME"] = "localhost"
+        world = self.master.program(self, "world", "--mission", "aggregation", "--lock-step")
+        world.wait_for("/rvr1/control .* `nosuch-robot.invalid` does not resolve here; set ROS_IP")
+
+    def test_names_that_ros_does_not_take_are_refused(self):
+        node = self.master.node(self, "a-b", WATERMELON, *LOCK_STEP, "--index", "0")
+        self.assertEqual(node.end(), 2, node.said())
+        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP, "--topic", "ranges:=/a b")
+        self.assertEqual(node.end(), 2, node.said())
+        self.assertIn("ROS does not take this name", node.said())
+        self.master.variables["ROS_MASTER_URI"] = "localhost"
+        node = self.master.node(self, 1, WATERMELON, *LOCK_STEP)
+        self.assertEqual(node.end(), 2, node.said())
+        self.assertIn("not the address of a master", node.said())
+
+
+class OverZeroMq(Faults):
+    def test_a_killed_node_is_named_with_the_cycle(self):
+        self.assert_killed_node_is_named(ZeroMq())
+
+    def test_a_killed_world_ends_the_nodes(self):
+        self.assert_killed_world_is_told(ZeroMq())
+
+    def test_a_second_node_at_the_address_is_refused(self):
+        way = ZeroMq()
+        way.node(self, 1, WATERMELON, *LOCK_STEP)
+        place = way.places[0].split("=")[1]
+        second = robots.Process(self, [robots.ROBOT, "run", "--robot", "1", "--machine", WATERMELON, *LOCK_STEP,
+                                       "--transport", "zeromq", "--bind", place])
+        self.assertEqual(second.end(), 5, second.said())
+        self.assertIn("another program listens on this port", second.said())
+
+    def test_words_of_the_other_transport_are_refused(self):
+        for words, said in (((), "does not say where rvr1's node is"), (("--at", "x"), "write NAME=tcp://HOST:PORT"),
+                            (("--at", "rvr1=tcp://10.0.0.1:5570"), "need a key"),
+                            (("--at", "rvr9=tcp://127.0.0.1:5570"), "does not say where rvr1's node is")):
+            with self.subTest(words=words):
+                world = robots.Process(self, [robots.ROBOT, "world", "--mission", "aggregation", "--lock-step",
+                                              "--robots", "1-3", "--transport", "zeromq", *words])
+                self.assertEqual(world.end(), 2, world.said())
+                self.assertIn(said, world.said())
+
+
+if __name__ == "__main__":
+    unittest.main()

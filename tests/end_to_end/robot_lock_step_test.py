@@ -1,0 +1,153 @@
+"""Nodes of robots, stepped by a simulated world over a real ROS master or over ZeroMQ, all in processes of their own,
+have the scores and last states of `evaluate`, bit for bit."""
+import json
+import re
+import unittest
+
+import robots
+from programs import ProgramTest, call
+from robots import Master, ZeroMq
+
+# Each looks at the floor, at others and at obstacles, and draws.
+WATERMELON = ("--nstates 3 --s0 0 --rwm0 12 --n0 2 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 0 --p0x1 0.8 "
+              "--s1 2 --att1 3.25 --n1 2 --n1x0 0 --c1x0 5 --p1x0 0.03 --n1x1 1 --c1x1 2 --p1x1 0.9 "
+              "--s2 3 --rep2 2.5 --n2 1 --n2x0 0 --c2x0 4 --p2x0 2 --w2x0 7.5")
+CHOCOLATE = ("--nstates 3 --s0 0 --rwm0 12 --n0 2 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 0 --p0x1 0.8 "
+             "--s1 4 --att1 3.25 --n1 2 --n1x0 0 --c1x0 5 --p1x0 0.03 --n1x1 1 --c1x1 2 --p1x1 0.9 "
+             "--s2 2 --n2 1 --n2x0 0 --c2x0 4 --p2x0 2 --w2x0 7.5")
+MACHINES = {"watermelon": WATERMELON, "watermelon-argos3": WATERMELON, "chocolate": CHOCOLATE}
+NO_ROS = robots.why_no_ros()
+
+
+def mission_of(folder, robots_wanted):
+    """The file of an aggregation with so many robots."""
+    file = folder / f"swarm{robots_wanted}.toml"
+    file.write_text(f'name = "swarm{robots_wanted}"\npreset = "aggregation"\nrobots = {robots_wanted}\n')
+    return file
+
+
+class LockStep(ProgramTest):
+    def compared(self, way, mission, flavour, profile, seeds, count=3, lock_step="senses", node_words=(), world_words=()):
+        """Runs the world with nodes; its rows, which have the bits of a run in its process and the scores of
+        `evaluate`."""
+        machine = MACHINES[flavour]
+        nodes = way.nodes(self, count, machine, "--flavour", flavour, "--lock-step", lock_step, *node_words)
+        world = way.program(self, "world", "--mission", mission, "--profile", profile, "--seeds", seeds, "--lock-step",
+                            "--compare", "--machine", machine, "--flavour", flavour, "--json", *world_words)
+        code = world.end()
+        said = world.said() + "".join(node.said() for node in nodes)
+        self.assertEqual(code, 0, said)
+        rows = world.rows()
+        self.assertTrue(all(row["same_in_process"] for row in rows), rows)
+        done = call("evaluate", *machine.split(), "--flavour", flavour, "--profile", profile, "--mission", mission,
+                    "--seeds", seeds, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        evaluated = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual([(row["seed"], row["score"]) for row in rows],
+                         [(row["seed"], row["score"]) for row in evaluated])
+        if lock_step == "senses":
+            for node in nodes:
+                self.assertEqual(node.end(), 0, node.said())
+        return rows
+
+
+@unittest.skipIf(NO_ROS, NO_ROS or "")
+class OverRos(LockStep):
+    def test_missions_flavours_and_profiles(self):
+        master = Master(self, self.folder)
+        for mission, flavour, profile in (("aggregation", "watermelon", "rvr"),
+                                          ("grid_exploration", "watermelon-argos3", "argos3"),
+                                          ("color_selection", "chocolate", "pseudo-reality")):
+            with self.subTest(mission=mission, flavour=flavour, profile=profile):
+                self.compared(master, mission, flavour, profile, "1-2")
+
+    def test_one_robot_and_ten(self):
+        master = Master(self, self.folder)
+        for count in (1, 10):
+            with self.subTest(robots=count):
+                self.compared(master, mission_of(self.folder, count), "watermelon", "rvr", "5", count=count)
+
+    def test_two_masters_at_once(self):
+        masters = [Master(self, self.folder), Master(self, self.folder)]
+        machine = WATERMELON
+        worlds = []
+        for master in masters:
+            master.nodes(self, 3, machine, "--flavour", "watermelon", "--lock-step", "senses")
+        for master in masters:
+            worlds.append(master.program(self, "world", "--mission", "aggregation", "--seeds", "1-3", "--lock-step",
+                                         "--compare", "--machine", machine, "--flavour", "watermelon", "--json"))
+        for world in worlds:
+            self.assertEqual(world.end(), 0, world.said())
+        self.assertEqual(worlds[0].rows(), worlds[1].rows())
+
+    def test_another_seed_is_another_run(self):
+        master = Master(self, self.folder)
+        machine = WATERMELON
+        nodes = [master.node(self, i + 1, machine, "--flavour", "watermelon", "--lock-step", "senses", "--index", i + 1)
+                 for i in range(3)]
+        world = master.program(self, "world", "--mission", "aggregation", "--seeds", "1", "--lock-step", "--compare",
+                               "--machine", machine, "--flavour", "watermelon", "--json")
+        self.assertEqual(world.end(), 1, world.said())
+        self.assertFalse(world.rows()[0]["same_in_process"])
+        self.assertIn("each its own random stream", world.said())
+        for node in nodes:
+            node.end()
+
+    def test_the_drivers_own_topics(self):
+        """RangeArray, ColorRGBA and Float32MultiArray are float32: equal to a profile that rounds as they do."""
+        master = Master(self, self.folder)
+        profile = self.wire_profile("rvr")
+        self.compared(master, "aggregation", "watermelon", profile, "3", lock_step="topics",
+                      node_words=("--seed", "3", "--wheels", "floats", "--color-scale", "255", "--neighbours",
+                                  "neighbours"),
+                      world_words=("--topics", "--wheels", "floats"))
+
+    def test_the_drivers_own_topics_with_a_lidar(self):
+        """LaserScan, too; the node finds the neighbours in it."""
+        master = Master(self, self.folder)
+        profile = self.wire_profile("rvr", (r'(?m)^source( *)= "camera"', r'source\1= "lidar"'))
+        self.compared(master, "aggregation", "watermelon", profile, "4", lock_step="topics",
+                      node_words=("--seed", "4", "--wheels", "floats", "--color-scale", "255"),
+                      world_words=("--topics", "--wheels", "floats"))
+
+    def test_rounded_topics_differ_from_a_profile_that_does_not_round(self):
+        master = Master(self, self.folder)
+        master.nodes(self, 3, WATERMELON, "--flavour", "watermelon", "--lock-step", "topics", "--seed", "3", "--wheels",
+                     "floats", "--color-scale", "255", "--neighbours", "neighbours")
+        world = master.program(self, "world", "--mission", "aggregation", "--seeds", "3", "--lock-step", "--topics",
+                               "--wheels", "floats", "--compare", "--machine", WATERMELON, "--flavour", "watermelon",
+                               "--json")
+        self.assertEqual(world.end(), 1, world.said())
+        self.assertIn('wire = "float32"', world.said())
+
+    def wire_profile(self, name, *changes):
+        done = call("profile", name)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = done.stdout
+        for pattern, by in ((r'(?m)^wire( *)= "float64"', r'wire\1= "float32"'), *changes):
+            changed = re.sub(pattern, by, text)
+            self.assertNotEqual(changed, text, pattern)
+            text = changed
+        file = self.folder / f"{name}-wire.toml"
+        file.write_text(text)
+        return file
+
+
+class OverZeroMq(LockStep):
+    def test_the_same_bits(self):
+        self.compared(ZeroMq(), "aggregation", "watermelon", "rvr", "1-2")
+
+    def test_the_same_bits_with_keys(self):
+        keys = self.folder / "keys"
+        done = call("keygen", keys)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.compared(ZeroMq(keys), "color_selection", "chocolate", "pseudo-reality", "7")
+
+    def test_the_same_bits_by_counting(self):
+        self.compared(ZeroMq(), "grid_exploration", "watermelon", "argos3", "4", lock_step="topics",
+                      node_words=("--seed", "4", "--color-scale", "255", "--neighbours", "neighbours"),
+                      world_words=("--topics", "--neighbours", "neighbours"))
+
+
+if __name__ == "__main__":
+    unittest.main()

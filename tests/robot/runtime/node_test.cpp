@@ -1,0 +1,435 @@
+#include "robot/runtime/node.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/robot/runtime/bench_robot.h"
+
+namespace swarmsmith {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(RobotNode, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
+  BenchRobot robot;
+  robot.ground = robot.neighbours = false;
+  EXPECT_FALSE(robot.cycle().command) << "whoever carries the robot may do so";
+  EXPECT_EQ(robot.state().phase, Phase::Idle);
+  EXPECT_THAT(robot.state().not_ready,
+              ElementsAre("ground: no message yet", "neighbours: no message yet"));
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_THAT(robot.state().refused, HasSubstr("ground: no message yet"));
+  robot.ground = robot.neighbours = true;
+  EXPECT_FALSE(robot.cycle().command);
+  EXPECT_EQ(robot.state().phase, Phase::Ready);
+  robot.ground = false;
+  robot.cycles(6);
+  EXPECT_EQ(robot.state().phase, Phase::Idle);
+  EXPECT_THAT(robot.state().not_ready, ElementsAre("ground: silent for 0.60 s"));
+}
+
+TEST(RobotNode, NeedsNoSensorThatTheMachineDoesNotAskFor) {
+  BenchRobot robot({}, "--nstates 1 --s0 1");
+  robot.ranges = robot.ground = robot.neighbours = false;
+  robot.cycle();
+  EXPECT_EQ(robot.state().phase, Phase::Ready);
+  BenchRobot asked({.also_needed = {true, false, false, false}}, "--nstates 1 --s0 1");
+  asked.ranges = false;
+  asked.cycle();
+  EXPECT_THAT(asked.state().not_ready, ElementsAre("proximity: no message yet"));
+}
+
+TEST(RobotNode, BeginsAtTheAgreedInstantAndEndsByItself) {
+  BenchRobot robot;
+  robot.cycles(3);
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Armed);
+  EXPECT_EQ(robot.state().run, "run07");
+  const TimePoint start = robot.clock + milliseconds(1000);
+  for (int i = 0; i < 9; ++i) {
+    const Decision decision = robot.cycle();
+    ASSERT_TRUE(decision.command);
+    EXPECT_EQ(*decision.command, Command{});
+    EXPECT_EQ(robot.state().phase, Phase::Armed);
+  }
+  EXPECT_EQ(robot.node.next_tick(robot.clock), start);
+  robot.cycle();
+  EXPECT_EQ(robot.state().phase, Phase::Running);
+  EXPECT_THAT(robot.rows, IsEmpty());
+  EXPECT_EQ(robot.node.next_tick(robot.clock), start + milliseconds(100));
+  robot.cycle(milliseconds(2));
+  ASSERT_EQ(robot.rows.size(), 1U);
+  EXPECT_EQ(robot.rows[0].cycle, 1);
+  EXPECT_NEAR(robot.rows[0].late_ms, 2, 1e-9);
+  EXPECT_NEAR(robot.rows[0].sensed.time_s, 0.102, 1e-9);
+  EXPECT_GT(robot.speed(), 0);
+  robot.cycles(298);
+  EXPECT_EQ(robot.state().phase, Phase::Running);
+  robot.cycle();
+  EXPECT_EQ(robot.state().phase, Phase::Ended);
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_EQ(robot.rows.size(), 299U);
+  EXPECT_EQ(robot.state().verdict, RunVerdict::Valid)
+      << testing::PrintToString(robot.state().reasons);
+  EXPECT_EQ(robot.cycle().command, Command{}) << "zero until the state is left";
+  const LogHead head = robot.node.head();
+  ASSERT_TRUE(head.end);
+  EXPECT_EQ(head.end->state, "ended");
+  EXPECT_EQ(head.end->stepped, 299);
+  EXPECT_EQ(head.seconds, 30);
+}
+
+TEST(RobotNode, TakesAnotherStartAfterARunAndEachNameOnce) {
+  BenchRobot robot;
+  robot.seconds = 1;
+  robot.start();
+  robot.cycles(12);
+  ASSERT_EQ(robot.state().phase, Phase::Ended);
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_THAT(robot.state().refused, HasSubstr("was here before"));
+  EXPECT_EQ(robot.state().phase, Phase::Ended);
+  robot.run = "run08";
+  Order order = robot.order(Order::Kind::Start);
+  order.seed = 99;
+  order.clock_offsets_s = {{"rvr1", 0.004}};
+  robot.node.hear(order, robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Armed);
+  EXPECT_EQ(robot.node.head().seed, 99);
+  EXPECT_EQ(robot.node.head().clock_offset_s, 0.004);
+  EXPECT_EQ(robot.node.head().end, std::nullopt);
+}
+
+TEST(RobotNode, RefusesStartsThatAreOldRepeatedForOthersOrAtTheWrongTime) {
+  BenchRobot robot;
+  robot.cycles(2);
+  const auto expect_refused = [&robot](const Order& order, const char* why) {
+    robot.node.hear(order, robot.now());
+    EXPECT_EQ(robot.state().phase, Phase::Ready) << why;
+    EXPECT_THAT(robot.state().refused, HasSubstr(why));
+    robot.cycle();
+  };
+  Order order = robot.order(Order::Kind::Start);
+  order.sent_unix_s -= 5;
+  expect_refused(order, "old");
+  order = robot.order(Order::Kind::Start);
+  order.at_unix_s -= 3;
+  expect_refused(order, "ago");
+  order = robot.order(Order::Kind::Start);
+  order.at_unix_s += 100;
+  expect_refused(order, "ahead");
+  order = robot.order(Order::Kind::Start);
+  order.robots = {"rvr9"};
+  robot.node.hear(order, robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Ready);
+  order = robot.order(Order::Kind::Start);
+  robot.node.hear(order, robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Armed);
+  robot.node.hear(order, robot.now());
+  EXPECT_THAT(robot.state().refused, HasSubstr("given before"));
+  EXPECT_EQ(robot.state().phase, Phase::Armed);
+  order = robot.order(Order::Kind::Start);
+  order.run = "run09";
+  robot.node.hear(order, robot.now());
+  EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is on"));
+}
+
+TEST(RobotNode, StopsByOrderOfItsRunAndOfNoOther) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(20);
+  ASSERT_GT(robot.speed(), 0);
+  Order order = robot.order(Order::Kind::Stop);
+  order.run = "run06";
+  robot.node.hear(order, robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Running);
+  EXPECT_THAT(robot.state().refused, HasSubstr("the run run07 is on"));
+  order = robot.order(Order::Kind::Stop);
+  order.sent_unix_s -= 100;  // an old stop stops as well
+  robot.node.hear(order, robot.now());
+  EXPECT_EQ(robot.state().phase, Phase::Stopped);
+  robot.cycle();
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_EQ(robot.state().verdict, RunVerdict::Invalid);
+  EXPECT_THAT(robot.state().reasons, ElementsAre("stopped by order after 2.0 s of 30.0 s"));
+  robot.node.hear(robot.order(Order::Kind::Stop), robot.now());
+  EXPECT_EQ(robot.state().refused, "no run is on");
+}
+
+TEST(RobotNode, AKillIsForGood) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(5);
+  robot.node.hear(robot.order(Order::Kind::Kill), robot.now());
+  robot.cycle();
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  robot.run = "run08";
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_THAT(robot.state().refused, HasSubstr("killed by order: restart the node"));
+}
+
+TEST(RobotNode, StandsStillWhileASensorIsSilentAndGoesOn) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(20);
+  const std::uint64_t drawn = robot.rows.back().drawn;
+  robot.ranges = false;
+  robot.cycles(2);  // 100 and 200 ms
+  EXPECT_GT(robot.speed(), 0);
+  EXPECT_EQ(robot.rows.back().event, "proximity: silent for 0.20 s");
+  robot.cycles(1);  // 300 ms
+  EXPECT_GT(robot.speed(), 0);
+  const std::uint64_t before = robot.rows.back().drawn;
+  robot.cycle();
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_EQ(robot.rows.back().act, Act::Hold);
+  EXPECT_EQ(robot.rows.back().drawn, before) << "the machine is not stepped";
+  EXPECT_EQ(robot.treads.leds[0], (Rgb{255, 0, 0}));
+  EXPECT_EQ(robot.state().phase, Phase::Running);
+  robot.ranges = true;
+  robot.cycle();
+  EXPECT_GT(robot.speed(), 0);
+  EXPECT_GE(robot.rows.back().drawn, drawn);
+  EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre("proximity was silent for up to 0.40 s: 1 cycles were not stepped"));
+}
+
+TEST(RobotNode, EndsTheRunWhenASensorIsSilentForASecond) {
+  for (const Feed feed : {Feed::Proximity, Feed::Ground, Feed::Neighbours}) {
+    BenchRobot robot;
+    robot.start();
+    robot.cycles(20);
+    (feed == Feed::Proximity ? robot.ranges
+     : feed == Feed::Ground  ? robot.ground
+                             : robot.neighbours) = false;
+    const int until_held = feed == Feed::Proximity ? 4 : 6;
+    robot.cycles(until_held - 1);
+    EXPECT_GT(robot.speed(), 0) << name_of(feed);
+    robot.cycle();
+    EXPECT_EQ(robot.speed(), 0) << name_of(feed);
+    robot.cycles(10 - until_held);
+    EXPECT_EQ(robot.state().phase, Phase::Running);
+    robot.cycle();
+    EXPECT_EQ(robot.state().phase, Phase::Failed);
+    EXPECT_EQ(robot.state().verdict, RunVerdict::Invalid);
+    EXPECT_THAT(robot.state().reasons[0],
+                HasSubstr(std::string(name_of(feed)) + ": silent for 1.10 s"));
+    EXPECT_EQ(robot.speed(), 0);
+  }
+}
+
+TEST(RobotNode, TakesABrokenSensorForASilentOneAndSaysWhich) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(20);
+  robot.ranges = false;
+  for (int i = 0; i < 11; ++i) {
+    std::vector<double> ranges(8, 0.2);
+    ranges[1] = std::nan("");
+    robot.node.feeds().hear(RangesMessage{{robot.clock, 0}, ranges});
+    robot.cycle();
+  }
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_THAT(robot.state().reasons[0], HasSubstr("proximity sensor 1 (0 degrees) is missing"));
+}
+
+TEST(RobotNode, EndsTheRunWhenSensorsWereSilentInMoreThanATwentiethOfIt) {
+  BenchRobot robot;  // 300 cycles: 15 may be held
+  robot.start();
+  robot.cycles(5);
+  for (int gap = 0; robot.state().phase == Phase::Running && gap < 40; ++gap) {
+    robot.ranges = false;
+    robot.cycles(5);  // the last two are held
+    robot.ranges = true;
+    robot.cycles(2);
+  }
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_EQ(robot.state().held, 16);
+  EXPECT_THAT(robot.state().reasons[0], HasSubstr("silent in 16 of 300 cycles"));
+}
+
+TEST(RobotNode, SaysWhenItsComputerWasTooBusy) {
+  const auto verdict_after = [](int skips) {
+    BenchRobot robot;
+    robot.start();
+    for (int i = 0; i < skips; ++i) {
+      robot.clock += milliseconds(100);
+      robot.cycle();
+    }
+    robot.cycles(300 - 2 * skips);
+    EXPECT_EQ(robot.state().phase, Phase::Ended);
+    EXPECT_EQ(robot.state().skipped, skips);
+    EXPECT_EQ(robot.rows.size(), static_cast<std::size_t>(299 - skips));
+    return robot.state().verdict;
+  };
+  EXPECT_EQ(verdict_after(3), RunVerdict::Valid);
+  EXPECT_EQ(verdict_after(4), RunVerdict::Degraded);
+  EXPECT_EQ(verdict_after(15), RunVerdict::Degraded);
+  EXPECT_EQ(verdict_after(16), RunVerdict::Invalid);
+}
+
+TEST(RobotNode, CutsSpeedsAndSaysSo) {
+  BenchRobot robot({.max_mps = 0.2});
+  robot.start();
+  robot.cycles(3);
+  EXPECT_EQ(robot.speed(), 0.2);
+  EXPECT_EQ(robot.rows.back().command.left_mps, 0.2);
+  EXPECT_THAT(robot.rows.back().event, HasSubstr("speeds cut from 0.3 and 0.3 m/s"));
+  EXPECT_EQ(robot.state().verdict, RunVerdict::Degraded);
+  EXPECT_THAT(robot.state().reasons, ElementsAre("speeds were cut to 0.2 m/s in 3 cycles"));
+}
+
+TEST(RobotNode, LetsNothingPassThatIsNoSpeed) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(within_limits({std::nan(""), 0, {}}, 0.35), std::nullopt);
+  EXPECT_EQ(within_limits({0, infinity, {}}, 0.35), std::nullopt);
+  EXPECT_EQ(within_limits({-2, 0.1, {}}, 0.35), (Command{-0.35, 0.1, {}}));
+}
+
+TEST(RobotNode, EndsTheRunWhenTheOperatorIsGone) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(10);
+  robot.alive = false;
+  robot.cycles(10);
+  EXPECT_EQ(robot.state().phase, Phase::Running);
+  robot.cycle();
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_THAT(robot.state().reasons, ElementsAre("the operator is silent for 1.10 s"));
+  BenchRobot alone({.operator_gone = Duration::zero()});
+  alone.alive = false;
+  alone.start();
+  alone.cycles(50);
+  EXPECT_EQ(alone.state().phase, Phase::Running);
+}
+
+TEST(RobotNode, HearsOnlyTheOperatorOfItsRun) {
+  BenchRobot robot;
+  robot.start();
+  robot.alive = false;
+  for (int i = 0; i < 12; ++i) {
+    Order alive = robot.order(Order::Kind::Alive);
+    alive.run = "run06";
+    robot.node.hear(alive, robot.now());
+    Order old = robot.order(Order::Kind::Alive);
+    old.sent_unix_s -= 30;  // played back
+    robot.node.hear(old, robot.now());
+    robot.cycle();
+  }
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+}
+
+TEST(RobotNode, WantsABatteryAndADriver) {
+  BenchRobot robot;
+  robot.node.hear(BatteryMessage{.charge = 0.15});
+  robot.node.set_driver(false);
+  robot.cycle();
+  EXPECT_THAT(robot.state().not_ready,
+              ElementsAre(HasSubstr("driver"), "battery: 15 %, at least 20 % are wanted"));
+  robot.node.hear(BatteryMessage{.charge = 0.8});
+  robot.node.set_driver(true);
+  robot.node.hear(BatteryMessage{.charge = std::nan("")});
+  robot.cycle();
+  EXPECT_EQ(robot.state().phase, Phase::Ready);
+}
+
+TEST(RobotNode, StandsStillAfterASignal) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(10);
+  robot.node.stop("by SIGTERM");
+  robot.cycle();
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_EQ(robot.state().phase, Phase::Stopped);
+  EXPECT_THAT(robot.state().reasons, ElementsAre(HasSubstr("stopped by SIGTERM")));
+}
+
+TEST(RobotNode, FailsAfterARunWhoseLogIsNotWhole) {
+  BenchRobot robot;
+  robot.seconds = 1;
+  robot.start();
+  robot.node.set_log_trouble("no space left on device");
+  EXPECT_EQ(robot.state().log_trouble, "no space left on device");
+  robot.cycles(5);
+  EXPECT_EQ(robot.state().phase, Phase::Running) << "the robot goes on";
+  EXPECT_GT(robot.speed(), 0);
+  robot.cycles(6);
+  EXPECT_EQ(robot.state().phase, Phase::Ended);
+  robot.node.lose_log();
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_THAT(robot.state().reasons, ElementsAre("the log is not whole: no space left on device"));
+  robot.run = "run08";
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  EXPECT_THAT(robot.state().refused, HasSubstr("log: no space left"));
+}
+
+TEST(RobotNode, DoesNotBeginWithoutALog) {
+  BenchRobot robot;
+  robot.cycles(2);
+  robot.node.hear(robot.order(Order::Kind::Start), robot.now());
+  robot.node.disarm("no log can be written: read-only");
+  robot.cycles(20);
+  EXPECT_EQ(robot.state().phase, Phase::Ready);
+  EXPECT_THAT(robot.state().refused, HasSubstr("read-only"));
+  EXPECT_THAT(robot.rows, IsEmpty());
+}
+
+TEST(RobotNode, InLockStepTakesCyclesInOrderOnly) {
+  BenchRobot robot({.max_mps = kMaxWheelSpeed_mps});
+  const auto senses = [](std::int64_t seed, std::int64_t cycle) {
+    SensesMessage message{.seed = seed, .cycle = cycle, .time_s = 0.1 * static_cast<double>(cycle)};
+    message.ranges_m.fill(std::numeric_limits<double>::infinity());
+    return message;
+  };
+  EXPECT_FALSE(robot.node.answer(senses(7, 2), robot.now()));
+  EXPECT_TRUE(robot.node.answer(senses(7, 1), robot.now()));
+  EXPECT_EQ(robot.state().run, "run-seed7");
+  EXPECT_TRUE(robot.node.answer(senses(7, 2), robot.now()));
+  EXPECT_TRUE(robot.node.answer(senses(8, 1), robot.now())) << "the next run";
+  const auto wrong = robot.node.answer(senses(8, 3), robot.now());
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().message, "cycle 3 of seed 8 came after cycle 1 of seed 8");
+  EXPECT_EQ(robot.state().phase, Phase::Failed);
+  EXPECT_FALSE(robot.node.answer(senses(8, 2), robot.now()));
+  EXPECT_TRUE(robot.node.answer(senses(9, 1), robot.now()));
+  EXPECT_TRUE(robot.node.answer(senses(9, 0), robot.now()));
+  EXPECT_EQ(robot.state().phase, Phase::Ended);
+}
+
+TEST(RobotNode, InLockStepIsWhatTheControllerIs) {
+  BenchRobot robot({.robot_index = 3, .max_mps = kMaxWheelSpeed_mps});
+  const Flavour& flavour = watermelon();
+  const Controller controller = parse_controller(kCuriousMachine, flavour).value();
+  ControlSoftware control(controller, flavour, control_stream(55, 3));
+  Rng rng(5);
+  for (std::int64_t cycle = 1; cycle <= 300; ++cycle) {
+    SensesMessage message{.seed = 55, .cycle = cycle, .time_s = 0.1 * static_cast<double>(cycle)};
+    for (double& range : message.ranges_m)
+      range = rng.bernoulli(0.5) ? rng.uniform(0.05, 0.4) : std::numeric_limits<double>::infinity();
+    message.color.fill(rng.bernoulli(0.3) ? 0 : 127);
+    if (rng.bernoulli(0.5)) message.neighbours = {{0.5, 0.6, -0.8}};
+    Sensed sensed{.time_s = message.time_s, .proximity_m = message.ranges_m};
+    const auto gray = static_cast<std::uint8_t>(message.color[0]);
+    sensed.ground = {gray, gray, gray};
+    for (const SeenRobot& seen : message.neighbours)
+      sensed.neighbours.push_back({seen.distance_m, seen.direction_x, seen.direction_y});
+    SensedSenses senses(sensed);
+    const Command wanted = control.step(senses);
+    const auto decision = robot.node.answer(message, robot.now());
+    ASSERT_TRUE(decision);
+    EXPECT_EQ(*decision->command, wanted);
+    EXPECT_EQ(decision->state, control.state());
+    EXPECT_EQ(decision->row->drawn, control.drawn());
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

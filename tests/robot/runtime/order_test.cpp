@@ -1,0 +1,122 @@
+#include "robot/runtime/order.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "robot/runtime/node_state.h"
+
+namespace swarmsmith {
+namespace {
+
+Order start_order() {
+  Order order;
+  order.kind = Order::Kind::Start;
+  order.id = "a1-7";
+  order.run = "run07";
+  order.robots = {"rvr1", "rvr2"};
+  order.sent_unix_s = 1795000000.123456;
+  order.at_unix_s = 1795000002.123456;
+  order.seconds = 120;
+  order.seed = 77;
+  order.clock_offsets_s = {{"rvr1", -0.0031}, {"rvr2", 0.25}};
+  return order;
+}
+
+TEST(Orders, ReadBackFromTheirText) {
+  const Order start = start_order();
+  EXPECT_EQ(parse_order(order_text(start)).value(), start);
+  for (const Order::Kind kind :
+       {Order::Kind::Stop, Order::Kind::Kill, Order::Kind::Alive, Order::Kind::Echo}) {
+    Order order;
+    order.kind = kind;
+    order.id = "x";
+    order.sent_unix_s = 5;
+    EXPECT_EQ(parse_order(order_text(order)).value(), order);
+  }
+}
+
+TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
+  for (const char* text :
+       {"", "{", "[]", "7", "{}", R"({"order":"start"})", R"({"order":"jump","id":"a"})",
+        R"({"order":"start","id":"a","run":"../x","seconds":3})",
+        R"({"order":"start","id":"a","run":"x","seconds":-3})",
+        R"({"order":"start","id":"a","run":"x","seconds":1e300})",
+        R"({"order":"start","id":"a","run":"x","seconds":3,"seed":"1"})",
+        R"({"order":"stop","id":"a","robots":"rvr1"})", R"({"order":"stop","id":"a","robots":[1]})",
+        "\xff\xfe"}) {
+    const auto order = parse_order(text);
+    ASSERT_FALSE(order) << text;
+    EXPECT_FALSE(order.error().message.empty());
+  }
+}
+
+TEST(OrderDoor, RefusesOldRepeatedAndFutureStarts) {
+  OrderDoor door("rvr1");
+  Order order = start_order();
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s + 1.5).value(),
+              testing::HasSubstr("1.5 s old"));
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s - 2).value(), testing::HasSubstr("ahead"));
+  EXPECT_EQ(door.refusal(order, order.sent_unix_s + 0.5), std::nullopt);
+  EXPECT_THAT(door.refusal(order, order.sent_unix_s + 0.6).value(), testing::HasSubstr("before"));
+  order.id = "a1-8";
+  EXPECT_EQ(door.refusal(order, order.sent_unix_s + 0.5), std::nullopt);
+  order.sent_unix_s = std::numeric_limits<double>::quiet_NaN();
+  order.id = "a1-9";
+  EXPECT_TRUE(door.refusal(order, 5));
+}
+
+TEST(OrderDoor, LetsWhatStopsARobotPassHoweverOldItIs) {
+  OrderDoor door("rvr1");
+  for (const Order::Kind kind : {Order::Kind::Stop, Order::Kind::Kill}) {
+    Order order;
+    order.kind = kind;
+    order.id = "x";
+    EXPECT_EQ(door.refusal(order, 1e9), std::nullopt);
+    EXPECT_EQ(door.refusal(order, 1e9), std::nullopt);
+  }
+}
+
+TEST(OrderDoor, KnowsWhomAnOrderIsFor) {
+  OrderDoor door("rvr1");
+  Order order = start_order();
+  EXPECT_TRUE(door.is_for_this_robot(order));
+  order.robots = {"rvr2"};
+  EXPECT_FALSE(door.is_for_this_robot(order));
+  order.robots.clear();
+  EXPECT_TRUE(door.is_for_this_robot(order));
+}
+
+TEST(NodeStates, ReadBackFromTheirText) {
+  NodeState state{.robot = "rvr2",
+                  .phase = Phase::Running,
+                  .run = "run07",
+                  .cycle = 55,
+                  .machine_digest = "ab",
+                  .flavour = "watermelon",
+                  .turn_clock = "seconds",
+                  .seed = 3,
+                  .robot_index = 1,
+                  .version = "v",
+                  .scheduling = "SCHED_FIFO 20",
+                  .age_ms = {12.5, -1, std::nullopt, 3},
+                  .held = 2,
+                  .skipped = 1,
+                  .battery = 0.9,
+                  .verdict = RunVerdict::Degraded,
+                  .reasons = {"a \"quoted\" reason"},
+                  .not_ready = {"x", "y"},
+                  .log_trouble = "full",
+                  .order = "o",
+                  .refused = "r",
+                  .start_unix_s = 1795000000.5,
+                  .clock_s = 123.456,
+                  .unix_s = 1795000000.123456};
+  EXPECT_EQ(parse_state(state_text(state)).value(), state);
+  EXPECT_EQ(parse_state(state_text({})).value(), NodeState{});
+  EXPECT_FALSE(parse_state("{}"));
+  EXPECT_FALSE(parse_state("nonsense"));
+  EXPECT_FALSE(parse_state(R"({"state":"dancing"})"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

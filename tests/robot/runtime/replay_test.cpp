@@ -1,0 +1,104 @@
+#include "robot/runtime/replay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/robot/runtime/bench_robot.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+std::string network_text() {
+  std::string text = "--network rvr --weights ";
+  Rng rng(4);
+  for (int i = 0; i < 26; ++i)
+    text += (i == 0 ? "" : ",") + std::to_string(rng.uniform(-3, 3));
+  return text;
+}
+
+/// A run of 20 s with changing readings, a silent sensor and skipped cycles.
+RunRecord record_of(const std::string& machine, TurnClock turn_clock) {
+  BenchRobot robot({.robot_index = 2, .seed = 11}, machine,
+                   find_flavour("watermelon", turn_clock).value());
+  robot.seconds = 20;
+  robot.start();
+  Rng rng(9);
+  robot.ranges = robot.ground = false;
+  for (int i = 0; i < 210; ++i) {
+    if (i < 50 || i > 53) robot.send_ranges(rng.uniform(0.02, 0.6));
+    robot.send_ground(rng.bernoulli(0.2) ? 0 : 127);
+    if (i == 100) robot.clock += std::chrono::milliseconds(100);
+    robot.cycle(std::chrono::microseconds(rng.below(30'000)));
+  }
+  EXPECT_EQ(robot.state().phase, Phase::Ended)
+      << machine << testing::PrintToString(robot.state().reasons);
+  return {robot.node.head(), robot.rows};
+}
+
+constexpr const char* kTree =
+    "--nroot 3 --nchildroot 2 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 0.5 --n01 5 --a01 0 --rwm01 "
+    "5 "
+    "--p01 0 --n1 0 --nchild1 2 --n10 6 --c10 5 --p10 0.2 --n11 5 --a11 1 --p11 0";
+
+TEST(LogReplay, GivesEachCommandOfEveryArchitectureAgain) {
+  for (const std::string& machine :
+       {std::string(kCuriousMachine), std::string(kTree), network_text()}) {
+    for (const TurnClock clock : {TurnClock::Cycles, TurnClock::Seconds}) {
+      const RunRecord record = record_of(machine, clock);
+      const auto replay = replay_log(record);
+      ASSERT_TRUE(replay) << to_string(replay.error());
+      EXPECT_FALSE(replay->difference) << replay->difference->cycle << replay->difference->what;
+      EXPECT_EQ(replay->stepped, record.head.end->stepped);
+      EXPECT_GT(replay->stepped, 150);
+      EXPECT_GT(record.head.end->held, 0);
+    }
+  }
+}
+
+TEST(LogReplay, SaysAtWhichCycleSomethingDiffers) {
+  const RunRecord record = record_of(kCuriousMachine, TurnClock::Cycles);
+  const auto difference = [](const RunRecord& changed) {
+    return replay_log(changed).value().difference.value_or(LogReplay::Difference{});
+  };
+  RunRecord changed = record;
+  changed.rows[40].command.left_mps = std::nextafter(changed.rows[40].command.left_mps, 1);
+  EXPECT_EQ(difference(changed).cycle, 41);
+  EXPECT_THAT(difference(changed).what, HasSubstr("speeds"));
+  changed = record;
+  changed.head.seed = 12;
+  EXPECT_GT(difference(changed).cycle, 0);
+  changed = record;
+  changed.head.robot_index = 1;
+  EXPECT_GT(difference(changed).cycle, 0);
+  changed = record;
+  changed.rows[40].state += 1;
+  EXPECT_THAT(difference(changed).what, HasSubstr("state"));
+  changed = record;
+  changed.rows[40].drawn += 1;
+  EXPECT_THAT(difference(changed).what, HasSubstr("random numbers"));
+  changed = record;
+  changed.rows.insert(changed.rows.begin() + 41, changed.rows[40]);
+  EXPECT_THAT(difference(changed).what, HasSubstr("comes after"));
+  changed = record;
+  for (LogRow& row : changed.rows) {
+    if (row.act == Act::Hold) row.command.left_mps = 0.1;
+  }
+  EXPECT_THAT(difference(changed).what, HasSubstr("held"));
+}
+
+TEST(LogReplay, RefusesAHeadThatCannotBeRead) {
+  RunRecord record = record_of(kCuriousMachine, TurnClock::Cycles);
+  record.head.flavour = "strawberry";
+  EXPECT_FALSE(replay_log(record));
+  record.head.flavour = "watermelon";
+  record.head.turn_clock = "minutes";
+  EXPECT_FALSE(replay_log(record));
+  record.head.turn_clock = "cycles";
+  record.head.machine = "--nstates 9";
+  EXPECT_FALSE(replay_log(record));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,105 @@
+#include "robot/world/real_time.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <thread>
+
+#include "robot/transport/in_process.h"
+#include "robot/world/sensor_messages.h"
+#include "sim/files/profile_file.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+/// One robot in the middle, alone, for a while.
+struct Scene {
+  explicit Scene(int cycles)
+      : profile(*built_in_profile("argos3")), mission(*built_in_mission("aggregation")) {
+    mission.robots = 1;
+    mission.cycles = cycles;
+    instance = *instance_of(mission, 1);
+    instance.starts = {{}};
+  }
+  WorldRun run() const {
+    return {.profile = profile, .mission = mission, .instance = instance, .seed = 1};
+  }
+
+  Profile profile;
+  Mission mission;
+  Instance instance;
+};
+
+TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
+  const Scene scene(12);
+  InProcessSwarm swarm({"rvr1"}, Keep::Newest);
+  std::atomic<bool> over{false};
+  // Drives when the first three readings come, then is silent.
+  std::thread node([&] {
+    int heard = 0;
+    while (!over) {
+      const auto message =
+          swarm.robot(0).receive(SystemClock().now() + std::chrono::milliseconds(5));
+      if (!message || !std::holds_alternative<RangesMessage>(*message) || ++heard > 3) continue;
+      swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, -1, {}});
+    }
+  });
+  std::vector<double> x;
+  const auto result =
+      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), {},
+                       [&](const Snapshot& now) { x.push_back(now.robots[0].pose.x); });
+  over = true;
+  node.join();
+  ASSERT_TRUE(result.has_value()) << to_string(result.error());
+  EXPECT_EQ(result->stops_by_silence, 1);
+  ASSERT_EQ(x.size(), 13U);
+  EXPECT_GT(x.back(), 0.02) << "it drove";
+  EXPECT_LT(x.back(), 0.3 * 1.1) << "and did not go on";
+  EXPECT_EQ(x[11], x[12]) << "at the end it stands";
+}
+
+TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
+  const Scene scene(3);
+  InProcessSwarm swarm({"rvr1"}, Keep::Newest);
+  std::atomic<bool> over{false};
+  TimePoint start{};
+  std::thread node([&] {
+    bool told = false;
+    while (!over) {
+      const auto message =
+          swarm.robot(0).receive(SystemClock().now() + std::chrono::milliseconds(5));
+      if (!message || told) continue;
+      told = true;
+      swarm.robot(0).send(StateMessage{{}, "armed"});
+    }
+  });
+  RealTimeOptions options;
+  options.start_of = [&](const StateMessage& state) -> std::optional<TimePoint> {
+    EXPECT_EQ(state.text, "armed");
+    if (start == TimePoint{}) start = SystemClock().now() + std::chrono::milliseconds(200);
+    return start;
+  };
+  const auto result =
+      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), options);
+  over = true;
+  node.join();
+  ASSERT_TRUE(result.has_value()) << to_string(result.error());
+  EXPECT_EQ(result->start, start);
+}
+
+TEST(RealTime, ARobotThatDrivesBeforeTheStartIsRefused) {
+  const Scene scene(3);
+  InProcessSwarm swarm({"rvr1"}, Keep::Newest);
+  swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, -1, {}});
+  RealTimeOptions options;
+  options.start_of = [](const StateMessage&) { return std::nullopt; };
+  const auto result =
+      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), options);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_THAT(result.error().message, HasSubstr("before a run was started"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

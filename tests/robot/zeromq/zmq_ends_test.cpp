@@ -1,0 +1,161 @@
+#include "robot/zeromq/zmq_ends.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+TimePoint in(std::chrono::milliseconds time) {
+  return SystemClock().now() + time;
+}
+
+constexpr std::chrono::milliseconds kPatience{20'000};
+
+/// Waits until the condition holds.
+template <class Condition>
+bool becomes(Condition condition) {
+  const TimePoint until = in(kPatience);
+  while (!condition()) {
+    if (SystemClock().now() > until) return false;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+/// The next message of a kind.
+template <class Message>
+std::optional<Message> next(RobotEnd& end) {
+  const TimePoint until = in(kPatience);
+  while (const auto message = end.receive(until)) {
+    if (const auto* found = std::get_if<Message>(&*message)) return *found;
+  }
+  return std::nullopt;
+}
+template <class Message, class End>
+std::optional<Message> next_of(End& end) {
+  const TimePoint until = in(kPatience);
+  while (const auto received = end.receive(until)) {
+    if (const auto* found = std::get_if<Message>(&received->message)) return *found;
+  }
+  return std::nullopt;
+}
+
+TEST(ZmqEnds, CarryReadingsCommandsStatesAndOrders) {
+  auto node = zmq_robot_end("rvr1", {});
+  ASSERT_TRUE(node.has_value()) << to_string(node.error());
+  auto world = zmq_world_end({{"rvr1", node->endpoint}}, {});
+  ASSERT_TRUE(world.has_value()) << to_string(world.error());
+  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
+  ASSERT_TRUE(operating.has_value());
+  ASSERT_TRUE(becomes([&] { return (*world)->connected(0) && node->end->connected(); }));
+  ASSERT_TRUE(becomes([&] { return (*operating)->connected(0); }));
+
+  (*world)->send(0, RangesMessage{{}, {0.1 + 0.2}});
+  const auto ranges = next<RangesMessage>(*node->end);
+  ASSERT_TRUE(ranges.has_value());
+  EXPECT_EQ(ranges->ranges_m.front(), 0.1 + 0.2);
+
+  node->end->send(WheelsMessage{{}, 0.3, 0.1, -1, {}});
+  const auto wheels = next_of<WheelsMessage>(**world);
+  ASSERT_TRUE(wheels.has_value());
+  EXPECT_EQ(wheels->left_mps, 0.3);
+
+  (*operating)->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
+  EXPECT_EQ(next<OrderMessage>(*node->end)->text, "{\"order\":\"stop\"}");
+
+  node->end->send(StateMessage{{}, "{}"});
+  EXPECT_EQ(next_of<StateMessage>(**operating)->text, "{}");
+  EXPECT_EQ(next_of<StateMessage>(**world)->text, "{}");
+}
+
+TEST(ZmqEnds, WhoComesLateHearsTheLastState) {
+  auto node = zmq_robot_end("rvr1", {});
+  ASSERT_TRUE(node.has_value());
+  node->end->send(StateMessage{{}, "{\"n\":1}"});
+  node->end->send(StateMessage{{}, "{\"n\":2}"});
+  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
+  EXPECT_EQ(next_of<StateMessage>(**operating)->text, "{\"n\":2}");
+}
+
+TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
+  const KeyPair server = make_key_pair();
+  const KeyPair driver = make_key_pair();
+  const KeyPair boss = make_key_pair();
+  NodeServerOptions options;
+  options.keys = ServerKeys{.secret_key = server.secret_key,
+                            .clients = {{"driver", Role::Worker, driver.public_key},
+                                        {"boss", Role::Operator, boss.public_key}}};
+  auto node = zmq_robot_end("rvr1", options);
+  ASSERT_TRUE(node.has_value());
+  const auto with = [&](const KeyPair& pair) {
+    return NodeClientOptions{
+        .keys = ClientKeys{.secret_key = pair.secret_key, .server_key = server.public_key}};
+  };
+  auto world = zmq_world_end({{"rvr1", node->endpoint}}, with(driver));
+  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, with(boss));
+  auto other = zmq_operator_end({{"rvr1", node->endpoint}}, with(driver));
+  ASSERT_TRUE(becomes([&] {
+    return (*world)->connected(0) && (*operating)->connected(0) && (*other)->connected(0);
+  }));
+  (*other)->send(OrderMessage{{}, "{\"order\":\"kill\"}"});
+  const auto refused = next<TroubleMessage>(*node->end);
+  ASSERT_TRUE(refused.has_value());
+  EXPECT_THAT(refused->text, HasSubstr("its key is no operator's"));
+  (*operating)->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
+  EXPECT_EQ(next<OrderMessage>(*node->end)->text, "{\"order\":\"stop\"}");
+
+  auto stranger = zmq_operator_end({{"rvr1", node->endpoint}}, with(make_key_pair()));
+  const auto told = next_of<TroubleMessage>(**stranger);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_THAT(told->text, HasSubstr("does not accept this key"));
+  EXPECT_FALSE((*stranger)->connected(0));
+}
+
+TEST(ZmqEnds, ASecondNodeOfTheRobotFindsTheAddressTaken) {
+  auto node = zmq_robot_end("rvr1", {});
+  ASSERT_TRUE(node.has_value());
+  const auto second = zmq_robot_end("rvr1", {.endpoint = node->endpoint});
+  ASSERT_FALSE(second.has_value());
+  EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
+}
+
+TEST(ZmqEnds, ANodeThatComesBackIsFoundAgain) {
+  auto node = zmq_robot_end("rvr1", {});
+  ASSERT_TRUE(node.has_value());
+  const std::string endpoint = node->endpoint;
+  auto world = zmq_world_end({{"rvr1", endpoint}}, {});
+  ASSERT_TRUE(becomes([&] { return (*world)->connected(0); }));
+  node->end.reset();
+  const auto told = next_of<TroubleMessage>(**world);
+  ASSERT_TRUE(told.has_value());
+  EXPECT_THAT(told->text, HasSubstr("rvr1"));
+  EXPECT_FALSE((*world)->connected(0));
+  auto again = zmq_robot_end("rvr1", {.endpoint = endpoint});
+  ASSERT_TRUE(again.has_value()) << to_string(again.error());
+  EXPECT_TRUE(becomes([&] { return (*world)->connected(0); }));
+}
+
+TEST(ZmqEnds, ANodeOfAnotherNameIsNotTaken) {
+  auto node = zmq_robot_end("rvr2", {});
+  ASSERT_TRUE(node.has_value());
+  auto world = zmq_world_end({{"rvr1", node->endpoint}}, {});
+  EXPECT_THAT(next_of<TroubleMessage>(**world)->text, HasSubstr("rvr2's, not rvr1's"));
+  EXPECT_FALSE((*world)->connected(0));
+}
+
+TEST(ZmqEnds, OtherHostsNeedKeys) {
+  const auto node = zmq_robot_end("rvr1", {.endpoint = "tcp://0.0.0.0:*"});
+  ASSERT_FALSE(node.has_value());
+  EXPECT_THAT(node.error().message, HasSubstr("keygen"));
+  const auto world = zmq_world_end({{"rvr1", "tcp://10.0.0.1:5570"}}, {});
+  ASSERT_FALSE(world.has_value());
+  EXPECT_THAT(world.error().message, HasSubstr("need a key"));
+  EXPECT_FALSE(zmq_world_end({{"rvr1", "nowhere"}}, {}).has_value());
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,226 @@
+#include "tracking/robots/robot_logs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarmsmith {
+namespace {
+
+/// A node that is killed loses what it had not written yet: rows are written each second.
+constexpr double kLostAtTheEnd_s = 1.0;
+/// Beyond it `swarmsmith-robot start` refuses, too.
+constexpr double kClockOffset_s = 0.02;
+/// Shares of the cycles of a run (ros facts, 3.4 and 3.6).
+constexpr double kDegradedShare = 0.01;
+constexpr double kInvalidShare = 0.05;
+/// Motion before its command, beyond what the camera's times may be wrong by.
+constexpr double kEarly_s = 0.02;
+
+Verdict verdict_of(RunVerdict verdict) {
+  return *verdict_from_name(name_of(verdict));
+}
+
+/// What is known of one robot.
+struct Known {
+  const TrackedRobot& robot;
+  const RobotLog* log;    ///< may be null
+  const RobotNote* note;  ///< may be null
+};
+
+class Judge {
+ public:
+  Judge(const RunLog& run, RobotFindings& findings) : run_(run), findings_(findings) {}
+
+  void judge(const Known& known) {
+    judge_node(known);
+    if (known.log == nullptr) {
+      findings_.latencies.emplace_back(std::nullopt);
+      return;
+    }
+    judge_length(known);
+    judge_clock(known);
+    findings_.latencies.push_back(judge_motion(known));
+  }
+
+ private:
+  void add(IssueCode code, const Known& known, std::string text,
+           std::optional<double> from_s = std::nullopt) {
+    findings_.issues.push_back(
+        {code, known.robot.name + ": " + std::move(text), known.robot.name, from_s, {}});
+  }
+
+  double duration_s() const { return run_.mission.cycles * kControlPeriod_s; }
+
+  /// The worse of what the log and the note say, with all reasons.
+  void judge_node(const Known& known) {
+    std::optional<Verdict> verdict;
+    std::vector<std::string> reasons;
+    const auto hear = [&](Verdict said, const std::vector<std::string>& why) {
+      verdict = std::max(verdict.value_or(Verdict::Valid), said);
+      for (const std::string& reason : why) {
+        if (std::ranges::find(reasons, reason) == reasons.end()) reasons.push_back(reason);
+      }
+    };
+    if (known.log != nullptr && known.log->record.head.end) {
+      const RunEnd& end = *known.log->record.head.end;
+      hear(verdict_of(end.verdict), end.reasons);
+    }
+    if (known.note != nullptr && known.note->verdict) {
+      hear(*known.note->verdict, known.note->reasons);
+    }
+    if (!verdict) {
+      if (known.log != nullptr) judge_without_end(known);
+      return;
+    }
+    if (*verdict == Verdict::Valid) return;
+    add(*verdict == Verdict::Invalid ? IssueCode::RobotInvalid : IssueCode::RobotDegraded, known,
+        fmt::format(
+            "its node says that its run is {}: {}", name_of(*verdict),
+            reasons.empty() ? "it gives no reason" : fmt::format("{}", fmt::join(reasons, "; "))));
+  }
+
+  /// A node that was killed has no verdict; its rows tell how it kept its clock.
+  void judge_without_end(const Known& known) {
+    const LogCounts counts = log_counts(known.log->record);
+    const std::int64_t lost = counts.skipped + counts.held;
+    const double share = static_cast<double>(lost) / run_.mission.cycles;
+    const std::string end =
+        "its log has no end: its node was killed, or the files were copied too early";
+    if (share <= kDegradedShare) return add(IssueCode::RobotDegraded, known, end);
+    add(share > kInvalidShare ? IssueCode::RobotInvalid : IssueCode::RobotDegraded, known,
+        fmt::format(
+            "{}; {} of {} cycles were skipped or held ({:.1f} %, at most {:g} % are allowed)", end,
+            lost, run_.mission.cycles, 100 * share,
+            100 * (share > kInvalidShare ? kInvalidShare : kDegradedShare)));
+  }
+
+  void judge_length(const Known& known) {
+    const RunRecord& record = known.log->record;
+    const double last_s = record.rows.empty() ? 0 : record.rows.back().sensed.time_s;
+    if (last_s >= duration_s() - kLostAtTheEnd_s) return;
+    add(IssueCode::LogShort, known,
+        fmt::format(
+            "its log ends at {:.1f} s of {:g} s; did the node end early, or is the file cut "
+            "off? Copy it again and `rescore` with --run",
+            last_s, duration_s()),
+        last_s);
+  }
+
+  void judge_clock(const Known& known) {
+    const auto offset_s = known.log->record.head.clock_offset_s;
+    if (!offset_s || std::fabs(*offset_s) <= kClockOffset_s) return;
+    add(IssueCode::ClockOffset, known,
+        fmt::format("its clock was {:.0f} ms {} the operator's (at most {:.0f} ms): it began {} "
+                    "than the others; synchronise clocks",
+                    1000 * std::fabs(*offset_s), *offset_s > 0 ? "ahead of" : "behind",
+                    1000 * kClockOffset_s, *offset_s > 0 ? "earlier" : "later"));
+  }
+
+  Latency judge_motion(const Known& known) {
+    const RunRecord& record = known.log->record;
+    // Robots begin when their own clock says so.
+    const double begin_s = record.head.start_clock_s + record.head.clock_offset_s.value_or(0);
+    std::vector<TimedCommand> commands;
+    for (const LogRow& row : record.rows)
+      commands.push_back({row.clock_s - begin_s, row.command.left_mps, row.command.right_mps});
+    Latency latency = latency_of(commands, known.robot.samples);
+    const bool is_unlike = latency.agreement && *latency.agreement < kLeastAgreement;
+    if (is_unlike) {
+      add(IssueCode::MotionUnlikeLog, known,
+          latency.reason + "; were tags or logs swapped, or was it held?");
+    } else if (latency.seconds && *latency.seconds < -kEarly_s - 3 * latency.error_s) {
+      add(IssueCode::MotionUnlikeLog, known,
+          fmt::format("it moves {:.0f} ms before its commands; is the start of the run right?",
+                      -1000 * *latency.seconds));
+    } else if (!latency.seconds && latency.beyond) {
+      add(IssueCode::MotionUnlikeLog, known, latency.reason);
+    }
+    return latency;
+  }
+
+  const RunLog& run_;
+  RobotFindings& findings_;
+};
+
+Issue foreign_issue(const RobotLog& log, const std::string& what) {
+  return {
+      IssueCode::LogForeign,
+      fmt::format("{}: its log {} {}; it was left out: name the right file in the run log, then "
+                  "`rescore` with --run",
+                  log.robot, log.file, what),
+      log.robot,
+      {},
+      {}};
+}
+
+}  // namespace
+
+std::optional<Issue> misfit_of(const RobotLog& log, const RunLog& run,
+                               const std::optional<RanMachine>& machine) {
+  const LogHead& head = log.record.head;
+  const auto foreign = [&](const std::string& what) { return foreign_issue(log, what); };
+  if (head.run != run.name) return foreign("is of run " + head.run + ", this is " + run.name);
+  if (head.robot != log.robot) return foreign("is of robot " + head.robot);
+  if (machine && head.flavour != machine->flavour) {
+    return foreign("is of a machine of flavour " + head.flavour + ", and one of " +
+                   machine->flavour + " should have run");
+  }
+  if (machine && head.machine != machine->text) {
+    return foreign("is of the machine `" + head.machine + "`, and `" + machine->text +
+                   "` should have run");
+  }
+  if (head.lock_step) return foreign("was stepped by a simulated world, not by a clock");
+  for (std::size_t i = 1; i < log.record.rows.size(); ++i) {
+    const LogRow& row = log.record.rows[i];
+    const LogRow& before = log.record.rows[i - 1];
+    if (row.cycle > before.cycle && row.clock_s > before.clock_s) continue;
+    return foreign(fmt::format("has cycle {} after cycle {}, at times that do not increase",
+                               row.cycle, before.cycle));
+  }
+  return std::nullopt;
+}
+
+std::optional<Issue> other_machine(const RobotLog& log, const RobotLog& first) {
+  const std::string& digest = log.record.head.machine_digest;
+  if (digest == first.record.head.machine_digest) return std::nullopt;
+  return foreign_issue(log, fmt::format("is of a machine with digest {}, and {} ran one with {}",
+                                        digest, first.robot, first.record.head.machine_digest));
+}
+
+RobotFindings judge_robots(const TrackedRun& run, const std::vector<RobotLog>& logs,
+                           const RunLog& log) {
+  RobotFindings findings;
+  Judge judge(log, findings);
+  for (const TrackedRobot& robot : run.robots) {
+    const auto own = std::ranges::find(logs, robot.name, &RobotLog::robot);
+    const auto note = std::ranges::find(log.notes, robot.name, &RobotNote::robot);
+    judge.judge(
+        {robot, own == logs.end() ? nullptr : &*own, note == log.notes.end() ? nullptr : &*note});
+  }
+  return findings;
+}
+
+LogCounts log_counts(const RunRecord& record) {
+  LogCounts counts;
+  std::vector<double> late_ms;
+  for (const LogRow& row : record.rows) {
+    ++(row.act == Act::Hold ? counts.held : counts.stepped);
+    late_ms.push_back(row.late_ms);
+  }
+  if (!record.rows.empty()) {
+    counts.skipped = record.rows.back().cycle - static_cast<std::int64_t>(record.rows.size());
+    std::ranges::sort(late_ms);
+    counts.late_median_ms = late_ms[late_ms.size() / 2];
+    counts.late_most_ms = late_ms.back();
+  }
+  if (record.head.end) {
+    counts.stepped = record.head.end->stepped;
+    counts.held = record.head.end->held;
+    counts.skipped = record.head.end->skipped;
+  }
+  return counts;
+}
+
+}  // namespace swarmsmith
