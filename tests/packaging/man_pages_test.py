@@ -23,7 +23,7 @@ def said(*words, **keywords):
 def options_in(help_text):
     """The options that a help lists: those at the beginnings of its lines."""
     found = set()
-    for line in help_text.split("Examples:")[0].split("\n"):
+    for line in re.split(r"Examples?:", help_text)[0].split("\n"):
         if head := re.match(r" {2,6}((?:-\w|--[\w-]+)(?:, ?(?:-\w|--[\w-]+))*)(?: |$|=)", line):
             found.update(re.split(r", ?", head[1]))
     return found
