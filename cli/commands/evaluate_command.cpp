@@ -250,10 +250,9 @@ Run declare_evaluate(Options& options) {
   options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's or the file's)");
-  options.text(
-      "--profile PROFILE|FILE", arguments->profile,
-      "Simulator profile: rvr, argos3, pseudo-reality or a file (default: the candidate's or the "
-      "file's, else rvr)");
+  options.text("--profile PROFILE|FILE", arguments->profile,
+               "Simulator profile: rvr, argos3, pseudo-reality, thesis-robots or a file (default: "
+               "the candidate's or the file's, else rvr)");
   options.text(
       "--mission MISSION|FILE", arguments->mission,
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "

@@ -100,7 +100,7 @@ Expected<void> read_max_ages(const std::vector<std::string>& words, NodeSettings
     const auto feed = feed_by(word.substr(0, equals), kOption);
     if (!feed) return Unexpected(feed.error());
     const auto seconds = number_option(equals == std::string::npos ? "?" : word.substr(equals + 1),
-                                       kOption, 0.01, 10);
+                                       kOption, 0.01, 1);
     if (!seconds) return Unexpected(seconds.error());
     settings.hold[index_of(*feed)] = duration_of(seconds->value_or(0.3));
   }

@@ -33,7 +33,7 @@ struct Scene {
 };
 
 TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
-  const Scene scene(12);
+  const Scene scene(25);
   InProcessSwarm swarm({"rvr1"}, Keep::Newest);
   std::atomic<bool> over{false};
   // Drives when the first three readings come, then is silent.
@@ -54,10 +54,10 @@ TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
   node.join();
   ASSERT_TRUE(result.has_value()) << to_string(result.error());
   EXPECT_EQ(result->stops_by_silence, 1);
-  ASSERT_EQ(x.size(), 13U);
+  ASSERT_EQ(x.size(), 26U);
   EXPECT_GT(x.back(), 0.02) << "it drove";
-  EXPECT_LT(x.back(), 0.3 * 1.1) << "and did not go on";
-  EXPECT_EQ(x[11], x[12]) << "at the end it stands";
+  EXPECT_LT(x.back(), 0.3 * 2.4) << "and did not go on";
+  EXPECT_EQ(x[24], x[25]) << "at the end it stands";
 }
 
 TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
