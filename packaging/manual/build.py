@@ -214,9 +214,7 @@ def program_page(tells):
         options = [option for option in command["options"] if option["names"][-1] != "--help"]
         if common is None and command["name"]:
             common = [option for option in options
-                      if all(option in other["options"] for other in tells["commands"] if not other["another_program"]
-                             and option["names"][-1] in str(other["options"]))
-                      and option["names"][-1] in ("--json", "--quiet", "--verbose", "--no-color")]
+                      if option["names"][-1] in ("--json", "--quiet", "--verbose", "--no-color")]
         rows = [option for option in options if option not in (common or [])]
         if rows:
             parts.append(option_rows(rows))
