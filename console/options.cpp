@@ -1,6 +1,8 @@
 #include "console/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
 
 #include "base/environment.h"
 #include "base/suggestion.h"
@@ -13,6 +15,13 @@ void need_it(CLI::Option* option, Options::Need need) {
   if (need == Options::Need::Required) option->required();
 }
 
+/// "-o,--output FILE": its names, and what its value is.
+std::pair<std::string, std::string> names_and_value(const std::string& text) {
+  const std::size_t end = text.find(' ');
+  if (end == std::string::npos) return {text, ""};
+  return {text.substr(0, end), text.substr(end + 1)};
+}
+
 }  // namespace
 
 std::string store_of_environment() {
@@ -23,19 +32,39 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
   app_->add_flag(names, value, help);
 }
 
+/// A word is called what it is; of an option the value has a name, too.
+void Options::describe(CLI::Option* option, const std::string& value) {
+  const std::string name = option->get_single_name();
+  const bool is_word = option->get_positional();
+  if (is_word) {
+    option->type_name("");
+  } else {
+    option->type_name(value.empty() ? "TEXT" : value);
+  }
+  kinds_[name] = value.empty() ? name : value;
+}
+
 void Options::text(const std::string& names, std::string& value, const std::string& help,
                    Need need) {
-  need_it(app_->add_option(names, value, help), need);
+  const auto [name, kind] = names_and_value(names);
+  CLI::Option* option = app_->add_option(name, value, help);
+  describe(option, kind);
+  need_it(option, need);
 }
 
 void Options::texts(const std::string& names, std::vector<std::string>& values,
                     const std::string& help) {
-  app_->add_option(names, values, help)->allow_extra_args(false);
+  const auto [name, kind] = names_and_value(names);
+  CLI::Option* option = app_->add_option(name, values, help)->allow_extra_args(false);
+  describe(option, kind);
 }
 
 void Options::words(const std::string& name, std::vector<std::string>& values,
                     const std::string& help, Need need) {
-  need_it(app_->add_option(name, values, help), need);
+  const auto [word, kind] = names_and_value(name);
+  CLI::Option* option = app_->add_option(word, values, help);
+  describe(option, kind);
+  need_it(option, need);
 }
 
 void Options::choice(const std::string& names, std::string& value,
@@ -45,6 +74,8 @@ void Options::choice(const std::string& names, std::string& value,
     return "\"" + given + "\" is none of: " + joined(choices) + did_you_mean(given, choices);
   };
   CLI::Option* option = app_->add_option(names, value, help + " (" + joined(choices) + ")");
+  describe(option, "WORD");
+  choices_[option->get_single_name()] = choices;
   option->check(check, "", "choice");
   need_it(option, need);
 }
@@ -64,6 +95,19 @@ void Options::integer(const std::string& names, std::optional<std::int64_t>& val
 
 void Options::explain(const std::string& lines) {
   app_->footer("\n" + lines + app_->get_footer());
+}
+
+std::vector<DeclaredOption> Options::declared() const {
+  std::vector<DeclaredOption> options = declared_options(*app_);
+  for (DeclaredOption& option : options) {
+    for (std::string name : option.names) {
+      name.erase(0, std::min(name.find_first_not_of('-'), name.size()));
+      if (const auto kind = kinds_.find(name); kind != kinds_.end()) option.kind = kind->second;
+      if (const auto found = choices_.find(name); found != choices_.end())
+        option.choices = found->second;
+    }
+  }
+  return options;
 }
 
 }  // namespace swarmsmith::cli

@@ -2,25 +2,30 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "console/declared.h"
 #include "console/exit_code.h"
 #include "console/output.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace swarmsmith::cli {
 
 /// The store that SWARMSMITH_STORE names; empty when it names none.
 std::string store_of_environment();
 
-/// What a command reads from its arguments. Names are "--budget", "-o,--output" or, for a word
-/// without dashes, "FILE". The referenced values must live until the command has run.
+/// What a command reads from its arguments. Names are "--budget", "-o,--output FILE" or, for a word
+/// without dashes, "FILE". What follows the name says what the value is, in the help and for
+/// completion: "--profile PROFILE|FILE" is a profile or a file; a word is what its name says, else
+/// what follows: "ID DESIGN|RUN". The referenced values must live until the command has run.
 class Options {
  public:
   explicit Options(CLI::App& app) : app_(&app) {}
@@ -50,8 +55,15 @@ class Options {
   /// Lines below the options, above the command's details.
   void explain(const std::string& lines);
 
+  /// All that is declared so far, and the parser's own, such as --help.
+  std::vector<DeclaredOption> declared() const;
+
  private:
+  void describe(CLI::Option* option, const std::string& value);
+
   CLI::App* app_;
+  std::map<std::string, std::string> kinds_;                 ///< by name
+  std::map<std::string, std::vector<std::string>> choices_;  ///< by name
 };
 
 }  // namespace swarmsmith::cli

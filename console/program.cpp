@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
 
 #include "base/log.h"
 #include "base/suggestion.h"
@@ -116,19 +117,37 @@ void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--no-color", no_color, "Write without colours, as NO_COLOR=1 does");
 }
 
-/// One command has a parser of its own, made when it is asked for.
+/// The parser of one command, made when it is asked for.
+class Parser {
+ public:
+  Parser(const Program& program, const Command& command, Output& output)
+      : app_(std::string(command.summary),
+             std::string(program.name) + " " + std::string(command.name)),
+        options_(app_) {
+    app_.allow_extras();
+    app_.formatter(std::make_shared<PageFormatter>());
+    app_.footer("\n" + std::string(command.details));
+    run_ = command.declare(options_);
+    declare_common(app_, output, no_color_);
+  }
+
+  CLI::App& app() { return app_; }
+  const Run& run() const { return run_; }
+  bool no_color() const { return no_color_; }
+  std::vector<DeclaredOption> declared() const { return options_.declared(); }
+
+ private:
+  CLI::App app_;
+  Options options_;
+  Run run_;
+  bool no_color_ = false;
+};
+
 ExitCode run_command(const Program& program, const Command& command,
                      std::vector<std::string> arguments, Output& output) {
-  CLI::App app{std::string(command.summary),
-               std::string(program.name) + " " + std::string(command.name)};
-  app.allow_extras();
-  app.formatter(std::make_shared<PageFormatter>());
-  app.footer("\n" + std::string(command.details));
-  Options options(app);
-  const Run run = command.declare(options);
+  Parser parser(program, command, output);
+  CLI::App& app = parser.app();
   app.footer(wrapped(app.get_footer()));
-  bool no_color = false;
-  declare_common(app, output, no_color);
   // The library takes the words from the back.
   std::reverse(arguments.begin(), arguments.end());
   try {
@@ -144,11 +163,94 @@ ExitCode run_command(const Program& program, const Command& command,
   if (!app.remaining().empty()) {
     return complain_about_extras(app, program, command, app.remaining(), output);
   }
-  if (no_color) output.color = false;
+  if (parser.no_color()) output.color = false;
   if (output.verbose) set_log_level(LogLevel::Debug);
   if (output.quiet) set_log_level(LogLevel::Error);
   change_log_level_by_signals();
-  return run(output);
+  return parser.run()(output);
+}
+
+bool becomes_another_program(const Command& command) {
+  return command.run_words != nullptr && command.options == nullptr;
+}
+
+ExitCode print_declared(const Program& program, Output& output) {
+  const auto of_command = [&](const Command& command) {
+    std::vector<DeclaredOption> options;
+    std::string details(command.details);
+    if (command.options != nullptr) {
+      options = command.options();
+    } else if (command.run_words == nullptr) {
+      Parser parser(program, command, output);
+      options = parser.declared();
+      details = parser.app().get_footer();
+    }
+    return JsonObject()
+        .add("name", command.name)
+        .add("summary", command.summary)
+        .add("details", details)
+        .add("another_program", becomes_another_program(command))
+        .add("options", declared_json(options));
+  };
+  output.out << JsonObject()
+                    .add("program", program.name)
+                    .add("purpose", program.purpose)
+                    .add("begin", program.begin)
+                    .add("commands", json_list(program.commands, of_command))
+                    .text()
+             << '\n';
+  return ExitCode::Done;
+}
+
+/// The next words of commands that begin with the whole words.
+Offer offer_commands(const Program& program, std::span<const std::string> words) {
+  std::string begin;
+  for (const std::string& word : words)
+    begin += word + " ";
+  Offer offer;
+  std::set<std::string_view> known;
+  for (const Command& command : program.commands) {
+    if (!command.name.starts_with(begin)) continue;
+    const std::string_view rest = command.name.substr(begin.size());
+    const std::string_view next = rest.substr(0, rest.find(' '));
+    if (!known.insert(next).second) continue;
+    const bool is_whole = next.size() == rest.size();
+    offer.words.push_back({std::string(next), is_whole ? std::string(command.summary) : ""});
+  }
+  return offer;
+}
+
+ExitCode complete(const Program& program, std::span<const std::string> given, Output& output) {
+  std::vector<std::string> words = typed_words(given);
+  const std::string begin = words.back();
+  words.pop_back();
+  const bool asks_for_help = !words.empty() && words.front() == "help";
+  if (asks_for_help) words.erase(words.begin());
+  Offer offer = offer_commands(program, words);
+  if (words.empty() && !asks_for_help) {
+    for (const char* word : {"--help", "--version"})
+      offer.words.push_back({word, ""});
+  }
+  const Command* command = words.empty() ? nullptr : find_command(program, words);
+  if (command != nullptr && !asks_for_help) {
+    const auto of_name = std::count(command->name.begin(), command->name.end(), ' ') + 1;
+    const std::vector<std::string> rest(words.begin() + of_name, words.end());
+    if (becomes_another_program(*command)) {
+      std::vector<std::string> passed{"--complete"};
+      passed.insert(passed.end(), rest.begin(), rest.end());
+      passed.push_back(begin);
+      std::ostream nowhere(nullptr);
+      Output silent{output.out, nowhere};
+      command->run_words(passed, silent);
+      return ExitCode::Done;
+    }
+    const std::vector<DeclaredOption> options = command->options != nullptr
+                                                    ? command->options()
+                                                    : Parser(program, *command, output).declared();
+    offer = offer_next(options, rest, begin, program.values);
+  }
+  write_offer(output.out, offer, begin);
+  return ExitCode::Done;
 }
 
 }  // namespace
@@ -170,6 +272,8 @@ ExitCode run_program(const Program& program, const std::vector<std::string>& arg
     output.out << overview(program);
     return ExitCode::Done;
   }
+  if (first == "--declared") return print_declared(program, output);
+  if (first == "--complete") return complete(program, std::span(arguments).subspan(1), output);
   if (first == "--version") return run_program(program, {"version"}, output);
   const Command* command = find_command(program, arguments);
   if (command == nullptr) return unknown_command(program, arguments, output);

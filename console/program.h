@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "console/complete.h"
+#include "console/declared.h"
 #include "console/options.h"
 
 namespace swarmsmith::cli {
@@ -24,6 +26,9 @@ struct Command {
   ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
   /// Changes the words before they are read.
   std::vector<std::string> (*prepare)(std::vector<std::string> words) = nullptr;
+  /// Of a command with `run_words`: what it reads. Without it `run_words` becomes another program,
+  /// which answers for itself.
+  std::vector<DeclaredOption> (*options)() = nullptr;
 };
 
 /// A program that a person types.
@@ -32,10 +37,13 @@ struct Program {
   std::string_view purpose;  ///< a sentence, the first line of its help
   std::span<const Command> commands;
   std::string_view begin;  ///< last lines of its help: where a newcomer begins
+  OfferValues values = nullptr;
 };
 
 /// Runs the program with the words after its name. Output goes to `output`, whose flags (`--json`,
 /// `--quiet`, `-v`, `--no-color`) are read first. Wrong usage is explained on the error stream.
+/// Two first words are for scripts, and in no help: `--declared` prints the commands and all that
+/// they read as JSON, `--complete WORD...` what the last word may become (complete.h).
 ExitCode run_program(const Program& program, const std::vector<std::string>& arguments,
                      Output& output);
 

@@ -28,15 +28,15 @@ void log_faults(const std::vector<Error>& faults) {
 }  // namespace
 
 void AccessFlags::declare(Options& options) {
-  options.text("--keys", keys,
+  options.text("--keys DIR", keys,
                "Folder of `swarmsmith keygen`: connections are encrypted, and only clients in its "
                "clients.toml may connect (default beyond loopback: SWARMSMITH_KEYS, else "
                "~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", insecure_plaintext,
                "Listen beyond loopback without encryption, to anybody");
-  options.text("--coordinator-file", coordinator_file,
+  options.text("--coordinator-file FILE", coordinator_file,
                "File for the coordinator's address (default: STORE.coordinator)");
-  options.text("--advertise", advertise,
+  options.text("--advertise HOST", advertise,
                "Host name in this file (default: the address of --bind, or this host's name)");
 }
 

@@ -7,7 +7,7 @@ namespace swarmsmith::cli {
 
 void StoreArgument::declare(Options& options, bool with_word) {
   if (with_word) options.text("STORE", word, "The campaign's store (else SWARMSMITH_STORE)");
-  options.text("--store", option, "The campaign's store (else SWARMSMITH_STORE)");
+  options.text("--store STORE", option, "The campaign's store (else SWARMSMITH_STORE)");
 }
 
 Expected<std::string> StoreArgument::path() const {

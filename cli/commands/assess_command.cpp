@@ -35,8 +35,9 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
 
 Run declare_assess(Options& options) {
   auto arguments = std::make_shared<AssessArguments>();
-  options.text("--flavour", arguments->flavour, "Flavour of the modules (default watermelon)");
-  options.text("--profile", arguments->profile, "Simulator profile (default rvr)");
+  options.text("--flavour FLAVOUR", arguments->flavour,
+               "Flavour of the modules (default watermelon)");
+  options.text("--profile PROFILE|FILE", arguments->profile, "Simulator profile (default rvr)");
   return [arguments](Output& output) { return run_assess(*arguments, output); };
 }
 

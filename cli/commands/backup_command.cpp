@@ -64,7 +64,7 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
 
 Run declare_backup(Options& options) {
   auto arguments = std::make_shared<BackupArguments>();
-  options.words("STORE_AND_COPY", arguments->words, "The store's file, then the copy's",
+  options.words("STORE_AND_COPY STORE", arguments->words, "The store's file, then the copy's",
                 Options::Need::Required);
   arguments->store.declare(options, false);
   return [arguments](Output& output) { return run_backup(*arguments, output); };

@@ -4,6 +4,7 @@
 
 #include "cli/arguments/machine_words.h"
 #include "cli/commands/irace_command.h"
+#include "cli/completion/offer_stored.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -328,7 +329,7 @@ constexpr std::array kCommands = {
     Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
             declare_keygen},
     Command{"irace", "Configure an algorithm from irace's files, as irace does", kIraceDetails,
-            nullptr, run_irace},
+            nullptr, run_irace, nullptr, irace_declared},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     Command{"dashboard", "Show stores and campaigns in the browser", kDashboardDetails,
             declare_dashboard},
@@ -375,7 +376,7 @@ std::span<const Command> commands() {
 
 ExitCode run_program(const std::vector<std::string>& arguments, Output& output) {
   const Program program{"swarmsmith", "Designs control software for robot swarms.", kCommands,
-                        "Begin with `swarmsmith run` (a demo) or `swarmsmith init`."};
+                        "Begin with `swarmsmith run` (a demo) or `swarmsmith init`.", offer_stored};
   return run_program(program, arguments, output);
 }
 

@@ -142,9 +142,9 @@ Run declare_compare(Options& options) {
   arguments->store.declare(options);
   options.choice("--by", arguments->by, {"source", "method", "mission"},
                  "What to compare (default source)");
-  options.texts("--mission", arguments->options.missions, "Only this mission; repeatable");
-  options.text("--method", arguments->options.method, "Only this method");
-  options.text("--source", arguments->options.source, "Only scores of this source");
+  options.texts("--mission MISSION", arguments->options.missions, "Only this mission; repeatable");
+  options.text("--method METHOD", arguments->options.method, "Only this method");
+  options.text("--source SOURCE", arguments->options.source, "Only scores of this source");
   options.choice("--purpose", arguments->purpose, {"test", "score", "all"}, kPurposeHelp);
   options.choice("--per", arguments->per, {"run", "design"}, kPerHelp);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");

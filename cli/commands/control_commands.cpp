@@ -198,19 +198,20 @@ class Control {
 Run declare(CommandKind kind, Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->kind = kind;
-  options.words("STORE", arguments->words,
+  options.words("STORE DESIGN|STORE", arguments->words,
                 std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +
                     (is_of_leases(kind) ? "; without any, all unfinished ones" : ""));
-  options.text("--store", arguments->store, "The campaign's store");
+  options.text("--store STORE", arguments->store, "The campaign's store");
   if (kind == CommandKind::Extend) {
     options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Further experiments");
   }
   CoordinatorArgument& coordinator = arguments->coordinator;
-  options.text("--coordinator", coordinator.coordinator,
+  options.text("--coordinator FILE", coordinator.coordinator,
                "File of the coordinator that runs the campaign (default: STORE.coordinator, else "
                "SWARMSMITH_COORDINATOR)");
-  options.text("--connect", coordinator.connect, "Its address, HOST:PORT, in place of the file");
-  options.text("--key", coordinator.key,
+  options.text("--connect HOST:PORT", coordinator.connect,
+               "Its address, HOST:PORT, in place of the file");
+  options.text("--key FILE", coordinator.key,
                "Key file of an operator (default: SWARMSMITH_KEY, else operator.key in "
                "SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", coordinator.insecure_plaintext,

@@ -190,23 +190,23 @@ ExitCode show(const DashboardArguments& arguments, Output& output) {
 Run declare_dashboard(Options& options) {
   auto arguments = std::make_shared<DashboardArguments>();
   options.words("STORE", arguments->stores, "Stores to show (else SWARMSMITH_STORE)");
-  options.text("--http", arguments->http,
+  options.text("--http HOST:PORT", arguments->http,
                "Address and port (default 127.0.0.1:8347, or the next port that is free)");
-  options.text("--http-token-file", arguments->token_file,
+  options.text("--http-token-file FILE", arguments->token_file,
                "File of the secret that readers must show");
-  options.texts("--http-name", arguments->names,
+  options.texts("--http-name HOST", arguments->names,
                 "Name of this host in addresses of the pages, such as a proxy's");
   CoordinatorArgument& coordinator = arguments->coordinator;
-  options.text("--connect", coordinator.connect,
+  options.text("--connect HOST:PORT|FILE", coordinator.connect,
                "Ask the coordinator at HOST:PORT how the first store's campaign goes (default: "
                "the one of STORE.coordinator)");
-  options.text("--key", coordinator.key, "Key file, if the coordinator needs one");
+  options.text("--key FILE", coordinator.key, "Key file, if the coordinator needs one");
   options.flag("--insecure-plaintext", coordinator.insecure_plaintext,
                "Ask a coordinator on another host without encryption");
-  options.text("--export", arguments->file,
+  options.text("--export FILE", arguments->file,
                "Write the pages with all that they show into this file, which opens without a "
                "server, instead of serving them");
-  options.texts("--design", arguments->designs,
+  options.texts("--design DESIGN", arguments->designs,
                 "With --export: this design; once for each (default: all)");
   return [arguments](Output& output) {
     if (!arguments->file.empty()) return write_snapshot(*arguments, output);

@@ -241,33 +241,32 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
 Run declare_evaluate(Options& options) {
   auto arguments = std::make_shared<EvaluateOptions>();
   options.text(
-      "MACHINE", arguments->machine,
+      "MACHINE BEST|CANDIDATE|FILE", arguments->machine,
       "Text that begins with --nstates, --fsm-config, --nroot, --bt-config or --network, a file "
       "of such texts, a candidate "
       "(c812), or best: "
       "the winner of each finished design",
       Options::Need::Required);
-  options.text("--flavour", arguments->flavour,
+  options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's or the file's)");
+  options.text("--profile PROFILE|FILE", arguments->profile,
+               "Simulator profile: rvr, argos3, pseudo-reality, thesis-robots or a file (default: "
+               "the candidate's or the file's, else rvr)");
   options.text(
-      "--profile", arguments->profile,
-      "Simulator profile: rvr, argos3, pseudo-reality or a file (default: the candidate's or the "
-      "file's, else rvr)");
-  options.text(
-      "--mission", arguments->mission,
+      "--mission MISSION|FILE", arguments->mission,
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "
       "file's)");
-  options.text("--campaign", arguments->campaign,
+  options.text("--campaign FILE", arguments->campaign,
                "Campaign file or store with flavour, profile and mission");
-  options.texts("--design", arguments->designs,
+  options.texts("--design DESIGN", arguments->designs,
                 "Design of the campaign (default: d1, if they differ only in repetition); with "
                 "best repeatable (default: all)");
-  options.text("--seeds", arguments->seeds,
+  options.text("--seeds SEEDS", arguments->seeds,
                "Seeds of the runs: 1-10 or 1,4,7-9 (default: the seeds of the tests in the file, "
                "else 1-10; for candidates one that no race or test of the store used)");
-  options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
-  options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
+  options.text("--starts FILE", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
+  options.text("--patches FILE", arguments->patches, "CSV of coloured patches: seed,x,y,color");
   options.flag("--no-store", arguments->no_store,
                "Print the scores of candidates without storing them");
   arguments->store.declare(options, true);

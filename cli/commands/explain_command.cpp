@@ -134,8 +134,8 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
 
 Run declare_explain(Options& options) {
   auto arguments = std::make_shared<ExplainArguments>();
-  options.text("EVALUATION", arguments->id, "e100000007, e100000007t of a test, or a design: d3",
-               Options::Need::Required);
+  options.text("EVALUATION DESIGN", arguments->id,
+               "e100000007, e100000007t of a test, or a design: d3", Options::Need::Required);
   arguments->store.declare(options);
   return [arguments](Output& output) { return run_explain(*arguments, output); };
 }

@@ -311,12 +311,13 @@ Run declare_export(Options& options) {
                  "Text of the grammar with lines on its origin, JSON, a picture, an experiment "
                  "file of the original simulator, a folder in which R's irace runs the same "
                  "design, or a design's race as the log of R's irace, for iraceplot");
-  options.text("-o,--output", arguments->file,
+  options.text("-o,--output FILE", arguments->file,
                "File to write, or folder for one file per machine or for the tables of a log");
-  options.text("--design", arguments->design, "Only machines of this design, such as d3");
-  options.text("--candidate", arguments->candidate, "Only this candidate, such as c812");
-  options.text("--mission", arguments->mission, "Mission of --what starts or patches");
-  options.text("--width", arguments->width, "Width of a picture: 84mm (default), 8.4cm, 3.3in");
+  options.text("--design DESIGN", arguments->design, "Only machines of this design, such as d3");
+  options.text("--candidate CANDIDATE", arguments->candidate, "Only this candidate, such as c812");
+  options.text("--mission MISSION", arguments->mission, "Mission of --what starts or patches");
+  options.text("--width WIDTH", arguments->width,
+               "Width of a picture: 84mm (default), 8.4cm, 3.3in");
   options.integer("--seed", arguments->seed, {1, 4'294'967'295},
                   "Seed of the experiment of --format argos (default 1)");
   options.choice("--irace", arguments->irace_version, {"3.5", "4"},

@@ -28,23 +28,24 @@ void FigureArguments::declare(Options& words) {
     kinds.emplace_back(known.name);
   words.choice("KIND", kind, kinds, "What to draw; omit it to list all kinds");
   store.declare(words);
-  words.text("-o,--output", file,
+  words.text("-o,--output FILE", file,
              "File to write: .svg, .pdf, .png, .csv or .tex (default: SVG to standard output)");
-  words.text("--width", width, "Such as 84mm, 17.5cm or 3.3in (default 84mm)");
+  words.text("--width WIDTH", width, "Such as 84mm, 17.5cm or 3.3in (default 84mm)");
   words.flag("--paper", options.paper,
              "Leave out title, details and explanations, which a paper has in the caption");
-  words.text("--font", font, "Of the texts, where it is installed, such as \"Linux Libertine\"");
-  words.text("--mission", options.filter.mission, "Only this mission");
-  words.text("--method", options.filter.method, "Only this method");
-  words.text("--design", design, "Only of this design: d3");
-  words.text("--candidate", candidate, "Of this candidate: c812");
+  words.text("--font FONT", font,
+             "Of the texts, where it is installed, such as \"Linux Libertine\"");
+  words.text("--mission MISSION", options.filter.mission, "Only this mission");
+  words.text("--method METHOD", options.filter.method, "Only this method");
+  words.text("--design DESIGN", design, "Only of this design: d3");
+  words.text("--candidate CANDIDATE", candidate, "Of this candidate: c812");
   words.integer("--iteration", options.iteration, {1, kLargest}, "Iteration of the race");
   words.choice("--by", options.by, {"source", "method", "mission"}, "What to compare");
-  words.text("--source", options.source, "Only scores of this source: a profile, real, ...");
+  words.text("--source SOURCE", options.source, "Only scores of this source: a profile, real, ...");
   words.choice("--purpose", purpose, {"test", "score", "all"}, kPurposeHelp);
   words.choice("--per", per, {"run", "design"}, kPerHelp);
-  words.text("--parameter", options.parameter, "Parameter, such as rwm0");
-  words.texts("--seed", seeds, "Of runs of this seed; once for each");
+  words.text("--parameter PARAMETER", options.parameter, "Parameter, such as rwm0");
+  words.texts("--seed SEED", seeds, "Of runs of this seed; once for each");
 }
 
 std::vector<FigureKind> all_figure_kinds() {

@@ -105,21 +105,23 @@ Run declare_import(Options& options) {
                "A scenario of irace; with --into scores or machines (.csv), machines (a text a "
                "line), or a log of irace (.Rdata)",
                Options::Need::Required);
-  options.text("-o,--output", arguments->out,
+  options.text("-o,--output FILE", arguments->out,
                "Campaign file to write from a scenario (default: standard output)");
-  options.text("--into", arguments->into,
+  options.text("--into STORE", arguments->into,
                "Store to import into; made if needed for machines and logs, while scores need "
                "their designs");
-  options.text("--flavour", arguments->flavour,
+  options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of machines whose file names none, or of a log's configurations: "
                "watermelon, watermelon-argos3, chocolate");
-  options.texts("--mission", arguments->missions,
+  options.texts("--mission MISSION", arguments->missions,
                 "Mission of rows that name none; OLD=NEW renames one; may be repeated");
-  options.text("--method", arguments->method,
+  options.text("--method METHOD", arguments->method,
                "Method of machines that name none (default: the flavour), or of a log (irace)");
-  options.text("--name", arguments->name, "Name of the campaign that machines or a log become");
-  options.text("--source", arguments->source, "Source of scores that name none, such as real");
-  options.texts("--cost-of", arguments->costs_of,
+  options.text("--name NAME", arguments->name,
+               "Name of the campaign that machines or a log become");
+  options.text("--source SOURCE", arguments->source,
+               "Source of scores that name none, such as real");
+  options.texts("--cost-of MISSION", arguments->costs_of,
                 "Mission whose scores in the file are costs (smaller is better)");
   options.flag("--replace", arguments->replace,
                "Replace stored scores of the same candidate, source, seed and instance");

@@ -7,6 +7,7 @@
 #include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
 #include "sim/control/flavour.h"
+#include "sim/files/mission_file.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith::cli {
@@ -114,8 +115,7 @@ ExitCode run_init(const InitArguments& arguments, Output& output) {
 Run declare_init(Options& options) {
   auto arguments = std::make_shared<InitArguments>();
   options.text("DIR", arguments->folder, "Folder of the new campaign.toml (default: this one)");
-  options.choice("--mission", arguments->mission,
-                 {"aggregation", "grid_exploration", "color_selection"}, "Mission to design for");
+  options.choice("--mission", arguments->mission, mission_names(), "Mission to design for");
   options.choice("--flavour", arguments->flavour, {"watermelon", "watermelon-argos3", "chocolate"},
                  "Flavour of the modules");
   return [arguments](Output& output) { return run_init(*arguments, output); };

@@ -12,6 +12,7 @@
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/programs.h"
 #include "irace_core/files/command_line.h"
+#include "irace_core/files/options.h"
 #include "irace_core/files/scenario_text.h"
 #include "irace_core/files/setup.h"
 
@@ -165,6 +166,22 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
 }
 
 }  // namespace
+
+std::vector<DeclaredOption> irace_declared() {
+  std::vector<DeclaredOption> options;
+  for (const IraceOption& option : irace_options()) {
+    if (option.long_switch.empty() || option.meaning == IraceMeaning::Gone) continue;
+    DeclaredOption declared{.help = irace_explanation(option)};
+    if (!option.short_switch.empty()) declared.names.emplace_back(option.short_switch);
+    declared.names.emplace_back(option.long_switch);
+    if (option.takes_value()) declared.value = irace_placeholder(option.kind);
+    declared.kind = declared.value;
+    if (option.kind == IraceKind::Choice) declared.choices = irace_words(option);
+    if (option.kind == IraceKind::Bool) declared.choices = {"0", "1"};
+    options.push_back(std::move(declared));
+  }
+  return options;
+}
 
 ExitCode run_irace(const std::vector<std::string>& given, Output& output) {
   std::vector<std::string> words = given;

@@ -67,10 +67,11 @@ Run declare_keygen(Options& options) {
   auto arguments = std::make_shared<KeygenArguments>();
   options.text("DIR", arguments->folder,
                "Folder of the keys (default: SWARMSMITH_KEYS, else ~/.config/swarmsmith/keys)");
-  options.text("--client", arguments->client, "Add a key for the client of this name, and list it");
+  options.text("--client NAME", arguments->client,
+               "Add a key for the client of this name, and list it");
   options.choice("--role", arguments->role, {kRoleNames.begin(), kRoleNames.end()},
                  "Role of that client (default: worker)");
-  options.text("--expires", arguments->expires, "Last day of that key, in UTC: 2027-01-31");
+  options.text("--expires DATE", arguments->expires, "Last day of that key, in UTC: 2027-01-31");
   return [arguments](Output& output) {
     const KeyFolder folder =
         arguments->folder.empty() ? default_key_folder() : KeyFolder{arguments->folder};

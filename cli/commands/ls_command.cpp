@@ -94,8 +94,8 @@ Run declare_ls(Options& options) {
     kinds.emplace_back(kind.name);
   options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);
   arguments->store.declare(options);
-  options.text("--where", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");
-  options.text("--sort", arguments->sort, "Columns to sort by, such as \"mean DESC\"");
+  options.text("--where SQL", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");
+  options.text("--sort SQL", arguments->sort, "Columns to sort by, such as \"mean DESC\"");
   options.integer("--limit", arguments->limit, {0, 1'000'000'000},
                   "Maximum number of rows; 0 for all (default 100, all with --json)");
   return [arguments](Output& output) { return run_ls(*arguments, output); };

@@ -74,7 +74,7 @@ Run declare_merge(Options& options) {
   options.words("STORE", arguments->stores,
                 "The stores, in the order of their designs in the new one",
                 Options::Need::Required);
-  options.text("-o,--output", arguments->out, "The new store's file");
+  options.text("-o,--output STORE", arguments->out, "The new store's file");
   return [arguments](Output& output) { return run_merge(*arguments, output); };
 }
 

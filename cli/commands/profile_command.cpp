@@ -66,8 +66,8 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
 
 Run declare_profile(Options& options) {
   auto arguments = std::make_shared<ProfileArguments>();
-  options.text("NAME", arguments->name, "A built-in profile (default: list them)");
-  options.text("-o,--output", arguments->file, "File to write; never overwritten");
+  options.text("PROFILE", arguments->name, "A built-in profile (default: list them)");
+  options.text("-o,--output FILE", arguments->file, "File to write; never overwritten");
   return [arguments](Output& output) { return run_profile(*arguments, output); };
 }
 

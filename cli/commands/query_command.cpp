@@ -84,7 +84,7 @@ ExitCode run_query(QueryArguments& arguments, Output& output) {
 
 Run declare_query(Options& options) {
   auto arguments = std::make_shared<QueryArguments>();
-  options.words("SQL_AND_STORE", arguments->words, "The statement, then the store's file");
+  options.words("SQL_AND_STORE STORE", arguments->words, "The statement, then the store's file");
   arguments->store.declare(options, false);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
   options.flag("--lists", arguments->lists,

@@ -175,9 +175,10 @@ ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
 
 Run declare_recover(Options& options) {
   auto arguments = std::make_shared<RecoverArguments>();
-  options.text("DAMAGED", arguments->damaged, "The damaged store's file", Options::Need::Required);
-  options.text("-o,--output", arguments->out, "The new store's file");
-  options.text("--campaign", arguments->campaign,
+  options.text("DAMAGED STORE", arguments->damaged, "The damaged store's file",
+               Options::Need::Required);
+  options.text("-o,--output STORE", arguments->out, "The new store's file");
+  options.text("--campaign FILE", arguments->campaign,
                "The campaign's file, if the store has lost its own copy");
   return [arguments](Output& output) { return run_recover(*arguments, output); };
 }

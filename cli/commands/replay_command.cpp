@@ -192,7 +192,7 @@ ExitCode run_replay(ReplayArguments arguments, Output& output) {
 Run declare_replay(Options& options) {
   constexpr std::int64_t kLargest = 2'147'483'647;
   auto arguments = std::make_shared<ReplayArguments>();
-  options.text("ID", arguments->id,
+  options.text("ID CANDIDATE|RUN", arguments->id,
                "An evaluation (e81200007), a candidate (c812) with --seed, or a real run (r7)");
   arguments->store.declare(options);
   options.integer("--seed", arguments->seed, {1, kLargest}, "Seed of a candidate's run");
@@ -200,7 +200,8 @@ Run declare_replay(Options& options) {
                   "Replay N stored evaluations, evenly spaced, instead of one");
   options.integer("--beside", arguments->beside, {1, 1000},
                   "Simulate a real run's machine N times beside it");
-  options.text("--seeds", arguments->seeds, "Seeds of the simulations beside a real run: 1-4,9");
+  options.text("--seeds SEEDS", arguments->seeds,
+               "Seeds of the simulations beside a real run: 1-4,9");
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run_replay(*arguments, output); };
 }

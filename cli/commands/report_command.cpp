@@ -79,10 +79,10 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
 Run declare_report(Options& options) {
   auto arguments = std::make_shared<ReportArguments>();
   arguments->store.declare(options);
-  options.text("-o,--output", arguments->file,
+  options.text("-o,--output FILE", arguments->file,
                "Write to this file (default report.html; - for "
                "standard output)");
-  options.texts("--design", arguments->designs,
+  options.texts("--design DESIGN", arguments->designs,
                 "Design that gets a chapter, such as d3, or all (default: all of up to three)");
   return [arguments](Output& output) { return run_report(*arguments, output); };
 }

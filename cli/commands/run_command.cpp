@@ -19,7 +19,7 @@ Run declare_run(Options& options) {
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Optional);
-  options.text("--workers", arguments->workers,
+  options.text("--workers WHO", arguments->workers,
                "Who evaluates: auto (this host, all cores), N or local:N (N processes here, one "
                "core each), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
   options.integer(

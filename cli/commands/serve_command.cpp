@@ -16,7 +16,7 @@ Run declare_serve(Options& options) {
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Required);
-  options.text("--bind", arguments->bind,
+  options.text("--bind HOST:PORT", arguments->bind,
                "Address and port for workers (default 127.0.0.1:5555, or the next free port)");
   arguments->http.declare(options);
   arguments->access.declare(options);

@@ -193,7 +193,8 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
 
 Run declare_show(Options& options) {
   auto arguments = std::make_shared<ShowArguments>();
-  options.text("ID", arguments->id, "d3, c812, e81200007 or r7", Options::Need::Required);
+  options.text("ID DESIGN|CANDIDATE|RUN", arguments->id, "d3, c812, e81200007 or r7",
+               Options::Need::Required);
   arguments->store.declare(options);
   return [arguments](Output& output) { return run_show(*arguments, output); };
 }

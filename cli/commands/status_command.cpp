@@ -283,10 +283,10 @@ ExitCode run_status(const StatusArguments& arguments, Output& output) {
 Run declare_status(Options& options) {
   auto arguments = std::make_shared<StatusArguments>();
   arguments->store.declare(options);
-  options.text("--connect", arguments->connect,
+  options.text("--connect HOST:PORT|FILE", arguments->connect,
                "Ask the coordinator at HOST:PORT, or the one with this file (default: "
                "SWARMSMITH_COORDINATOR, else STORE.coordinator)");
-  options.text("--key", arguments->key,
+  options.text("--key FILE", arguments->key,
                "Key file, if the coordinator needs one (default: SWARMSMITH_KEY, else reader.key "
                "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", arguments->insecure_plaintext,

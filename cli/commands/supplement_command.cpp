@@ -164,7 +164,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
 Run declare_supplement(Options& options) {
   auto arguments = std::make_shared<SupplementArguments>();
   arguments->store.declare(options);
-  options.text("-o,--output", arguments->folder, "The new folder", Options::Need::Required);
+  options.text("-o,--output DIR", arguments->folder, "The new folder", Options::Need::Required);
   return [arguments](Output& output) { return run_supplement(*arguments, output); };
 }
 

@@ -43,11 +43,11 @@ Run declare_worker(Options& options) {
     bool allow_shell = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  options.text("--connect", arguments->connect, "Address and port of the coordinator");
-  options.text("--coordinator", arguments->coordinator,
+  options.text("--connect HOST:PORT", arguments->connect, "Address and port of the coordinator");
+  options.text("--coordinator FILE", arguments->coordinator,
                "File that the coordinator writes (STORE.coordinator), in place of --connect; it "
                "also finds a coordinator that has moved");
-  options.text("--key", arguments->key,
+  options.text("--key FILE", arguments->key,
                "Key file, if the coordinator needs one (default: SWARMSMITH_KEY, else worker.key "
                "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", arguments->insecure_plaintext,
@@ -55,7 +55,7 @@ Run declare_worker(Options& options) {
   options.integer("--slots", arguments->slots, {1, 1024},
                   "Parallel evaluations (default: SLURM_CPUS_PER_TASK, else the CPUs that this "
                   "process may use)");
-  options.texts("--allow", arguments->allow,
+  options.texts("--allow PROGRAM", arguments->allow,
                 "Program that campaigns may run here in place of the simulator; repeatable");
   options.flag("--allow-shell", arguments->allow_shell,
                "Run command lines that need a shell with /bin/sh: campaigns may then run anything");

@@ -43,17 +43,19 @@ std::string seconds_text(int instant) {
 }  // namespace
 
 void RecordingArguments::declare(Options& options) {
-  options.text("--csv", csv,
+  options.text("--csv FILE", csv,
                "Write poses, commands and states to this file (- for standard output)");
   options.text(
-      "--readings", readings,
+      "--readings SENSORS", readings,
       "Sensors for the table: all (except lidar), or a list such as ground_color,proximity");
-  options.text("--objects-csv", objects_csv, "Write the poses of movable objects to this file");
-  options.text("--svg", svg, "Draw the run into this file (- for standard output)");
-  options.text("--at", at, "Draw one instant, in seconds (default: the whole run)");
-  options.text("--from", from, "Draw from this time on, in seconds (default: the start)");
-  options.text("--to", to, "Draw up to this time, in seconds (default: the end)");
-  options.text("--width", width, "Width of the picture, such as 84mm or 3.3in (default 84mm)");
+  options.text("--objects-csv FILE", objects_csv,
+               "Write the poses of movable objects to this file");
+  options.text("--svg FILE", svg, "Draw the run into this file (- for standard output)");
+  options.text("--at SECONDS", at, "Draw one instant, in seconds (default: the whole run)");
+  options.text("--from SECONDS", from, "Draw from this time on, in seconds (default: the start)");
+  options.text("--to SECONDS", to, "Draw up to this time, in seconds (default: the end)");
+  options.text("--width WIDTH", width,
+               "Width of the picture, such as 84mm or 3.3in (default 84mm)");
 }
 
 ExitCode exit_code_of_recording(const Error& error) {

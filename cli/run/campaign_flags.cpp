@@ -40,7 +40,7 @@ void CampaignFlags::declare(Options& options, Options::Need files_needed) {
                 files_needed);
   options.integer("--budget", budget, {1, kLargestBudget}, "Experiments of each design");
   options.integer("--seed", seed, {0, INT64_MAX}, "Seed of all random numbers");
-  options.text("--store", store, "The store, which keeps the results");
+  options.text("--store STORE", store, "The store, which keeps the results");
 }
 
 Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
@@ -109,11 +109,12 @@ std::optional<std::vector<Campaign>> CampaignFlags::read(Output& output) const {
 
 void HttpFlags::declare(Options& options) {
   options.text(
-      "--http", http,
+      "--http HOST:PORT", http,
       "Address and port of the dashboard, /metrics, /healthz, /readyz and /status (default "
       "127.0.0.1:8347, or the next port that is free; `none`: no pages)");
-  options.text("--http-token-file", token_file, "File of the secret that their readers must show");
-  options.texts("--http-name", names,
+  options.text("--http-token-file FILE", token_file,
+               "File of the secret that their readers must show");
+  options.texts("--http-name HOST", names,
                 "Name of this host in addresses of the pages, such as a proxy's");
   options.flag("--no-dashboard", no_dashboard, "No dashboard; other pages only with --http");
 }

@@ -71,11 +71,15 @@ const IraceOption* find_irace_switch(std::string_view word);
 std::vector<std::string> irace_option_names();
 /// The long switches, for suggestions.
 std::vector<std::string> irace_switches();
-/// The words of a Choice.
 /// irace_core speaks of options as of its fields: `max_time` becomes `maxTime`.
 std::string with_irace_option_names(std::string_view text);
 Error with_irace_option_names(const Error& error);
+/// The words of a Choice.
 std::vector<std::string> irace_words(const IraceOption& option);
+/// What stands for a value in the help: "FILE"; empty where there is none.
+std::string_view irace_placeholder(IraceKind kind);
+/// Help, choices, default and what is different here, as one paragraph.
+std::string irace_explanation(const IraceOption& option);
 /// What `--help` prints below the usage line, wrapped at 80 columns.
 std::string irace_option_help();
 /// The table of options for the documentation, as Markdown.

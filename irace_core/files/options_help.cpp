@@ -32,33 +32,6 @@ std::string_view heading(IraceGroup group) {
   return {};
 }
 
-std::string_view placeholder(IraceKind kind) {
-  switch (kind) {
-    case IraceKind::Action:
-    case IraceKind::Flag:
-      return "";
-    case IraceKind::Bool:
-      return " 0|1";
-    case IraceKind::Natural:
-      return " N";
-    case IraceKind::Real:
-      return " X";
-    case IraceKind::Choice:
-      return " WORD";
-    case IraceKind::Text:
-    case IraceKind::Texts:
-    case IraceKind::Anything:
-      return " TEXT";
-    case IraceKind::File:
-      return " FILE";
-    case IraceKind::Folder:
-      return " FOLDER";
-    case IraceKind::Program:
-      return " PROGRAM";
-  }
-  return {};
-}
-
 /// Indented and broken at the width.
 std::string wrapped(const std::string& text) {
   std::string result(kIndent, ' ');
@@ -84,30 +57,6 @@ std::string wrapped(const std::string& text) {
 std::string default_of(const IraceOption& option) {
   if (!option.takes_value() || option.initial.empty() || option.initial == "NA") return {};
   return std::string(option.initial);
-}
-
-/// Help, choices, default and what is different here, as one paragraph.
-std::string explanation(const IraceOption& option) {
-  std::string text(option.help);
-  if (option.kind == IraceKind::Choice) {
-    std::string words;
-    for (const std::string& word : irace_words(option))
-      words += (words.empty() ? "" : ", ") + word;
-    text += ": " + words;
-  }
-  if (const std::string initial = default_of(option); !initial.empty()) {
-    text += " [" + initial + "]";
-  }
-  if (option.meaning == IraceMeaning::Refused) {
-    text += "; refused: " + std::string(option.remark);
-  } else if (option.meaning == IraceMeaning::Ignored) {
-    text += "; without meaning: " + std::string(option.remark);
-  } else if (option.meaning == IraceMeaning::Removed) {
-    text += "; better " + std::string(option.remark);
-  } else if (!option.remark.empty() && !option.name.empty()) {
-    text += "; " + std::string(option.remark);
-  }
-  return text;
 }
 
 std::string switches(const IraceOption& option) {
@@ -148,6 +97,56 @@ std::string_view meaning_word(IraceMeaning meaning) {
 
 }  // namespace
 
+std::string_view irace_placeholder(IraceKind kind) {
+  switch (kind) {
+    case IraceKind::Action:
+    case IraceKind::Flag:
+      return "";
+    case IraceKind::Bool:
+      return "0|1";
+    case IraceKind::Natural:
+      return "N";
+    case IraceKind::Real:
+      return "X";
+    case IraceKind::Choice:
+      return "WORD";
+    case IraceKind::Text:
+    case IraceKind::Texts:
+    case IraceKind::Anything:
+      return "TEXT";
+    case IraceKind::File:
+      return "FILE";
+    case IraceKind::Folder:
+      return "FOLDER";
+    case IraceKind::Program:
+      return "PROGRAM";
+  }
+  return {};
+}
+
+std::string irace_explanation(const IraceOption& option) {
+  std::string text(option.help);
+  if (option.kind == IraceKind::Choice) {
+    std::string words;
+    for (const std::string& word : irace_words(option))
+      words += (words.empty() ? "" : ", ") + word;
+    text += ": " + words;
+  }
+  if (const std::string initial = default_of(option); !initial.empty()) {
+    text += " [" + initial + "]";
+  }
+  if (option.meaning == IraceMeaning::Refused) {
+    text += "; refused: " + std::string(option.remark);
+  } else if (option.meaning == IraceMeaning::Ignored) {
+    text += "; without meaning: " + std::string(option.remark);
+  } else if (option.meaning == IraceMeaning::Removed) {
+    text += "; better " + std::string(option.remark);
+  } else if (!option.remark.empty() && !option.name.empty()) {
+    text += "; " + std::string(option.remark);
+  }
+  return text;
+}
+
 std::string irace_option_help() {
   std::string text;
   const IraceOption* last = nullptr;
@@ -157,9 +156,10 @@ std::string irace_option_help() {
       text += (last == nullptr ? "" : "\n") + std::string(heading(option.group)) + ":\n";
     }
     last = &option;
-    text += "  " + switches(option) + std::string(placeholder(option.kind));
+    text += "  " + switches(option);
+    if (option.takes_value()) text += " " + std::string(irace_placeholder(option.kind));
     if (!option.name.empty()) text += "   (" + std::string(option.name) + ")";
-    text += "\n" + wrapped(explanation(option));
+    text += "\n" + wrapped(irace_explanation(option));
   }
   return text;
 }

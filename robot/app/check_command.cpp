@@ -69,8 +69,8 @@ ExitCode check(const Words& words, Output& output) {
 
 Run declare_robot_check(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("--robots", words->robots, "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names",
-               Options::Need::Required);
+  options.text("--robots ROBOTS", words->robots,
+               "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
   options.text("--seconds", words->seconds, "How long to wait for answers (default 5)");
   words->transport.declare_client(options);
   return [words](Output& output) { return check(*words, output); };

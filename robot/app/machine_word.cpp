@@ -18,7 +18,7 @@ Expected<FiledMachine> filed_machine(const std::string& word) {
   if (machines->size() > 1) {
     return bad_input("the file has " + std::to_string(machines->size()) +
                          " machines, and a robot runs one: write it into a file of its own "
-                         "(swarmsmith show c812 > best.fsm)",
+                         "(swarmsmith export demo.db --design d1 -o best.fsm)",
                      word);
   }
   return std::move(machines->front());

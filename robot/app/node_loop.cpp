@@ -121,6 +121,7 @@ void NodeLoop::hear_order(const OrderMessage& message) {
   const bool was_on = node_.is_on();
   node_.hear(*order, now_on_both_clocks());
   if (!was_on && node_.is_on()) open_log();
+  if (was_on && !node_.is_on()) end_.send(WheelsMessage{});  // not only at the next tick
   if (order->kind != Order::Kind::Alive) tell_state(true);
 }
 
@@ -131,6 +132,7 @@ void NodeLoop::answer(const SensesMessage& senses) {
     if (senses.cycle == 1 && node_.is_on()) node_.end_run();
     tend_log();
     if (senses.cycle == 0) {
+      end_.send(AnswerMessage{.seed = senses.seed});  // the world waits for it
       finish(node_.phase() == Phase::Failed ? Ending::Wrong : Ending::NoMoreRuns);
       return;
     }
@@ -201,6 +203,7 @@ void NodeLoop::open_log() {
   auto opened = LogWriter::open(log_files_of(*options_.logs, state.run, state.robot), node_.head());
   if (opened) {
     log_ = std::move(*opened);
+    node_.set_log_open(true);
     return;
   }
   const std::string why = "no log can be written: " + to_string(opened.error());
@@ -229,6 +232,7 @@ void NodeLoop::tend_log() {
     options_.note("the log is not whole: " + last);
   }
   log_.reset();
+  node_.set_log_open(false);
   node_.set_log_trouble({});
 }
 
@@ -237,7 +241,7 @@ void NodeLoop::tell_state(bool at_once) {
   const NodeState state = node_.state(now);
   std::string part = std::string(name_of(state.phase)) + "\n" + state.run + "\n" + state.order +
                      "\n" + state.refused + "\n" + state.log_trouble + "\n" +
-                     std::to_string(static_cast<int>(state.verdict));
+                     std::to_string(static_cast<int>(state.verdict)) + (state.log_open ? "o" : "");
   if (!at_once && part == told_ && now.clock - told_at_ < kTellEvery) return;
   told_ = std::move(part);
   told_at_ = now.clock;

@@ -100,7 +100,7 @@ Expected<void> read_max_ages(const std::vector<std::string>& words, NodeSettings
     const auto feed = feed_by(word.substr(0, equals), kOption);
     if (!feed) return Unexpected(feed.error());
     const auto seconds = number_option(equals == std::string::npos ? "?" : word.substr(equals + 1),
-                                       kOption, 0.01, 10);
+                                       kOption, 0.01, 1);
     if (!seconds) return Unexpected(seconds.error());
     settings.hold[index_of(*feed)] = duration_of(seconds->value_or(0.3));
   }
@@ -287,9 +287,11 @@ ExitCode run(const Words& words, Output& output) {
 Run declare_robot_run(Options& options) {
   auto words = std::make_shared<Words>();
   constexpr auto kNeeded = Options::Need::Required;
-  options.text("--robot", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);
-  options.text("--machine", words->machine, "Machine, tree or network: a text or a file", kNeeded);
-  options.text("--flavour", words->flavour, "What its modules do (default: as its file says)");
+  options.text("--robot ROBOT", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);
+  options.text("--machine MACHINE|FILE", words->machine,
+               "Machine, tree or network: a text or a file", kNeeded);
+  options.text("--flavour FLAVOUR", words->flavour,
+               "What its modules do (default: as its file says)");
   options.choice("--turn-clock", words->turn_clock, {"cycles", "seconds"},
                  "What a turn is measured in");
   options.integer("--seed", words->seed, {1, 2147483647},
@@ -298,7 +300,7 @@ Run declare_robot_run(Options& options) {
                   "Of the robot's random stream, from 0 (default: the name's number minus 1)");
   options.choice("--lock-step", words->lock_step, {"senses", "topics"},
                  "Be stepped by a simulated world (swarmsmith robot world)");
-  options.text("--run", words->run, "Name of runs in lock-step, for logs (default run)");
+  options.text("--run NAME", words->run, "Name of runs in lock-step, for logs (default run)");
   words->transport.declare_node(options);
   options.choice("--ranges", words->ranges, {"array", "apart"},
                  "Proximity as one topic `ranges` or as eight (default array)");
@@ -313,17 +315,18 @@ Run declare_robot_run(Options& options) {
                "Degrees of the lidar's zero from the robot's head, counter-clockwise");
   options.text("--proximity-range", words->proximity_range,
                "Metres beyond which proximity sensors see nothing (default 0.4)");
-  options.text("--period", words->period, "Seconds of a control cycle (default 0.1)");
-  options.text("--max-speed", words->max_speed, "Of a tread, m/s (default 0.35)");
+  options.text("--period SECONDS", words->period, "Seconds of a control cycle (default 0.1)");
+  options.text("--max-speed SPEED", words->max_speed, "Of a tread, m/s (default 0.35)");
   options.texts("--max-age", words->max_ages,
                 "SENSOR=SECONDS of silence until the treads stop, repeatable (default "
                 "proximity=0.3, all others 0.5)");
-  options.texts("--need", words->needs, "A sensor that must be there besides the machine's");
+  options.texts("--need SENSOR", words->needs, "A sensor that must be there besides the machine's");
   options.text("--operator-gone", words->operator_gone,
                "Seconds of silence of `start` that end a run; 0: never (default 1)");
-  options.text("--least-battery", words->least_battery, "Percent, less starts no run (default 20)");
-  options.text("--logs", words->logs, "Folder of logs (default: here; in lock-step: none)");
-  options.text("--patience", words->patience,
+  options.text("--least-battery PERCENT", words->least_battery,
+               "Percent, less starts no run (default 20)");
+  options.text("--logs DIR", words->logs, "Folder of logs (default: here; in lock-step: none)");
+  options.text("--patience SECONDS", words->patience,
                "Seconds that a world in lock-step may be silent (default 10)");
   options.flag("--pipe", words->pipe, "End when standard input ends");
   options.flag("--normal-priority", words->normal_priority, "Do not ask for SCHED_FIFO");

@@ -56,14 +56,15 @@ std::optional<CameraClock> clock_of(const std::string& video,
 }  // namespace
 
 void RunFileWords::declare(Options& options) {
-  options.text("--write", write, "Run log for `swarmsmith track score` (default RUN.toml)");
+  options.text("--write FILE", write, "Run log for `swarmsmith track score` (default RUN.toml)");
   options.flag("--no-run-log", none, "Write none");
-  options.text("--mission", mission, "For that log: the mission, a name or a file");
-  options.text("--design", design, "For that log: what ran, d3: a design's winner");
-  options.text("--candidate", candidate, "For that log: what ran, c812");
-  options.text("--video", video, "For that log: the video that is recorded on this computer");
-  options.text("--camera", camera, "For that log: the video's camera, as in the arena file");
-  options.text("--robot-logs", logs, "For that log: the folder in which the robots' logs will be");
+  options.text("--mission MISSION|FILE", mission, "For that log: the mission, a name or a file");
+  options.text("--design DESIGN", design, "For that log: what ran, d3: a design's winner");
+  options.text("--candidate CANDIDATE", candidate, "For that log: what ran, c812");
+  options.text("--video FILE", video, "For that log: the video that is recorded on this computer");
+  options.text("--camera CAMERA", camera, "For that log: the video's camera, as in the arena file");
+  options.text("--robot-logs DIR", logs,
+               "For that log: the folder in which the robots' logs will be");
   options.integer("--sync-tag", sync_tag, {0, 100000}, "For that log: a tag covered at the start");
   options.flag("--patches", patches, "For that log: colour patches are to be found in the picture");
 }

@@ -152,15 +152,15 @@ ExitCode start(const Words& words, Output& output) {
 
 Run declare_robot_start(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("--run", words->run, "Name of the run; no robot takes one twice",
+  options.text("--run NAME", words->run, "Name of the run; no robot takes one twice",
                Options::Need::Required);
-  options.text("--robots", words->robots, "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names",
-               Options::Need::Required);
+  options.text("--robots ROBOTS", words->robots,
+               "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
   options.text("--seconds", words->seconds, "How long the run lasts (default 120)");
   options.integer("--seed", words->seed, {1, 2147483647},
                   "Of the random numbers of this run (default: the nodes' own)");
   options.text("--in", words->lead, "Seconds from the order to the start (default 2)");
-  options.text("--patience", words->patience,
+  options.text("--patience SECONDS", words->patience,
                "Seconds until all robots have answered and are ready (default 5)");
   words->file.declare(options);
   words->transport.declare_client(options);

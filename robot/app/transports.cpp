@@ -103,10 +103,10 @@ void TransportWords::declare(Options& options) {
 
 void TransportWords::declare_node(Options& options) {
   declare(options);
-  options.text("--bind", bind,
+  options.text("--bind HOST:PORT", bind,
                "Of zeromq: where drivers, worlds and operators connect (default "
                "tcp://127.0.0.1:5570)");
-  options.text("--keys", keys,
+  options.text("--keys DIR", keys,
                "Of zeromq: folder with server.key and clients.toml, as `swarmsmith keygen` makes "
                "it; needed where other hosts connect");
 }
@@ -114,7 +114,7 @@ void TransportWords::declare_node(Options& options) {
 void TransportWords::declare_client(Options& options) {
   declare(options);
   options.texts("--at", at, "Of zeromq: NAME=tcp://HOST:PORT of a robot's node, repeatable");
-  options.text("--key", key,
+  options.text("--key FILE", key,
                "Of zeromq: file with a key: a worker's for worlds, an operator's for orders");
 }
 

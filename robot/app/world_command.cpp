@@ -41,7 +41,7 @@ struct Words {
   std::string flavour;
   std::string turn_clock;
   std::string ranges = "array";
-  std::string neighbours = "auto";
+  std::string neighbours = "neighbours";
   bool light = false;
   std::string wheels = "doubles";
   std::string wait;
@@ -97,12 +97,10 @@ Expected<void> check_words(const Words& words) {
   return {};
 }
 
-SensorTopics sensors_of(const Words& words, const Profile& profile) {
-  SensorTopics sensors = topics_of(profile);
-  if (words.neighbours != "auto") {
-    sensors.scan = words.neighbours == "scan";
-    sensors.neighbours = !sensors.scan;
-  }
+SensorTopics sensors_of(const Words& words) {
+  SensorTopics sensors = world_topics();
+  sensors.scan = words.neighbours == "scan";
+  sensors.neighbours = !sensors.scan;
   sensors.ranges_apart = words.ranges == "apart";
   sensors.light = words.light;
   sensors.body = words.real_time;
@@ -167,7 +165,7 @@ Expected<Plan> plan_of(const Words& words, Output& output) {
     plan.machine = std::move(*machine);
   }
   plan.end = {.keep = words.lock_step ? Keep::All : Keep::Newest,
-              .sensors = sensors_of(words, plan.profile),
+              .sensors = sensors_of(words),
               .wheels = words.wheels == "floats"  ? WheelsForm::Floats
                         : words.wheels == "twist" ? WheelsForm::Twist
                                                   : WheelsForm::Doubles};
@@ -403,12 +401,12 @@ ExitCode run(const Words& words, Output& output) {
 
 Run declare_robot_world(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("--mission", words->mission,
+  options.text("--mission MISSION|FILE", words->mission,
                "aggregation, grid_exploration, color_selection or a file", Options::Need::Required);
-  options.text("--profile", words->profile,
+  options.text("--profile PROFILE|FILE", words->profile,
                "Simulator profile: rvr, argos3, pseudo-reality or a file (default rvr)");
-  options.text("--seeds", words->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1)");
-  options.text("--robots", words->robots,
+  options.text("--seeds SEEDS", words->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1)");
+  options.text("--robots ROBOTS", words->robots,
                "Names of the robots, in the order of the mission: 1-3 or rvr1,rvr4 (default rvr1 "
                "and so on, as many as the mission has)");
   options.flag("--lock-step", words->lock_step,
@@ -421,24 +419,26 @@ Run declare_robot_world(Options& options) {
   options.flag("--at-once", words->at_once, "With --real-time: begin when all nodes are there");
   options.flag("--compare", words->compare,
                "Run everything in this process, too, and say whether all bits agree");
-  options.text("--machine", words->machine, "For --compare: the machine of the nodes");
-  options.text("--flavour", words->flavour, "For --compare: its flavour (default: its file's)");
+  options.text("--machine MACHINE|FILE", words->machine, "For --compare: the machine of the nodes");
+  options.text("--flavour FLAVOUR", words->flavour,
+               "For --compare: its flavour (default: its file's)");
   options.choice("--turn-clock", words->turn_clock, {"cycles", "seconds"},
                  "For --compare: what a turn is measured in");
   options.choice("--ranges", words->ranges, {"array", "apart"},
                  "Proximity as one topic `ranges` or as eight (default array)");
-  options.choice("--neighbours", words->neighbours, {"auto", "scan", "neighbours"},
-                 "Neighbours as a lidar's `scan` or ready (default: as the profile sees them)");
+  options.choice(
+      "--neighbours", words->neighbours, {"neighbours", "scan"},
+      "Neighbours ready, or a lidar's `scan`, which has walls in it, too (default neighbours)");
   options.flag("--light", words->light, "Send `light`, for machines of flavour chocolate");
   options.choice("--wheels", words->wheels, {"doubles", "floats", "twist"},
                  "How speeds travel (default doubles)");
-  options.text("--wait", words->wait, "Seconds to wait for the nodes (default 60)");
-  options.text("--patience", words->patience,
+  options.text("--wait SECONDS", words->wait, "Seconds to wait for the nodes (default 60)");
+  options.text("--patience SECONDS", words->patience,
                "Seconds to wait for an answer in lock-step (default 5)");
   options.texts("--fault", words->faults,
                 "Spoil a sensor for a while: ROBOT:SENSOR:WHAT:FROM-TO, such as "
                 "rvr1:ranges:silent:10-10.3; repeatable");
-  options.text("--csv", words->csv, "Write the true poses and commands to this file");
+  options.text("--csv FILE", words->csv, "Write the true poses and commands to this file");
   words->transport.declare_client(options);
   return [words](Output& output) { return run(*words, output); };
 }

@@ -43,6 +43,11 @@ std::uint32_t queue_of(Keep keep) {
   return keep == Keep::All ? kUnlimited : 1;
 }
 
+/// Of commands: with one of each sender, so that a second one is noticed.
+std::uint32_t command_queue_of(Keep keep) {
+  return keep == Keep::All ? kUnlimited : 10;
+}
+
 Arrival arrival_of(std::int64_t stamp_ns = 0) {
   return {SystemClock().now(), stamp_ns};
 }
@@ -495,7 +500,7 @@ class RosWorldEnd final : public WorldEnd {
   template <class Ours, class Theirs>
   void listen(ros::NodeHandle& handle, std::size_t robot, const std::string& topic) {
     node_.subscribe<Theirs>(
-        handle, topic, queue_of(options_.keep),
+        handle, topic, command_queue_of(options_.keep),
         [this, robot, topic](const Theirs& message, const std::string& sender) {
           Ours ours;
           ours.arrival = arrival_of();
@@ -561,7 +566,7 @@ class RosWorldEnd final : public WorldEnd {
     if (options_.wheels == WheelsForm::Floats)
       return listen<WheelsMessage, std_msgs::Float32MultiArray>(handle, robot, topic);
     node_.subscribe<geometry_msgs::Twist>(
-        handle, topic, queue_of(options_.keep),
+        handle, topic, command_queue_of(options_.keep),
         [this, robot](const geometry_msgs::Twist& twist, const std::string& sender) {
           const double half = twist.angular.z * kTreadDistance_m / 2;
           inbox_->put(robot, WheelsMessage{arrival_of(), twist.linear.x - half,

@@ -453,6 +453,7 @@ NodeState RobotNode::state(const Now& now) const {
                   .reasons = reasons_,
                   .not_ready = not_ready(now.clock),
                   .log_trouble = log_trouble_,
+                  .log_open = log_open_,
                   .order = order_,
                   .refused = refused_,
                   .start_unix_s = is_on() ? start_unix_s_ : 0,

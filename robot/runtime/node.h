@@ -96,6 +96,8 @@ class RobotNode {
   void fail(const std::string& why);
   /// A run that was armed does not begin: why its log cannot be written, say.
   void disarm(const std::string& why);
+  /// Whether a run's log is being written.
+  void set_log_open(bool open) { log_open_ = open; }
   /// The log cannot be written at present, or (empty) it can again.
   void set_log_trouble(std::string why);
   /// The run is over and its log is not whole.
@@ -145,6 +147,7 @@ class RobotNode {
   std::string order_;
   std::string refused_;
   std::string log_trouble_;
+  bool log_open_ = false;
 
   // Of the present or the last run.
   std::string run_;

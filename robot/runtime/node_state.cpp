@@ -24,6 +24,9 @@ struct Reader {
   void read(const char* key, std::string& value) const {
     if (const auto* found = find(key); found && found->is_string()) value = *found;
   }
+  void read(const char* key, bool& value) const {
+    if (const auto* found = find(key); found && found->is_boolean()) value = *found;
+  }
   void read(const char* key, std::int64_t& value) const {
     if (const auto* found = find(key); found && found->is_number_integer()) value = *found;
   }
@@ -80,6 +83,7 @@ std::string state_text(const NodeState& state) {
       .add("reasons", state.reasons)
       .add("not_ready", state.not_ready)
       .add("log_trouble", state.log_trouble)
+      .add("log_open", state.log_open)
       .add("order", state.order)
       .add("refused", state.refused)
       .add("start_unix_s", state.start_unix_s)
@@ -121,6 +125,7 @@ Expected<NodeState> parse_state(std::string_view text) {
   reader.read("reasons", state.reasons);
   reader.read("not_ready", state.not_ready);
   reader.read("log_trouble", state.log_trouble);
+  reader.read("log_open", state.log_open);
   reader.read("order", state.order);
   reader.read("refused", state.refused);
   reader.read("start_unix_s", state.start_unix_s);

@@ -49,6 +49,7 @@ struct NodeState {
   std::vector<std::string> reasons;    ///< of the verdict
   std::vector<std::string> not_ready;  ///< why no run can start
   std::string log_trouble;             ///< why the log cannot be written
+  bool log_open = false;               ///< the run's log is not whole yet
   std::string order;                   ///< id of the last order
   std::string refused;                 ///< why that one was refused; empty: obeyed
   double start_unix_s = 0;             ///< the run's agreed instant, by the wall clock

@@ -150,6 +150,10 @@ bool RunStarter::is_in_run(const RolledRobot& robot) const {
 }
 
 bool RunStarter::is_over_for(const RolledRobot& robot) const {
+  return has_left(robot) && !robot.state->log_open;
+}
+
+bool RunStarter::has_left(const RolledRobot& robot) const {
   return robot.state && robot.state->run == settings_.run && !is_on(robot.state->phase) &&
          robot.state->phase != Phase::Idle && robot.state->phase != Phase::Ready;
 }
@@ -210,8 +214,9 @@ std::vector<Order> RunStarter::tick(const Now& now) {
       return orders;
   }
   if (stage_ != Stage::Stopping) return orders;
-  const bool none = std::ranges::none_of(
-      roll_.robots(), [this](const RolledRobot& robot) { return is_in_run(robot); });
+  const bool none = std::ranges::none_of(roll_.robots(), [this](const RolledRobot& robot) {
+    return is_in_run(robot) || (has_left(robot) && !is_over_for(robot));
+  });
   if (now.clock - alive_ >= kStopEvery) {
     alive_ = now.clock;
     orders.push_back(order(Order::Kind::Stop, now));
@@ -231,7 +236,7 @@ void RunStarter::watch(const Now& now) {
       return give_up(robot.name + ": refuses the start: " + robot.state->refused, now);
     if (now.clock - robot.heard > kMostSilence && !is_over_for(robot))
       return give_up(robot.name + ": is silent for 1 s", now);
-    if (is_over_for(robot) && robot.state->phase != Phase::Ended) {
+    if (has_left(robot) && robot.state->phase != Phase::Ended) {
       const auto& reasons = robot.state->reasons;
       return give_up(fmt::format("{}: {}: {}", robot.name, name_of(robot.state->phase),
                                  reasons.empty() ? "no reason given" : reasons.front()),

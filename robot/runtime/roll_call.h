@@ -85,7 +85,7 @@ class RunStarter {
   const Now& start() const { return start_; }
   /// Of the whole run: the worst of the robots', INVALID when one was lost.
   RunVerdict verdict() const;
-  /// Whether the robot's node was in this run and has left it.
+  /// Whether the robot's node was in this run and has left it, and its log is closed.
   bool is_over_for(const RolledRobot& robot) const;
 
  private:
@@ -94,6 +94,7 @@ class RunStarter {
   void watch(const Now& now);
   /// Whether the robot's node is in this run and has not left it.
   bool is_in_run(const RolledRobot& robot) const;
+  bool has_left(const RolledRobot& robot) const;
 
   Settings settings_;
   RollCall roll_;

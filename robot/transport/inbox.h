@@ -5,6 +5,7 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -90,8 +91,13 @@ class WorldInbox {
   void put(std::size_t robot, Message message) {
     if (keep_ == Keep::All || !kNewestCounts<Message>)
       return inbox_.put({robot, std::move(message)});
-    inbox_.put_newest({robot, std::move(message)}, [robot](const WorldEnd::Received& old) {
-      return old.robot == robot && std::holds_alternative<Message>(old.message);
+    std::string sender;  // of commands: a driver must notice a second one
+    if constexpr (std::is_same_v<Message, WheelsMessage>) sender = message.sender;
+    inbox_.put_newest({robot, std::move(message)}, [&](const WorldEnd::Received& old) {
+      if (old.robot != robot || !std::holds_alternative<Message>(old.message)) return false;
+      if constexpr (std::is_same_v<Message, WheelsMessage>)
+        return std::get<WheelsMessage>(old.message).sender == sender;
+      return true;
     });
   }
   std::optional<WorldEnd::Received> take(TimePoint until) { return inbox_.take(until); }

@@ -220,8 +220,4 @@ bool read_numbers(const std::vector<double>& numbers, BatteryMessage& battery) {
   return true;
 }
 
-double as_float32(double value) {
-  return static_cast<double>(static_cast<float>(value));
-}
-
 }  // namespace swarmsmith

@@ -56,7 +56,4 @@ bool read_numbers(const std::vector<double>& numbers, OdometryMessage& odometry)
 std::vector<double> numbers_of(const BatteryMessage& battery);
 bool read_numbers(const std::vector<double>& numbers, BatteryMessage& battery);
 
-/// The nearest float32s, as a driver's topic has them; infinities and NaN stay.
-double as_float32(double value);
-
 }  // namespace swarmsmith

@@ -94,14 +94,16 @@ class Laboratory final : public Decider {
   std::optional<Answer> answer(int index) override {
     Robot& robot = robots_[static_cast<std::size_t>(index)];
     const auto treads = robot.driver.act(now_);
+    // A second node is told before the start, too: nodes that wait for it say that they stand.
+    const bool rivals_changed = robot.driver.has_rivals() != robot.had_rivals;
     for (const std::string& event : robot.driver.take_events()) {
-      if (!waits_) {
+      if (!waits_ || rivals_changed) {
         options_->tell(time_text(time_s_) + end_->name(static_cast<std::size_t>(index)) + ": " +
                        event);
       }
     }
     stops_by_silence_ += !waits_ && robot.driver.silent() && !robot.was_silent ? 1 : 0;
-    stops_by_rivals_ += !waits_ && robot.driver.has_rivals() && !robot.had_rivals ? 1 : 0;
+    stops_by_rivals_ += robot.driver.has_rivals() && !robot.had_rivals ? 1 : 0;
     robot.was_silent = robot.driver.silent();
     robot.had_rivals = robot.driver.has_rivals();
     // While they wait for the start, robots that are told to drive do: real ones would. Here they

@@ -116,12 +116,9 @@ std::int64_t stamp_of_time(double time_s) {
   return (std::llround(time_s * kStepsPerSecond) + 1) * kStep_ns;
 }
 
-SensorTopics topics_of(const Profile& profile) {
-  const NeighbourSensing& sensing = profile.neighbours;
-  const bool misses = sensing.miss_rate > 0 || sensing.weak_share > 0;
+SensorTopics world_topics() {
   SensorTopics topics;
-  topics.scan = sensing.source == NeighbourSensing::Source::Lidar && !misses;
-  topics.neighbours = !topics.scan;
+  topics.neighbours = true;
   return topics;
 }
 

@@ -3,7 +3,6 @@
 #include "robot/transport/ends.h"
 #include "robot/transport/messages.h"
 #include "sim/engine/decider.h"
-#include "sim/engine/profile.h"
 
 namespace swarmsmith {
 
@@ -24,8 +23,9 @@ OdometryMessage odometry_message(SimulatedSenses& senses);
 /// stamp.
 std::int64_t stamp_of_time(double time_s);
 
-/// Which sensors a world sends with this profile. A lidar's scan is sent as such, unless the
-/// profile misses neighbours, which a scan cannot say.
-SensorTopics topics_of(const Profile& profile);
+/// What a world sends unless told otherwise: neighbours as the simulator finds them. Its scan has
+/// all that the lidar meets, walls too, while its neighbours come from the others' turrets alone:
+/// control software that finds neighbours in the scan may see others.
+SensorTopics world_topics();
 
 }  // namespace swarmsmith

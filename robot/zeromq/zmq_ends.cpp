@@ -24,6 +24,8 @@ constexpr std::string_view kOperator = "operator";
 /// How often a thread looks whether it shall end, and whether its connection stands.
 constexpr std::chrono::milliseconds kLook{50};
 constexpr std::chrono::milliseconds kTryAgain{200};
+/// For what was sent last, treads that stand still above all, when an end goes.
+constexpr std::chrono::milliseconds kLastFrames{200};
 
 template <class Variant>
 void set_arrival(Variant& message) {
@@ -249,7 +251,7 @@ class NodeLink {
       for (const std::string& frame : outbox_.take())
         socket_.send(frame);
       sending_ = false;
-      if (last) return socket_.close(std::chrono::milliseconds(200));
+      if (last) return socket_.close(kLastFrames);
       if (socket_.lost()) lose();
       if (!stands_ && SystemClock().now() >= again_) connect();
     }
@@ -427,7 +429,9 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
         "(`swarmsmith keygen` makes them)",
         options.endpoint);
   }
-  auto socket = ServerSocket::bind(options.endpoint, {}, std::move(options.keys));
+  SocketOptions socket_options;
+  socket_options.linger = kLastFrames;
+  auto socket = ServerSocket::bind(options.endpoint, socket_options, std::move(options.keys));
   if (!socket) return tl::unexpected(socket.error());
   NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};
   server.end = std::make_unique<ServingEnd>(std::move(*socket), name, options.end);

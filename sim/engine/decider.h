@@ -12,7 +12,8 @@ namespace swarmsmith {
 /// side of a wire, say.
 ///
 /// At an instant at which robots are due for a control cycle, the engine says so (`begin`), asks
-/// about each of them (`ask`), and then takes the answers in the same order (`answer`). Readings do
+/// about each of them (`ask`), and then takes the answers in the same order (`answer`); once more
+/// for those whose period is shorter than 10 ms. Readings do
 /// not depend on commands of the same instant, so that whoever answers what ControlSoftware with
 /// control_stream would answer gets the bits of a run without a decider. The engine waits for
 /// every call: a decider that has to wait for somebody blocks in `begin` or `answer`. What it
@@ -24,8 +25,9 @@ class Decider {
     int robot = 0;
     std::int64_t cycle = 0;  ///< of this robot, counts from 1
     double time_s = 0;       ///< since the start: the double that Senses::time_s gives
-    /// Good until the next `begin`. Each sensor is computed when first asked for; what is asked for
-    /// changes nothing else. For what a controller may ask: senses_used_by.
+    /// Good until the robot's next question or the next `begin`. Each sensor is computed when first
+    /// asked for; what is asked for changes nothing else. For what a controller may ask:
+    /// senses_used_by.
     SimulatedSenses& senses;
   };
 

@@ -28,6 +28,7 @@ struct ProximitySensing {
   double largest_miss_rate =
       0;                    ///< each sensor's rate of misses, drawn for the run from U(0, this)
   double phantom_rate = 0;  ///< of the readings that are uniform in [0.05 m, R] instead
+  bool touch_is_nothing = false;  ///< what is too near to be measured reads as nothing: +infinity
 
   friend bool operator==(const ProximitySensing&, const ProximitySensing&) = default;
 };
@@ -60,6 +61,9 @@ struct NeighbourSensing {
   double miss_rate = 0;       ///< a neighbour is missed in a cycle
   double weak_share = 0;      ///< probability that a robot has trouble for the whole run
   double weak_miss_rate = 0;  ///< then this is its rate
+  /// They are looked for at beats of so many sub-steps, and known until the next one; 0: in each
+  /// control cycle. When the first beat is, is drawn for robot and run.
+  int every_sub_steps = 0;
 
   friend bool operator==(const NeighbourSensing&, const NeighbourSensing&) = default;
 };
@@ -76,12 +80,25 @@ struct ControlTiming {
   };
   std::vector<Delay> delays;
   /// A robot's control period is 0.1 s times a factor that is drawn for the run from this interval,
-  /// times 1 + U(-jitter, jitter) for each cycle. Scores are taken every 0.1 s all the same.
+  /// times 1 + U(-jitter, jitter) for each cycle. Scores are taken every 0.1 s all the same, and
+  /// nothing moves within 10 ms: several cycles of less happen at one place.
   double least_period = 1;
   double most_period = 1;
   double jitter = 0;
+  /// The driver has a timer of so many sub-steps; at its beats it reads the ground's colour, which
+  /// holds until the next one, and then sends the last command that it was given before. 0: colours
+  /// are read in each control cycle, commands are sent at once. When the first beat is, is drawn
+  /// for robot and run (ros facts, section 1.3).
+  int driver_sub_steps = 0;
 
   friend bool operator==(const ControlTiming&, const ControlTiming&) = default;
+};
+
+/// What the treads take.
+struct Treads {
+  double step_mps = 0;  ///< commanded speeds are rounded to multiples of it; 0: not at all
+
+  friend bool operator==(const Treads&, const Treads&) = default;
 };
 
 /// What of a robot the score sees (thesis 7.3).
@@ -95,11 +112,15 @@ struct TrackedPoint {
 struct Profile {
   std::string name;
   ContactModel contacts = ContactModel::Exact;
+  /// Proximity, neighbours (or the scan that they come from) and commands are rounded to float32,
+  /// as on the topics of the robot's drivers.
+  bool float32_wire = false;
   ProximitySensing proximity;
   GroundColorSensing ground_color;
   LidarSensing lidar;
   NeighbourSensing neighbours;
   ControlTiming timing;
+  Treads treads;
   TrackedPoint tracking;
 
   friend bool operator==(const Profile&, const Profile&) = default;

@@ -20,10 +20,10 @@ struct FieldLimits {
 };
 
 inline constexpr FieldLimits kRate{0, 1};
-/// Delays of commands are whole sub-steps of 10 ms, up to ten seconds.
+/// Delays of commands and beats of devices are whole sub-steps of 10 ms, up to ten seconds.
 inline constexpr int kLongestDelay = 1000;
 /// Of the control period, as a factor on 0.1 s.
-inline constexpr FieldLimits kPeriodFactor{0.1, 10};
+inline constexpr FieldLimits kPeriodFactor{0.01, 10};
 
 /// What a field may be, with the words for it.
 template <class Value>
@@ -33,6 +33,8 @@ inline constexpr FieldChoices<ContactModel> kContactModels = {
     {{"exact", ContactModel::Exact}, {"box2d", ContactModel::Box2d}}};
 inline constexpr FieldChoices<NeighbourSensing::Source> kNeighbourSources = {
     {{"camera", NeighbourSensing::Source::Camera}, {"lidar", NeighbourSensing::Source::Lidar}}};
+inline constexpr FieldChoices<bool> kWires = {{{"float64", false}, {"float32", true}}};
+inline constexpr FieldChoices<bool> kTouches = {{{"obstacle", false}, {"nothing", true}}};
 inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", true}}};
 
 /// The fields of a profile, in the order of its file, each with its key and limits. Whatever reads,
@@ -40,10 +42,15 @@ inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", 
 ///
 /// A visitor has `device(name)`, which the fields after it belong to, and for fields `number(key,
 /// value, limits)`, `flag(key, value)`, `choice(key, value, choices)`, `colors(key, list)`,
-/// `delays(key, list)`, `period(key, least, most)` and `point(key, value, limits)`.
+/// `delays(key, list)`, `beat(key, sub_steps)`, `period(key, least, most)` and `point(key, value,
+/// limits)`. Fields that came later are visited by `later(is_ideal, visit)`: whoever writes leaves
+/// out those that are ideal, so that the texts of older profiles, and the digests of campaigns with
+/// them, stay as they were.
 template <class AnyProfile, class Visitor>
 void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.choice("contacts", profile.contacts, kContactModels);
+  visitor.later(!profile.float32_wire,
+                [&] { visitor.choice("wire", profile.float32_wire, kWires); });
 
   visitor.device("proximity");
   visitor.number("range", profile.proximity.range_m, FieldLimits{0.06, 2});
@@ -51,6 +58,8 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.number("scale_sd", profile.proximity.scale_sd, FieldLimits{0, 1});
   visitor.number("largest_miss_rate", profile.proximity.largest_miss_rate, kRate);
   visitor.number("phantom_rate", profile.proximity.phantom_rate, kRate);
+  visitor.later(!profile.proximity.touch_is_nothing,
+                [&] { visitor.choice("touch", profile.proximity.touch_is_nothing, kTouches); });
 
   visitor.device("ground_color");
   visitor.number("sd", profile.ground_color.sd, FieldLimits{0, 255});
@@ -66,11 +75,20 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.number("miss_rate", profile.neighbours.miss_rate, kRate);
   visitor.number("weak_share", profile.neighbours.weak_share, kRate);
   visitor.number("weak_miss_rate", profile.neighbours.weak_miss_rate, kRate);
+  visitor.later(profile.neighbours.every_sub_steps == 0,
+                [&] { visitor.beat("every", profile.neighbours.every_sub_steps); });
 
   visitor.device("timing");
   visitor.delays("delays", profile.timing.delays);
   visitor.period("period", profile.timing.least_period, profile.timing.most_period);
   visitor.number("jitter", profile.timing.jitter, FieldLimits{0, 0.5});
+  visitor.later(profile.timing.driver_sub_steps == 0,
+                [&] { visitor.beat("driver", profile.timing.driver_sub_steps); });
+
+  visitor.device("treads");
+  visitor.later(profile.treads.step_mps == 0, [&] {
+    visitor.number("step", profile.treads.step_mps, FieldLimits{0, kMaxWheelSpeed_mps});
+  });
 
   visitor.device("tracking");
   visitor.point("tag", profile.tracking.tag, FieldLimits{-1, 1});

@@ -33,6 +33,9 @@ class Sensors {
 
   constexpr bool has(Sensor sensor) const { return (bits_ & static_cast<unsigned>(sensor)) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
+  constexpr Sensors without(Sensor sensor) const {
+    return Sensors(bits_ & ~static_cast<unsigned>(sensor));
+  }
   constexpr friend Sensors operator|(Sensors a, Sensors b) { return Sensors(a.bits_ | b.bits_); }
   friend bool operator==(const Sensors&, const Sensors&) = default;
 

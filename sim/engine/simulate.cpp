@@ -13,6 +13,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/rng.h"
+#include "sim/engine/internal/float32.h"
 #include "sim/engine/internal/robot_clock.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/internal/world.h"
@@ -65,6 +66,9 @@ class Run {
         recorder_(recorder),
         decider_(decider),
         every_step_(decider != nullptr && decider->wants_every_step()),
+        stops_more_(decider != nullptr || setup.profile.timing.driver_sub_steps > 0 ||
+                    setup.profile.neighbours.every_sub_steps > 0),
+        distorts_commands_(setup.profile.float32_wire || setup.profile.treads.step_mps > 0),
         arena_(arena_of(setup.mission, setup.instance)),
         world_(arena_, setup.mission.body, setup.instance.starts, setup.profile.contacts),
         scorer_(setup.mission.rule, arena_),
@@ -87,13 +91,16 @@ class Run {
     for (int instant = 1; instant <= setup_.mission.cycles; ++instant) {
       const std::int64_t end = std::int64_t{instant} * kSubStepsPerInstant;
       while (now < end) {
-        std::int64_t next = every_step_ ? now + 1 : end;
+        std::int64_t next = end;
+        if (stops_more_) [[unlikely]]
+          next = next_stop(now, end);
         for (const std::int64_t event : next_events_)
           next = std::min(next, event);
         world_.advance(static_cast<int>(next - now));
         now = next;
         check(now);
-        if (decider_ != nullptr) consult(now);
+        if (stops_more_) [[unlikely]]
+          attend(now);
         for (int i = 0; i < world_.robots(); ++i) {
           if (next_events_[static_cast<std::size_t>(i)] == now) serve(i, now);
         }
@@ -124,29 +131,24 @@ class Run {
                              "profile");
   }
 
-  /// What is due for a robot at this sub-step: late commands, then its control cycle.
+  /// What is due for a robot at this sub-step: its control cycle, then late commands.
   void serve(int robot, std::int64_t now) {
     Agent& agent = agents_[static_cast<std::size_t>(robot)];
-    const bool acts = agent.clock.next() == now;
-    if (acts) {
-      if (decider_ == nullptr) decide(agent, now);  // else it was consulted
+    bool acts = false;
+    while (agent.clock.next() == now) {  // again for a period shorter than a sub-step
+      decide(agent, now);
       agent.clock.next_cycle();
+      acts = true;
     }
-    const bool arrived = renew_late(agent, now);
-    // Also an old command is renewed: its direction follows the heading, cycle by cycle.
-    if (acts || arrived) world_.command(robot, agent.acting);
-    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
-  }
-
-  /// Late commands whose time has come take over; whether there were any.
-  static bool renew_late(Agent& agent, std::int64_t now) {
     bool arrived = false;
     while (!agent.late.empty() && agent.late.front().from <= now) {
       renew_treads(agent.acting, agent.late.front().command);
       agent.late.pop_front();
       arrived = true;
     }
-    return arrived;
+    // Also an old command is renewed: its direction follows the heading, cycle by cycle.
+    if (acts || arrived) world_.command(robot, agent.acting);
+    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
   }
 
   static double time_s_at(std::int64_t now) { return kSubStep_s * static_cast<double>(now); }
@@ -167,36 +169,91 @@ class Run {
   }
 
   /// Sends a command on its way.
-  void accept(Agent& agent, const Command& command, std::int64_t now) {
+  [[gnu::always_inline]] void accept(Agent& agent, const Command& command, std::int64_t now) {
     agent.command.left_mps = within_wheel_speed(command.left_mps);
     agent.command.right_mps = within_wheel_speed(command.right_mps);
+    if (distorts_commands_) [[unlikely]]
+      distort(agent.command);
     if (recorder_.observe) agent.command.leds = command.leds;  // nobody else sees them
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (arrival == now && agent.late.empty()) {
       renew_treads(agent.acting, agent.command);
+    } else if (!agent.late.empty() && agent.late.back().from == arrival) {
+      agent.late.back().command = agent.command;
     } else {
       agent.late.push_back({arrival, agent.command});
     }
   }
 
-  /// The same for all robots at once, with a decider: asks about those that are due, then takes
-  /// what was decided.
+  /// What becomes of a command on its way to the treads.
+  [[gnu::noinline]] void distort(Command& command) const {
+    for (double* speed_mps : {&command.left_mps, &command.right_mps}) {
+      if (setup_.profile.float32_wire) *speed_mps = as_float32(*speed_mps);
+      const double step_mps = setup_.profile.treads.step_mps;
+      if (step_mps > 0)
+        *speed_mps = within_wheel_speed(std::round(*speed_mps / step_mps) * step_mps);
+    }
+  }
+
+  /// The next sub-step, up to `end`, at which `attend` has something to do besides what is due for
+  /// the robots.
+  [[gnu::noinline]] std::int64_t next_stop(std::int64_t now, std::int64_t end) const {
+    std::int64_t next = every_step_ ? now + 1 : end;
+    for (const Agent& agent : agents_)
+      next = std::min(next, agent.senses.next_beat());
+    return next;
+  }
+
+  /// Readings that are held, and the decider, come before what is due for the robots.
+  [[gnu::noinline]] void attend(std::int64_t now) {
+    for (Agent& agent : agents_)
+      agent.senses.read_at_beat(now);
+    if (decider_ != nullptr) consult(now);
+  }
+
+  /// The control cycles of all robots at this sub-step, with a decider: asks about those that are
+  /// due, then takes what was decided.
   void consult(std::int64_t now) {
+    find_due(now);
+    if (due_.empty() && !every_step_) return;
+    decider_->begin(time_s_at(now));
+    if (every_step_) {
+      for (const int robot : due_)
+        ask(robot, now);
+      for (int i = 0; i < world_.robots(); ++i)
+        take_answer(i, now);
+      end_cycles();
+      find_due(now);
+    }
+    for (; !due_.empty(); find_due(now)) {  // again for a period shorter than a sub-step
+      for (const int robot : due_)
+        ask(robot, now);
+      for (const int robot : due_)
+        take_answer(robot, now);
+      end_cycles();
+    }
+  }
+
+  /// The robots that have a control cycle at this sub-step, or one more of them.
+  void find_due(std::int64_t now) {
     due_.clear();
     for (int i = 0; i < world_.robots(); ++i) {
       if (agents_[static_cast<std::size_t>(i)].clock.next() == now) due_.push_back(i);
     }
-    if (due_.empty() && !every_step_) return;
-    decider_->begin(time_s_at(now));
-    for (const int robot : due_)
-      ask(robot, now);
-    if (every_step_) {
-      for (int i = 0; i < world_.robots(); ++i)
-        take_answer(i, now);
-    } else {
-      for (const int robot : due_)
-        take_answer(robot, now);
+  }
+
+  void end_cycles() {
+    for (const int robot : due_) {
+      agents_[static_cast<std::size_t>(robot)].clock.next_cycle();
+      follow(robot);
     }
+  }
+
+  /// The treads turn by the command that acts.
+  void follow(int robot) {
+    const Agent& agent = agents_[static_cast<std::size_t>(robot)];
+    world_.command(robot, agent.acting);
+    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
   }
 
   void ask(int robot, std::int64_t now) {
@@ -219,9 +276,7 @@ class Run {
     Agent& agent = agents_[static_cast<std::size_t>(robot)];
     agent.state = answer->state;
     accept(agent, command, now);
-    if (!every_step_) return;  // it is due, and served next
-    world_.command(robot, agent.acting);
-    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
+    follow(robot);
   }
 
   int state_of(const Agent& agent) const {
@@ -279,6 +334,8 @@ class Run {
   const Recorder& recorder_;
   Decider* decider_;  ///< null: the controller decides
   bool every_step_;   ///< the decider wants to look at each
+  bool stops_more_;   ///< there is something to attend to
+  bool distorts_commands_;
   Arena arena_;
   World world_;
   Scorer scorer_;

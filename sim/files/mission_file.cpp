@@ -19,8 +19,6 @@ constexpr double kLongest_s = 86'400;
 /// Enough to find a swarm that fits only now and then.
 constexpr int kPlacementTrials = 20;
 
-const std::vector<std::string> kPresets = {"aggregation", "grid_exploration", "color_selection"};
-
 /// Where files that a mission names are, and whether it may begin with another mission's.
 struct ReadingPlace {
   ImageSource images;
@@ -46,8 +44,8 @@ MissionEntry empty_mission(const std::string& name) {
 std::optional<MissionEntry> read_preset_file(TableReader& table, const std::string& preset,
                                              const ReadingPlace& place) {
   if (!place.takes_files) {
-    table.complain(
-        "preset", "a mission in a file of its own begins with a built-in one: " + joined(kPresets));
+    table.complain("preset", "a mission in a file of its own begins with a built-in one: " +
+                                 joined(mission_names()));
     return std::nullopt;
   }
   auto mission = read_mission_file(*place.images.folder / preset);
@@ -62,20 +60,21 @@ std::optional<MissionEntry> read_preset_file(TableReader& table, const std::stri
 std::optional<MissionEntry> read_base(TableReader& table, const std::string& name,
                                       const ReadingPlace& place) {
   const auto given = table.text("preset");
-  const bool built_in = std::ranges::find(kPresets, name) != kPresets.end();
+  const bool built_in = std::ranges::find(mission_names(), name) != mission_names().end();
   if (!given && !built_in) {
     if (table.has("preset") || table.has("score")) return empty_mission(name);
-    table.complain("name",
-                   "mission \"" + name + "\" is not built in" + did_you_mean(name, kPresets) +
-                       ", so it needs a `preset` or a `score`; built in are: " + joined(kPresets));
+    table.complain(
+        "name",
+        "mission \"" + name + "\" is not built in" + did_you_mean(name, mission_names()) +
+            ", so it needs a `preset` or a `score`; built in are: " + joined(mission_names()));
     return empty_mission(name);
   }
   const std::string preset = given.value_or(name);
   if (given && names_a_file(preset)) return read_preset_file(table, preset, place);
   if (auto mission = built_in_mission(preset)) return MissionEntry{std::move(*mission)};
-  table.complain("preset",
-                 "there is no preset \"" + preset + "\"" + did_you_mean(preset, kPresets) +
-                     "; built in are: " + joined(kPresets) + "; a file of your own ends in .toml");
+  table.complain("preset", "there is no preset \"" + preset + "\"" +
+                               did_you_mean(preset, mission_names()) + "; built in are: " +
+                               joined(mission_names()) + "; a file of your own ends in .toml");
   return empty_mission(name);
 }
 
@@ -165,6 +164,12 @@ std::vector<MissionEntry> read_missions(TableReader& root, const ReadingPlace& p
 
 }  // namespace
 
+const std::vector<std::string>& mission_names() {
+  static const std::vector<std::string> names = {"aggregation", "grid_exploration",
+                                                 "color_selection"};
+  return names;
+}
+
 bool is_name(std::string_view name) {
   constexpr std::string_view kLetters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
@@ -230,7 +235,7 @@ MissionOrErrors find_mission(const std::string& word, const std::filesystem::pat
   auto mission = built_in_mission(word);
   if (!mission) {
     Error error = std::move(mission.error());
-    error.message += did_you_mean(word, kPresets) + "; a file of your own ends in .toml";
+    error.message += did_you_mean(word, mission_names()) + "; a file of your own ends in .toml";
     return tl::unexpected(std::vector<Error>{std::move(error)});
   }
   return MissionEntry{std::move(*mission)};

@@ -33,6 +33,9 @@ MissionOrErrors read_mission_file(const std::filesystem::path& file);
 /// The same for a text; `file` gives the name for errors and the folder, and is not read.
 MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path& file);
 
+/// Those of the built-in missions.
+const std::vector<std::string>& mission_names();
+
 /// `word` is the name of a built-in mission, or a file: what ends in .toml, or has a slash;
 /// relative to `folder`.
 MissionOrErrors find_mission(const std::string& word, const std::filesystem::path& folder);

@@ -11,14 +11,18 @@
 #include "embedded/kArgos3Profile.h"
 #include "embedded/kPseudoRealityProfile.h"
 #include "embedded/kRvrProfile.h"
+#include "embedded/kThesisRobotsProfile.h"
 #include "sim/files/internal/read_profile.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFiles = {
-    {{"rvr", kRvrProfile}, {"argos3", kArgos3Profile}, {"pseudo-reality", kPseudoRealityProfile}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kFiles = {
+    {{"rvr", kRvrProfile},
+     {"argos3", kArgos3Profile},
+     {"pseudo-reality", kPseudoRealityProfile},
+     {"thesis-robots", kThesisRobotsProfile}}};
 
 /// The fields of a table, over those of the profile that `base` names.
 void read_fields(TableReader& table, Profile& profile) {

@@ -15,7 +15,7 @@ namespace swarmsmith {
 
 /// Simulator profiles as TOML (docs/profiles.md). The built-in ones are files, too, which the
 /// program carries: `rvr` (thesis 4.2: noise on), `argos3` (as the published files: noise off),
-/// `pseudo-reality` (thesis 7.1).
+/// `pseudo-reality` (thesis 7.1), `thesis-robots` (the published programs of the robots).
 
 std::vector<std::string> profile_names();
 

@@ -21,7 +21,12 @@ class FieldWriter {
 
   void device(std::string_view name) {
     const std::string path = header_ + "." + std::string(name);
+    drop_empty();
     sections_->push_back({"[" + path + "]", path + ".", {}});
+  }
+  /// A device of which nothing is told has no header; to be called after the visit, too.
+  void drop_empty() {
+    if (sections_->back().lines.empty()) sections_->pop_back();
   }
   void number(std::string_view key, double value, FieldLimits) { add(key, number_text(value)); }
   void flag(std::string_view key, bool value) { add(key, flag_text(value)); }
@@ -34,9 +39,14 @@ class FieldWriter {
   }
   void delays(std::string_view key, const std::vector<ControlTiming::Delay>& delays) {
     add(key, "[" + list_of(delays, [](const ControlTiming::Delay& delay) {
-               return "{ time = \"" + std::to_string(10 * delay.sub_steps) +
-                      " ms\", probability = " + number_text(delay.probability) + " }";
+               return "{ time = " + time_text(delay.sub_steps) +
+                      ", probability = " + number_text(delay.probability) + " }";
              }) + "]");
+  }
+  void beat(std::string_view key, int sub_steps) { add(key, time_text(sub_steps)); }
+  template <class Visit>
+  void later(bool is_ideal, const Visit& visit) {
+    if (!is_ideal) visit();
   }
   void period(std::string_view key, double least, double most) {
     add(key, "[" + period_text(least) + ", " + period_text(most) + "]");
@@ -50,6 +60,9 @@ class FieldWriter {
   }
 
  private:
+  static std::string time_text(int sub_steps) {
+    return "\"" + std::to_string(10 * sub_steps) + " ms\"";
+  }
   static std::string period_text(double factor) {
     return "\"" + number_text(std::round(factor * kMicroseconds_per_period) / 1000) + " ms\"";
   }
@@ -66,6 +79,7 @@ std::vector<Section> profile_sections(const Profile& profile, const std::string&
   FieldWriter writer(sections, header);
   writer.add("name", quoted_text(profile.name));
   visit_profile_fields(profile, writer);
+  writer.drop_empty();
   if (in_list) sections.front().header = "[[" + header + "]]";
   return sections;
 }

@@ -174,9 +174,9 @@ TEST(Evaluate, TakesMissionAndProfileFromFiles) {
 }
 
 TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
-  EXPECT_EQ(run({"profile"}).out, "rvr\nargos3\npseudo-reality\n");
+  EXPECT_EQ(run({"profile"}).out, "rvr\nargos3\npseudo-reality\nthesis-robots\n");
   EXPECT_THAT(run({"profile", "pseudo-reality"}).out, HasSubstr("jitter = 0.05"));
-  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 3U);
+  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 4U);
   const TemporaryFolder folder;
   const std::string file = (folder / "p.toml").string();
   EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 0);

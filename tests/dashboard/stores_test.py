@@ -146,7 +146,7 @@ class Rivals(Stores):
         self.assertNotIn("states, transitions", said["network"] + said["tree"])
 
     def test_rows_of_the_table_of_p_values_are_lines(self):
-        """A cell that may break between any two letters makes rows as tall as words are long."""
+        """Notes in a narrow column would make them as tall as a page."""
         serving = self.dashboard(rival_store())
         table = "[...document.querySelectorAll('caption')].find(one => one.textContent === 'tests by method')?.parentNode"
         for width in (390, 1440, 2560):
@@ -154,7 +154,7 @@ class Rivals(Stores):
             heights = page.js(f"[...{table}.querySelectorAll('tr')].map(one => one.offsetHeight)")
             line = page.js("parseFloat(getComputedStyle(document.body).lineHeight)")
             self.assertEqual(len(heights), 16, "six methods are fifteen pairs")
-            self.assertLess(max(heights), 3 * line, width)
+            self.assertLess(max(heights), 5 * line, width)
             page.close()
 
     def test_runs_of_a_tree_and_of_a_network_have_the_stored_bits(self):
@@ -274,10 +274,9 @@ class Older(Stores):
         best = bests(store)["small"]
         with sqlite3.connect(store) as connection:
             source = connection.execute("INSERT INTO source (name) VALUES ('real')").lastrowid
-            columns = [row[1] for row in connection.execute("PRAGMA table_info(evaluation)")]
-            row = dict(zip(columns, connection.execute("SELECT * FROM evaluation WHERE candidate = ? ORDER BY rowid DESC LIMIT 1", [best]).fetchone()))
-            row["source"] = source
-            connection.execute(f"INSERT INTO evaluation ({', '.join(columns)}) VALUES ({', '.join('?' * len(columns))})", list(row.values()))
+            changed = connection.execute("UPDATE evaluation SET source = ? WHERE candidate = ? AND purpose = 2 AND pair = (SELECT min(pair) "
+                                         "FROM evaluation WHERE candidate = ? AND purpose = 2)", [source, best, best]).rowcount
+        self.assertEqual(changed, 1)
         said = self.look_at(store, [
             ("results", "#/c1/results", "document.querySelectorAll('.svg svg').length >= 2"),
             ("candidate", f"#/c1/c{best}", "document.querySelectorAll('table').length >= 2"),

@@ -3,8 +3,12 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+from command_blocks import blocks_to_run  # noqa: E402
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 BUILD = pathlib.Path(os.environ["SWARMSMITH_BIN"]).parent
@@ -13,8 +17,7 @@ PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 
 def commands():
     """The lines of the blocks of shell, those of the README first."""
-    text = "".join((SOURCE / page).read_text() for page in ("README.md", "docs/getting-started.md"))
-    return "\n".join(re.findall(r"^```sh\n(.*?)^```", text, re.S | re.M))
+    return "\n".join(block.text for page in ("README.md", "docs/getting-started.md") for block in blocks_to_run(page))
 
 
 class Readme(unittest.TestCase):

@@ -9,7 +9,7 @@ import unittest
 
 import robots
 from programs import ProgramTest, call
-from robots import ROBOT, Process, ZeroMq
+from robots import ROBOT, Process, ZeroMq, machine_file
 
 DRIVER = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "examples" / "robot" / "driver.py"
 FORWARD = "--nstates 1 --s0 0 --rwm0 1"
@@ -31,7 +31,7 @@ PYTHON = python_with_zmq()
 @unittest.skipIf(PYTHON is None, "no python3 with zmq is here (python3-zmq)")
 class Driver(ProgramTest):
     def driven(self, way, key=()):
-        node = way.node(self, 1, FORWARD, "--flavour", "watermelon", "--logs", self.folder)
+        node = way.node(self, 1, machine_file(self, FORWARD), "--flavour", "watermelon-argos3", "--logs", self.folder)
         place = way.places[0].split("=")[1]
         driver = Process(self, [PYTHON, DRIVER, place, *key])
         driver.wait_for(r"0\.000 0\.000")
@@ -40,7 +40,8 @@ class Driver(ProgramTest):
             operator += ["--key", f"{way.keys}/operator.key"]
         robots.wait_for(lambda: subprocess.run([ROBOT, "check", "--robots", "1", *operator],
                                                capture_output=True).returncode == 0, "a robot that is ready")
-        start = Process(self, [ROBOT, "start", "--run", "r1", "--robots", "1", "--seconds", "30", *operator])
+        start = Process(self, [ROBOT, "start", "--run", "r1", "--robots", "1", "--seconds", "30",
+                               "--write", self.folder / "r1.toml", *operator])
         driver.wait_for(r"0\.300 0\.300")
         node.signal(signal.SIGKILL)
         before = len(driver.out)

@@ -1,12 +1,15 @@
 """Nodes of robots, stepped by a simulated world over a real ROS master or over ZeroMQ, all in processes of their own,
 have the scores and last states of `evaluate`, bit for bit."""
 import json
+import pathlib
 import re
+import signal
+import tempfile
 import unittest
 
 import robots
 from programs import ProgramTest, call
-from robots import Master, ZeroMq
+from robots import Master, ZeroMq, machine_file
 
 # Each looks at the floor, at others and at obstacles, and draws.
 WATERMELON = ("--nstates 3 --s0 0 --rwm0 12 --n0 2 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 0 --p0x1 0.8 "
@@ -19,10 +22,12 @@ MACHINES = {"watermelon": WATERMELON, "watermelon-argos3": WATERMELON, "chocolat
 NO_ROS = robots.why_no_ros()
 
 
-def mission_of(folder, robots_wanted):
-    """The file of an aggregation with so many robots."""
-    file = folder / f"swarm{robots_wanted}.toml"
-    file.write_text(f'name = "swarm{robots_wanted}"\npreset = "aggregation"\nrobots = {robots_wanted}\n')
+def mission_of(folder, preset, robots_wanted=3, seconds=20):
+    """The file of a short mission with so many robots: each cycle takes a round of all processes."""
+    name = f"{preset}{robots_wanted}"
+    file = folder / f"{name}.toml"
+    file.write_text(f'format = 1\nname = "{name}"\npreset = "{preset}"\nrobots = {robots_wanted}\n'
+                    f'duration = "{seconds} s"\n')
     return file
 
 
@@ -30,8 +35,10 @@ class LockStep(ProgramTest):
     def compared(self, way, mission, flavour, profile, seeds, count=3, lock_step="senses", node_words=(), world_words=()):
         """Runs the world with nodes; its rows, which have the bits of a run in its process and the scores of
         `evaluate`."""
-        machine = MACHINES[flavour]
-        nodes = way.nodes(self, count, machine, "--flavour", flavour, "--lock-step", lock_step, *node_words)
+        machine = machine_file(self, MACHINES[flavour])
+        logs = pathlib.Path(tempfile.mkdtemp(dir=self.folder, prefix="logs-"))
+        nodes = way.nodes(self, count, machine, "--flavour", flavour, "--lock-step", lock_step, "--logs", logs,
+                          *node_words)
         world = way.program(self, "world", "--mission", mission, "--profile", profile, "--seeds", seeds, "--lock-step",
                             "--compare", "--machine", machine, "--flavour", flavour, "--json", *world_words)
         code = world.end()
@@ -39,15 +46,20 @@ class LockStep(ProgramTest):
         self.assertEqual(code, 0, said)
         rows = world.rows()
         self.assertTrue(all(row["same_in_process"] for row in rows), rows)
-        done = call("evaluate", *machine.split(), "--flavour", flavour, "--profile", profile, "--mission", mission,
+        done = call("evaluate", machine, "--flavour", flavour, "--profile", profile, "--mission", mission,
                     "--seeds", seeds, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         evaluated = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual([(row["seed"], row["score"]) for row in rows],
                          [(row["seed"], row["score"]) for row in evaluated])
-        if lock_step == "senses":
-            for node in nodes:
-                self.assertEqual(node.end(), 0, node.said())
+        for node in nodes:
+            if lock_step == "topics":  # no message says that there are no more runs
+                node.signal(signal.SIGTERM)
+            self.assertEqual(node.end(), 0 if lock_step == "senses" else 143, node.said())
+        files = sorted(logs.glob("*.log.csv"))
+        self.assertEqual(len(files), count * len(rows))
+        replay = robots.Process(self, [robots.ROBOT, "replay", *files])
+        self.assertEqual(replay.end(), 0, replay.said())
         return rows
 
 
@@ -59,34 +71,35 @@ class OverRos(LockStep):
                                           ("grid_exploration", "watermelon-argos3", "argos3"),
                                           ("color_selection", "chocolate", "pseudo-reality")):
             with self.subTest(mission=mission, flavour=flavour, profile=profile):
-                self.compared(master, mission, flavour, profile, "1-2")
+                self.compared(master, mission_of(self.folder, mission), flavour, profile, "1-2")
 
     def test_one_robot_and_ten(self):
         master = Master(self, self.folder)
         for count in (1, 10):
             with self.subTest(robots=count):
-                self.compared(master, mission_of(self.folder, count), "watermelon", "rvr", "5", count=count)
+                self.compared(master, mission_of(self.folder, "aggregation", count), "watermelon", "rvr", "5",
+                              count=count)
 
     def test_two_masters_at_once(self):
         masters = [Master(self, self.folder), Master(self, self.folder)]
-        machine = WATERMELON
+        machine = machine_file(self, WATERMELON)
         worlds = []
         for master in masters:
             master.nodes(self, 3, machine, "--flavour", "watermelon", "--lock-step", "senses")
         for master in masters:
-            worlds.append(master.program(self, "world", "--mission", "aggregation", "--seeds", "1-3", "--lock-step",
-                                         "--compare", "--machine", machine, "--flavour", "watermelon", "--json"))
+            worlds.append(master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds",
+                                         "1-3", "--lock-step", "--compare", "--machine", machine, "--flavour", "watermelon", "--json"))
         for world in worlds:
             self.assertEqual(world.end(), 0, world.said())
         self.assertEqual(worlds[0].rows(), worlds[1].rows())
 
     def test_another_seed_is_another_run(self):
         master = Master(self, self.folder)
-        machine = WATERMELON
+        machine = machine_file(self, WATERMELON)
         nodes = [master.node(self, i + 1, machine, "--flavour", "watermelon", "--lock-step", "senses", "--index", i + 1)
                  for i in range(3)]
-        world = master.program(self, "world", "--mission", "aggregation", "--seeds", "1", "--lock-step", "--compare",
-                               "--machine", machine, "--flavour", "watermelon", "--json")
+        world = master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "1",
+                               "--lock-step", "--compare", "--machine", machine, "--flavour", "watermelon", "--json")
         self.assertEqual(world.end(), 1, world.said())
         self.assertFalse(world.rows()[0]["same_in_process"])
         self.assertIn("each its own random stream", world.said())
@@ -97,25 +110,26 @@ class OverRos(LockStep):
         """RangeArray, ColorRGBA and Float32MultiArray are float32: equal to a profile that rounds as they do."""
         master = Master(self, self.folder)
         profile = self.wire_profile("rvr")
-        self.compared(master, "aggregation", "watermelon", profile, "3", lock_step="topics",
+        self.compared(master, mission_of(self.folder, "aggregation"), "watermelon", profile, "3", lock_step="topics",
                       node_words=("--seed", "3", "--wheels", "floats", "--color-scale", "255", "--neighbours",
                                   "neighbours"),
                       world_words=("--topics", "--wheels", "floats"))
 
-    def test_the_drivers_own_topics_with_a_lidar(self):
-        """LaserScan, too; the node finds the neighbours in it."""
+    def test_the_drivers_own_topics_of_a_profile_with_a_lidar(self):
         master = Master(self, self.folder)
         profile = self.wire_profile("rvr", (r'(?m)^source( *)= "camera"', r'source\1= "lidar"'))
-        self.compared(master, "aggregation", "watermelon", profile, "4", lock_step="topics",
-                      node_words=("--seed", "4", "--wheels", "floats", "--color-scale", "255"),
+        self.compared(master, mission_of(self.folder, "aggregation"), "watermelon", profile, "4", lock_step="topics",
+                      node_words=("--seed", "4", "--wheels", "floats", "--color-scale", "255", "--neighbours",
+                                  "neighbours"),
                       world_words=("--topics", "--wheels", "floats"))
 
     def test_rounded_topics_differ_from_a_profile_that_does_not_round(self):
         master = Master(self, self.folder)
-        master.nodes(self, 3, WATERMELON, "--flavour", "watermelon", "--lock-step", "topics", "--seed", "3", "--wheels",
+        machine = machine_file(self, WATERMELON)
+        master.nodes(self, 3, machine, "--flavour", "watermelon", "--lock-step", "topics", "--seed", "3", "--wheels",
                      "floats", "--color-scale", "255", "--neighbours", "neighbours")
-        world = master.program(self, "world", "--mission", "aggregation", "--seeds", "3", "--lock-step", "--topics",
-                               "--wheels", "floats", "--compare", "--machine", WATERMELON, "--flavour", "watermelon",
+        world = master.program(self, "world", "--mission", mission_of(self.folder, "aggregation"), "--seeds", "3",
+                               "--lock-step", "--topics", "--wheels", "floats", "--compare", "--machine", machine, "--flavour", "watermelon",
                                "--json")
         self.assertEqual(world.end(), 1, world.said())
         self.assertIn('wire = "float32"', world.said())
@@ -135,17 +149,17 @@ class OverRos(LockStep):
 
 class OverZeroMq(LockStep):
     def test_the_same_bits(self):
-        self.compared(ZeroMq(), "aggregation", "watermelon", "rvr", "1-2")
+        self.compared(ZeroMq(), mission_of(self.folder, "aggregation"), "watermelon", "rvr", "1-2")
 
     def test_the_same_bits_with_keys(self):
         keys = self.folder / "keys"
         done = call("keygen", keys)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.compared(ZeroMq(keys), "color_selection", "chocolate", "pseudo-reality", "7")
+        self.compared(ZeroMq(keys), mission_of(self.folder, "color_selection"), "chocolate", "pseudo-reality", "7")
 
     def test_the_same_bits_by_counting(self):
-        self.compared(ZeroMq(), "grid_exploration", "watermelon", "argos3", "4", lock_step="topics",
-                      node_words=("--seed", "4", "--color-scale", "255", "--neighbours", "neighbours"),
+        self.compared(ZeroMq(), mission_of(self.folder, "grid_exploration"), "watermelon", "argos3", "4",
+                      lock_step="topics", node_words=("--seed", "4", "--color-scale", "255", "--neighbours", "neighbours"),
                       world_words=("--topics", "--neighbours", "neighbours"))
 
 

@@ -29,6 +29,13 @@ def why_no_ros():
     return None
 
 
+def machine_file(test, text):
+    """A file with the machine, as `run` and `world` take it."""
+    file = test.folder / f"machine{abs(hash(text))}.fsm"
+    file.write_text(text + "\n")
+    return file
+
+
 def wait_for(condition, what):
     deadline = time.monotonic() + DEADLINE_S
     while time.monotonic() < deadline:

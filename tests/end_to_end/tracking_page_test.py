@@ -6,8 +6,12 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+from command_blocks import blocks_to_run  # noqa: E402
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
@@ -28,7 +32,7 @@ class HowTo(unittest.TestCase):
     def test_its_blocks_work_in_their_order(self):
         if not shutil.which("rsvg-convert"):
             self.skipTest("rsvg-convert is not there; install librsvg2-bin")
-        blocks = re.findall(r"^```sh\n(.*?)^```", PAGE, re.S | re.M)
+        blocks = [block.text for block in blocks_to_run("docs/tracking.md")]
         self.assertGreaterEqual(len(blocks), 6)
         with tempfile.TemporaryDirectory(prefix="swarmsmith-tracking-") as name:
             folder = pathlib.Path(name)

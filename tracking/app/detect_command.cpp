@@ -171,11 +171,11 @@ ExitCode run(const Words& words, Output& output) {
 
 Run declare_detect(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("SOURCE", words->source, "Video, picture, folder of pictures or bag",
+  options.text("SOURCE FILE", words->source, "Video, picture, folder of pictures or bag",
                Options::Need::Required);
-  options.text("--family", words->family, "Family of the tags (default tag36h11)");
+  options.text("--family FAMILY", words->family, "Family of the tags (default tag36h11)");
   options.integer("--every", words->every, {1, 1'000'000}, "Use each N-th frame (default 1)");
-  options.text("--csv", words->csv,
+  options.text("--csv FILE", words->csv,
                "Write one row per sighting: frame, time, tag, corners in pixels (- prints)");
   return [words](Output& output) { return run(*words, output); };
 }

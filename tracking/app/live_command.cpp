@@ -277,18 +277,20 @@ ExitCode live(const Words& words, Output& output) {
 
 Run declare_live(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("--arena", words->arena, "Arena file", Options::Need::Required);
-  options.text("--camera", words->source,
+  options.text("--arena FILE", words->arena, "Arena file", Options::Need::Required);
+  options.text("--camera CAMERA|FILE", words->source,
                "What to watch: camera:0, an address, a video file, a folder of images, a bag",
                Options::Need::Required);
-  options.text("--view", words->view, "Camera of the arena file, if it has several");
-  options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");
+  options.text("--view CAMERA", words->view, "Camera of the arena file, if it has several");
+  options.text("--mission MISSION|FILE", words->mission,
+               "Mission whose floor is drawn in: a name or a file");
   options.integer("--port", words->port, {0, 65'535},
                   "Port of the preview on 127.0.0.1 (default 8080; 0: a free one)");
-  options.text("--board", words->board,
+  options.text("--board BOARD", words->board,
                "Board held before the camera: shows which parts of the frame its views cover so "
                "far (as for calibrate camera)");
-  options.text("--record", words->record, "Record all frames, a .mkv, with their times beside it");
+  options.text("--record FILE", words->record,
+               "Record all frames, a .mkv, with their times beside it");
   return [words](Output& output) { return live(*words, output); };
 }
 

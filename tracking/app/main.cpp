@@ -2,15 +2,16 @@
 #include <string>
 #include <vector>
 
+#include "cli/completion/offer_stored.h"
 #include "storage/store.h"
 #include "tracking/app/commands.h"
 
 int main(int argc, char** argv) {
   using namespace swarmsmith::cli;
   Output output = standard_output();
-  const Program program{"swarmsmith track", "Scores runs of real robots, filmed from above.",
-                        track_commands(),
-                        "docs/tracking.md leads from an empty arena to a first scored run."};
+  const Program program{
+      "swarmsmith track", "Scores runs of real robots, filmed from above.", track_commands(),
+      "docs/tracking.md leads from an empty arena to a first scored run.", offer_stored};
   try {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     if (!arguments.empty() && means_a_recording(arguments.front())) {

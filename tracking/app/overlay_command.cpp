@@ -261,24 +261,27 @@ Run declare_overlay(Options& options) {
   auto words = std::make_shared<Words>();
   ScoreArguments& run = words->run;
   constexpr Options::Range kTags{0, 65'535};
-  options.words("RUN|VIDEO", run.videos, "A stored run, r7, or its videos, one per camera",
+  options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",
                 Options::Need::Required);
-  options.text("-o,--output", words->out, "Video (.mp4, .mkv), a folder (DIR/), or one .png",
+  options.text("-o,--output FILE", words->out, "Video (.mp4, .mkv), a folder (DIR/), or one .png",
                Options::Need::Required);
-  options.text("--store", run.store, "Store of the run (else SWARMSMITH_STORE)");
-  options.text("--video", words->video, "Where a stored run's video is now");
-  options.text("--camera", words->camera, "Camera, if there are several (default: the first)");
-  options.text("--at", words->at, "Write one picture, N seconds after the start of the run");
-  options.text("--arena", run.arena, "Arena file of a run that is not stored");
-  options.text("--run", run.run, "Run log of a run that is not stored");
-  options.text("--mission", run.mission, "Mission, of a run that is not stored");
-  options.text("--start", run.start, "Start of the run on the clock of the first video: 12.4 s");
+  options.text("--store STORE", run.store, "Store of the run (else SWARMSMITH_STORE)");
+  options.text("--video FILE", words->video, "Where a stored run's video is now");
+  options.text("--camera CAMERA", words->camera,
+               "Camera, if there are several (default: the first)");
+  options.text("--at SECONDS", words->at,
+               "Write one picture, N seconds after the start of the run");
+  options.text("--arena FILE", run.arena, "Arena file of a run that is not stored");
+  options.text("--run FILE", run.run, "Run log of a run that is not stored");
+  options.text("--mission MISSION|FILE", run.mission, "Mission, of a run that is not stored");
+  options.text("--start TIME", run.start,
+               "Start of the run on the clock of the first video: 12.4 s");
   options.integer("--sync-hidden", run.sync_hidden, kTags,
                   "The run starts when this tag is covered");
   options.integer("--sync-shown", run.sync_shown, kTags,
                   "The run starts when this tag is uncovered");
-  options.text("--patches", run.patches, "Colour patches: a CSV with seed,x,y,color");
-  options.texts("--times", run.times,
+  options.text("--patches FILE", run.patches, "Colour patches: a CSV with seed,x,y,color");
+  options.texts("--times FILE", run.times,
                 "CSV with a time for each frame, one per video: frame,time_s");
   options.flag("--accept-tag-as-centre", run.takes_tags_for_centres,
                "Draw robots without an offset calibration at their tags");

@@ -72,10 +72,10 @@ Run declare_track_override(Options& options) {
   options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
   options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},
                  "The new verdict", Options::Need::Required);
-  options.text("--who", arguments->who, "Your name", Options::Need::Required);
-  options.text("--reason", arguments->reason, "Why, for those who read the results",
+  options.text("--who NAME", arguments->who, "Your name", Options::Need::Required);
+  options.text("--reason REASON", arguments->reason, "Why, for those who read the results",
                Options::Need::Required);
-  options.text("--store", arguments->store, "The store (else SWARMSMITH_STORE)");
+  options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

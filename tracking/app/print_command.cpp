@@ -144,12 +144,12 @@ ExitCode print_board(const BoardArguments& arguments, Output& output) {
 }
 
 void declare_tag_words(Options& options, TagArguments& arguments) {
-  options.text("--ids", arguments.ids, "Ids and ranges of ids, such as 1-3,100-105",
+  options.text("--ids IDS", arguments.ids, "Ids and ranges of ids, such as 1-3,100-105",
                Options::Need::Required);
-  options.text("--edge", arguments.edge, "Edge of the black border in metres, such as 0.10",
+  options.text("--edge METRES", arguments.edge, "Edge of the black border in metres, such as 0.10",
                Options::Need::Required);
   options.choice("--paper", arguments.paper, paper_names(), "Paper");
-  options.text("-o,--output", arguments.file, "File to write, .pdf or .svg",
+  options.text("-o,--output FILE", arguments.file, "File to write, .pdf or .svg",
                Options::Need::Required);
 }
 
@@ -157,7 +157,7 @@ void declare_tag_words(Options& options, TagArguments& arguments) {
 
 Run declare_print_tags(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
-  options.text("--family", arguments->family, "Family of the tags (default tag36h11)");
+  options.text("--family FAMILY", arguments->family, "Family of the tags (default tag36h11)");
   declare_tag_words(options, *arguments);
   return [arguments](Output& output) { return print_tags(*arguments, output); };
 }
@@ -167,7 +167,7 @@ Run declare_print_board(Options& options) {
   options.text("BOARD", arguments->board, "Such as charuco:11x8:0.023:0.017:5x5_100",
                Options::Need::Required);
   options.choice("--paper", arguments->paper, paper_names(), "Paper");
-  options.text("-o,--output", arguments->file, "File to write, .pdf or .svg",
+  options.text("-o,--output FILE", arguments->file, "File to write, .pdf or .svg",
                Options::Need::Required);
   return [arguments](Output& output) { return print_board(*arguments, output); };
 }
@@ -175,7 +175,8 @@ Run declare_print_board(Options& options) {
 Run declare_print_survey(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
   declare_tag_words(options, *arguments);
-  options.text("--area", arguments->area, "Area of the dodecagon in square metres (default 4.91)");
+  options.text("--area AREA", arguments->area,
+               "Area of the dodecagon in square metres (default 4.91)");
   return [arguments](Output& output) { return print_survey(*arguments, output); };
 }
 

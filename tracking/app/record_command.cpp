@@ -110,11 +110,11 @@ ExitCode record(const Words& words, Output& output) {
 
 Run declare_record(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("SOURCE", words->source, "Camera, address, video file, folder of images or bag",
+  options.text("SOURCE FILE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);
   options.text("FILE", words->file, "Video to write, a .mkv", Options::Need::Required);
-  options.text("--seconds", words->seconds, "Stop after N seconds (default: until Ctrl-C)");
-  options.text("--rate", words->rate, "Frames a second, for images and videos without times");
+  options.text("--seconds SECONDS", words->seconds, "Stop after N seconds (default: until Ctrl-C)");
+  options.text("--rate RATE", words->rate, "Frames a second, for images and videos without times");
   options.choice("--codec", words->codec, {"h264", "mjpeg", "ffv1"},
                  "Codec of the video (default h264)");
   options.integer("--quality", words->quality, {1, 100}, "Quality, 1 to 100 (default 80)");

@@ -93,8 +93,9 @@ ExitCode run(const ReportArguments& arguments, Output& output) {
 Run declare_track_report(Options& options) {
   auto arguments = std::make_shared<ReportArguments>();
   options.text("RUN", arguments->run, "A real run: r7", Options::Need::Required);
-  options.text("--store", arguments->store, "Store that has it (else SWARMSMITH_STORE)");
-  options.text("-o,--output", arguments->file, "HTML file to write (default: RUN.html; - prints)");
+  options.text("--store STORE", arguments->store, "Store that has it (else SWARMSMITH_STORE)");
+  options.text("-o,--output FILE", arguments->file,
+               "HTML file to write (default: RUN.html; - prints)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -171,10 +171,10 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_track_rescore(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.words("RUN", arguments->runs, "Runs of the store: r7", Options::Need::Required);
-  options.text("--store", arguments->store, "The store (else SWARMSMITH_STORE)");
-  options.text("--arena", arguments->arena,
+  options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
+  options.text("--arena FILE", arguments->arena,
                "Arena file with the calibrations to use now (default: those of the store)");
-  options.text("--run", arguments->log, "Run log to use now (default: that of the store)");
+  options.text("--run FILE", arguments->log, "Run log to use now (default: that of the store)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

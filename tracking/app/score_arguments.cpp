@@ -9,30 +9,31 @@ std::string store_word(const std::string& option) {
 void ScoreArguments::declare(Options& options) {
   constexpr Options::Range kTags{0, 65'535};
   options.words(
-      "VIDEO", videos,
+      "VIDEO FILE", videos,
       "Videos, folders of images or bags, one per camera (default: those of the run log)");
-  options.text("--arena", arena, "Arena file", Options::Need::Required);
-  options.text("--run", run, "Run log; options win over it");
-  options.text("--mission", mission,
+  options.text("--arena FILE", arena, "Arena file", Options::Need::Required);
+  options.text("--run FILE", run, "Run log; options win over it");
+  options.text("--mission MISSION|FILE", mission,
                "aggregation, grid_exploration, color_selection or a file (default: the design's)");
-  options.text("--design", design, "Design of the store whose winner ran: d3");
-  options.text("--candidate", candidate, "Candidate of the store that ran: c812");
-  options.text("--start", start, "Start of the run on the clock of the first video: 12.4 s");
+  options.text("--design DESIGN", design, "Design of the store whose winner ran: d3");
+  options.text("--candidate CANDIDATE", candidate, "Candidate of the store that ran: c812");
+  options.text("--start TIME", start, "Start of the run on the clock of the first video: 12.4 s");
   options.integer("--sync-hidden", sync_hidden, kTags, "The run starts when this tag is covered");
   options.integer("--sync-shown", sync_shown, kTags, "The run starts when this tag is uncovered");
-  options.text("--patches", patches,
+  options.text("--patches FILE", patches,
                "Colour patches of the run: a CSV with seed,x,y,color of one seed; or `measured`, "
                "from the picture");
-  options.texts("--times", times, "CSV with a time for each frame, one per video: frame,time_s");
-  options.text("--name", name, "Name of the run (default: the log's, else the video's)");
-  options.text("--recorded", recorded, "Date of the run, 2026-11-21");
+  options.texts("--times FILE", times,
+                "CSV with a time for each frame, one per video: frame,time_s");
+  options.text("--name NAME", name, "Name of the run (default: the log's, else the video's)");
+  options.text("--recorded DATE", recorded, "Date of the run, 2026-11-21");
   options.flag("--accept-tag-as-centre", takes_tags_for_centres,
                "Score robots without an offset calibration; the score is then marked BIASED");
-  options.text("--into", into, "Store to keep the run in; made if needed");
-  options.text("--store", store, "The same for an existing store (else SWARMSMITH_STORE)");
-  options.text("--csv", csv,
+  options.text("--into STORE", into, "Store to keep the run in; made if needed");
+  options.text("--store STORE", store, "The same for an existing store (else SWARMSMITH_STORE)");
+  options.text("--csv FILE", csv,
                "Write the trajectory: cycle,time_s,robot,x,y,theta (docs/trajectories.md)");
-  options.text("--report", report, "Write the quality report, a page of HTML");
+  options.text("--report FILE", report, "Write the quality report, a page of HTML");
 }
 
 }  // namespace swarmsmith::cli

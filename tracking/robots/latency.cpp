@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "base/math.h"
@@ -13,11 +15,16 @@
 namespace swarmsmith {
 namespace {
 
-/// Shifts that are tried.
+/// Shifts that are tried; then the best one is refined, twice.
 constexpr double kLeast_s = -0.5;
 constexpr double kMost_s = 1.5;
-constexpr double kStep_s = 0.01;
-constexpr int kShifts = 201;
+constexpr double kStep_s = 0.02;
+constexpr int kShifts = 101;
+constexpr double kFineStep_s = 0.005;
+
+/// Accelerations that are tried, m/s^2 and rad/s^2: the last ones are without a limit.
+constexpr std::array kWayLimits{0.2, 0.4, 0.75, 1.5, 3.0, 8.0, 1000.0};
+constexpr std::array kTurnLimits{3.0, 6.0, 12.0, 25.0, 50.0, 100.0, 250.0, 1e5};
 
 /// A command holds that long where no other follows.
 constexpr double kPeriod_s = 0.1;
@@ -26,6 +33,7 @@ constexpr double kLongestGap_s = 0.25;
 constexpr double kBlock_s = 2;
 constexpr std::size_t kLeastIntervals = 50;
 constexpr double kLargestError_s = 0.02;
+constexpr double kLeastSurprise = 10;
 /// What is commanded below this over a whole run is standing: metres and radians.
 constexpr double kLeastWay_m = 0.05;
 constexpr double kLeastTurn_rad = 0.5;
@@ -61,118 +69,238 @@ std::vector<Interval> intervals_of(std::span<const Sample> seen, double until_s)
   return intervals;
 }
 
-/// What was commanded from the beginning until a time: a way and a turn that are straight lines
-/// between commands.
-class Commanded {
+/// What treads do that follow their commands with a limited acceleration: how far they came until a
+/// time. `values` are the commanded speeds; before the first one the treads stand.
+class Response {
  public:
-  explicit Commanded(std::span<const TimedCommand> commands) : commands_(commands) {
+  Response(std::span<const TimedCommand> commands, const std::vector<double>& values, double limit)
+      : begin_s_(commands.front().time_s - kTable_s) {
+    const double end_s = commands.back().time_s + kPeriod_s;
+    const auto count = static_cast<std::size_t>((end_s - begin_s_) / kTable_s) + 2;
+    double speed = 0;
     double way = 0;
-    double turn = 0;
-    for (std::size_t i = 0; i < commands.size(); ++i) {
-      if (i > 0) {
-        const double held_s = commands[i].time_s - commands[i - 1].time_s;
-        way += held_s * speed(i - 1);
-        turn += held_s * spin(i - 1);
-      }
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < count; ++i) {
       ways_.push_back(way);
-      turns_.push_back(turn);
+      const double from_s = begin_s_ + kTable_s * static_cast<double>(i);
+      const double wanted = mean_command(commands, values, from_s, next);
+      const double most = limit * kTable_s;
+      if (std::fabs(wanted - speed) <= most) {
+        speed = wanted;
+        way += speed * kTable_s;
+      } else {
+        const double change = wanted > speed ? most : -most;
+        way += (speed + change / 2) * kTable_s;
+        speed += change;
+      }
     }
   }
 
-  /// Way and turn until then.
-  std::array<double, 2> until(double time_s) const {
-    const auto next = std::ranges::upper_bound(commands_, time_s, {}, &TimedCommand::time_s);
-    if (next == commands_.begin()) return {0, 0};
-    const auto i = static_cast<std::size_t>(next - commands_.begin()) - 1;
-    const double held_s = time_s - commands_[i].time_s;
-    return {ways_[i] + held_s * speed(i), turns_[i] + held_s * spin(i)};
+  double until(double time_s) const {
+    const double place = (time_s - begin_s_) / kTable_s;
+    if (place <= 0) return 0;
+    const std::size_t i = std::min(static_cast<std::size_t>(place), ways_.size() - 2);
+    return ways_[i] + (place - static_cast<double>(i)) * (ways_[i + 1] - ways_[i]);
   }
 
  private:
-  double speed(std::size_t i) const { return (commands_[i].left_mps + commands_[i].right_mps) / 2; }
-  double spin(std::size_t i) const {
-    return (commands_[i].right_mps - commands_[i].left_mps) / kTreadDistance_m;
+  static constexpr double kTable_s = 0.005;
+
+  /// Over one step of the table; `next` is the first command that was not reached before.
+  static double mean_command(std::span<const TimedCommand> commands,
+                             const std::vector<double>& values, double from_s, std::size_t& next) {
+    const double to_s = from_s + kTable_s;
+    double sum = 0;
+    double since_s = from_s;
+    for (; next < commands.size() && commands[next].time_s < to_s; ++next) {
+      const double change_s = std::max(commands[next].time_s, since_s);
+      sum += (next == 0 ? 0 : values[next - 1]) * (change_s - since_s);
+      since_s = change_s;
+    }
+    return (sum + (next == 0 ? 0 : values[next - 1]) * (to_s - since_s)) / kTable_s;
   }
+
+  double begin_s_;
+  std::vector<double> ways_;
+};
+
+/// Commanded and seen motion of one kind at one shift.
+struct Fit {
+  std::vector<double> told;      ///< an interval
+  std::array<double, 2> gain{};  ///< ahead and aside; of a turn the first alone
+  double left = kLeastSquares;   ///< sum of squares
+  double agreement = 0;
+};
+
+/// What the camera saw, of one kind: the ways ahead and aside, or the turns.
+class Seen {
+ public:
+  Seen(const std::vector<Interval>& intervals, bool is_turn)
+      : intervals_(intervals), is_turn_(is_turn) {}
+
+  std::array<double, 2> of(std::size_t i) const {
+    const Interval& seen = intervals_[i];
+    if (is_turn_) return {seen.turn_rad, 0};
+    return {seen.ahead_m, seen.aside_m};
+  }
+
+  Fit fit(const Response& response, double shift_s) const {
+    Fit fit;
+    fit.told.reserve(intervals_.size());
+    std::array<double, 2> both{};
+    double told = 0;
+    double seen = 0;
+    for (std::size_t i = 0; i < intervals_.size(); ++i) {
+      const double way = response.until(intervals_[i].to_s - shift_s) -
+                         response.until(intervals_[i].from_s - shift_s);
+      const std::array<double, 2> here = of(i);
+      fit.told.push_back(way);
+      told += way * way;
+      seen += here[0] * here[0] + here[1] * here[1];
+      both[0] += here[0] * way;
+      both[1] += here[1] * way;
+    }
+    if (told > 0) fit.gain = {both[0] / told, both[1] / told};
+    fit.left = std::max(seen - both[0] * fit.gain[0] - both[1] * fit.gain[1], kLeastSquares);
+    // A turn to the other side is no agreement; a way to the other side is a heading that is off.
+    const double common = is_turn_ ? both[0] : hypot(both[0], both[1]);
+    if (told > 0 && seen > 0) fit.agreement = common / std::sqrt(told * seen);
+    return fit;
+  }
+
+  /// Numbers seen, of which the variance is one.
+  double count() const { return static_cast<double>(intervals_.size()) * (is_turn_ ? 1 : 2); }
+
+  /// Minus the logarithm of the likelihood with the variance that makes it largest.
+  double surprise(const Fit& fit) const { return count() / 2 * std::log(fit.left / count()); }
+
+ private:
+  const std::vector<Interval>& intervals_;
+  bool is_turn_;
+};
+
+/// Treads that followed their commands: one kind of motion, and the acceleration that fits them
+/// best.
+class Followed {
+ public:
+  Followed(std::span<const TimedCommand> commands, std::vector<double> values, Seen seen,
+           std::span<const double> limits)
+      : commands_(commands), values_(std::move(values)), seen_(seen), limits_(limits) {
+    for (const double limit : limits)
+      responses_.emplace_back(commands_, values_, limit);
+  }
+
+  /// Whether accelerations are limited from now on.
+  void limit(bool is_limited) { is_limited_ = is_limited; }
+
+  /// At a shift, the best of the limits that are tried; remembers none.
+  double coarse(double shift_s) const {
+    if (!is_limited_) return seen_.surprise(seen_.fit(responses_.back(), shift_s));
+    double least = kNone;
+    for (const Response& response : responses_)
+      least = std::min(least, seen_.surprise(seen_.fit(response, shift_s)));
+    return least;
+  }
+
+  /// From now on limits are looked for around the best one at this shift.
+  void settle(double shift_s) {
+    double least = kNone;
+    for (std::size_t i = 0; i < responses_.size(); ++i) {
+      const double surprise = seen_.surprise(seen_.fit(responses_[i], shift_s));
+      if (surprise >= least) continue;
+      least = surprise;
+      low_ = std::log(limits_[i == 0 ? 0 : i - 1]);
+      high_ = std::log(limits_[std::min(i + 1, limits_.size() - 1)]);
+    }
+  }
+
+  /// The limit at which the surprise is least, by golden sections.
+  double best_limit(double shift_s) const {
+    constexpr double kGolden = 0.6180339887498949;
+    constexpr int kSections = 12;
+    if (!is_limited_) return limits_.back();
+    const auto surprise = [&](double logarithm) {
+      return seen_.surprise(seen_.fit(Response(commands_, values_, std::exp(logarithm)), shift_s));
+    };
+    double low = low_;
+    double high = high_;
+    double left = high - kGolden * (high - low);
+    double right = low + kGolden * (high - low);
+    double at_left = surprise(left);
+    double at_right = surprise(right);
+    for (int i = 0; i < kSections; ++i) {
+      if (at_left <= at_right) {
+        high = right;
+        right = std::exchange(left, right - kGolden * (right - low));
+        at_right = std::exchange(at_left, surprise(left));
+      } else {
+        low = left;
+        left = std::exchange(right, left + kGolden * (high - left));
+        at_left = std::exchange(at_right, surprise(right));
+      }
+    }
+    return std::exp((low + high) / 2);
+  }
+
+  double fine(double shift_s) const {
+    return seen_.surprise(seen_.fit(response_of(best_limit(shift_s)), shift_s));
+  }
+
+  Response response_of(double limit) const { return {commands_, values_, limit}; }
+  const Seen& seen() const { return seen_; }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
 
   std::span<const TimedCommand> commands_;
-  std::vector<double> ways_;
-  std::vector<double> turns_;
+  std::vector<double> values_;
+  Seen seen_;
+  std::span<const double> limits_;
+  std::vector<Response> responses_;
+  bool is_limited_ = false;
+  double low_ = 0;
+  double high_ = 0;
 };
 
-/// Commanded and seen motion at one shift: their sums, what is left, and how well they agree.
-struct Fit {
-  std::vector<std::array<double, 2>> commanded;  ///< way and turn, an interval
-  std::array<double, 3> gains{};                 ///< ahead, aside, turn
-  double way_left = 0;                           ///< sums of squares
-  double turn_left = 0;
-  double way_agreement = 0;
-  double turn_agreement = 0;
-
-  /// Minus the logarithm of the likelihood with the variances that make it largest.
-  double surprise() const {
-    const auto count = static_cast<double>(commanded.size());
-    return count * std::log(way_left / (2 * count)) + count / 2 * std::log(turn_left / count);
+/// Adds to each block of time what one kind of motion makes of a shift: the surprise with gain,
+/// variance and acceleration of the best one.
+void add_blocks(const Followed& motion, const std::vector<Interval>& intervals, double shift_s,
+                double by_s, std::map<std::int64_t, double>& blocks) {
+  const Response response = motion.response_of(motion.best_limit(shift_s));
+  const Fit best = motion.seen().fit(response, shift_s);
+  const Fit fit = motion.seen().fit(response, shift_s + by_s);
+  const double variance = best.left / motion.seen().count();
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const std::array<double, 2> seen = motion.seen().of(i);
+    const double ahead = seen[0] - best.gain[0] * fit.told[i];
+    const double aside = seen[1] - best.gain[1] * fit.told[i];
+    blocks[static_cast<std::int64_t>(std::floor(intervals[i].to_s / kBlock_s))] +=
+        (ahead * ahead + aside * aside) / (2 * variance);
   }
-};
-
-Fit fit_at(double shift_s, const std::vector<Interval>& intervals, const Commanded& commanded) {
-  Fit fit;
-  double ahead = 0;
-  double aside = 0;
-  double turn = 0;
-  double ways = 0;
-  double turns = 0;
-  double seen_ways = 0;
-  double seen_turns = 0;
-  for (const Interval& seen : intervals) {
-    const auto from = commanded.until(seen.from_s - shift_s);
-    const auto to = commanded.until(seen.to_s - shift_s);
-    const std::array<double, 2> told{to[0] - from[0], to[1] - from[1]};
-    fit.commanded.push_back(told);
-    ahead += seen.ahead_m * told[0];
-    aside += seen.aside_m * told[0];
-    turn += seen.turn_rad * told[1];
-    ways += told[0] * told[0];
-    turns += told[1] * told[1];
-    seen_ways += seen.ahead_m * seen.ahead_m + seen.aside_m * seen.aside_m;
-    seen_turns += seen.turn_rad * seen.turn_rad;
-  }
-  if (ways > 0) fit.gains = {ahead / ways, aside / ways, 0};
-  if (turns > 0) fit.gains[2] = turn / turns;
-  fit.way_left = std::max(seen_ways - ahead * fit.gains[0] - aside * fit.gains[1], kLeastSquares);
-  fit.turn_left = std::max(seen_turns - turn * fit.gains[2], kLeastSquares);
-  if (ways > 0 && seen_ways > 0)
-    fit.way_agreement = hypot(ahead, aside) / std::sqrt(ways * seen_ways);
-  if (turns > 0 && seen_turns > 0) fit.turn_agreement = turn / std::sqrt(turns * seen_turns);
-  return fit;
 }
 
 /// The sum over blocks of their squared slopes, divided by the squared curvature: the variance when
-/// the errors of a block belong together.
-double sandwich_variance(double shift_s, const Fit& best, double curvature,
-                         const std::vector<Interval>& intervals, const Commanded& commanded) {
-  const auto count = static_cast<double>(intervals.size());
-  const double way_variance = best.way_left / (2 * count);
-  const double turn_variance = best.turn_left / count;
-  std::map<std::int64_t, double> slopes;
-  const auto add = [&](double by_s, double sign) {
-    const Fit fit = fit_at(shift_s + by_s, intervals, commanded);
-    for (std::size_t i = 0; i < intervals.size(); ++i) {
-      const double ahead = intervals[i].ahead_m - best.gains[0] * fit.commanded[i][0];
-      const double aside = intervals[i].aside_m - best.gains[1] * fit.commanded[i][0];
-      const double turn = intervals[i].turn_rad - best.gains[2] * fit.commanded[i][1];
-      const double surprise =
-          (ahead * ahead + aside * aside) / (2 * way_variance) + turn * turn / (2 * turn_variance);
-      slopes[static_cast<std::int64_t>(std::floor(intervals[i].to_s / kBlock_s))] +=
-          sign * surprise / (2 * kStep_s);
-    }
-  };
-  add(kStep_s, 1);
-  add(-kStep_s, -1);
+/// the errors of a block belong together. At least that of errors that do not.
+double sandwich_variance(const Followed& way, const Followed& turn,
+                         const std::vector<Interval>& intervals, double shift_s) {
+  using Blocks = std::map<std::int64_t, double>;
+  std::array<Blocks, 3> at;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double by_s = kFineStep_s * (static_cast<double>(i) - 1);
+    add_blocks(way, intervals, shift_s, by_s, at[i]);
+    add_blocks(turn, intervals, shift_s, by_s, at[i]);
+  }
   double squares = 0;
-  for (const auto& [block, slope] : slopes)
+  double curvature = 0;
+  for (const auto& [block, here] : at[1]) {
+    const double before = at[0][block];
+    const double after = at[2][block];
+    const double slope = (after - before) / (2 * kFineStep_s);
     squares += slope * slope;
-  return squares / (curvature * curvature);
+    curvature += (before - 2 * here + after) / (kFineStep_s * kFineStep_s);
+  }
+  if (!(curvature > 0)) return 0;
+  return std::max(squares / (curvature * curvature), 1 / curvature);
 }
 
 Latency not_told(std::string reason) {
@@ -181,19 +309,63 @@ Latency not_told(std::string reason) {
   return latency;
 }
 
-/// How much was commanded while the camera looked.
-struct Amount {
-  double way_m = 0;
-  double turn_rad = 0;
+double sum_of_sizes(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values)
+    sum += std::fabs(value);
+  return sum;
+}
+
+/// A place between three neighbours that are `step` apart, and how much the curve bends there.
+struct Parabola {
+  double off = 0;
+  double curvature = 0;
 };
 
-Amount amount_of(const Fit& fit) {
-  Amount amount;
-  for (const auto& [way, turn] : fit.commanded) {
-    amount.way_m += std::fabs(way);
-    amount.turn_rad += std::fabs(turn);
+Parabola parabola(double before, double here, double after, double step) {
+  const double bend = before - 2 * here + after;
+  if (!(bend > 0)) return {};
+  return {std::clamp(step * (before - after) / (2 * bend), -step, step), bend / (step * step)};
+}
+
+/// The shift that fits best, with limited accelerations or without.
+struct Shift {
+  double shift_s = 0;
+  double surprise = 0;
+  double curvature = 0;    ///< 0 where none is found
+  bool is_beyond = false;  ///< it lies at the end of what is tried
+};
+
+Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
+  way.limit(is_limited);
+  turn.limit(is_limited);
+  std::vector<double> surprises;
+  for (int i = 0; i < kShifts; ++i) {
+    const double shift_s = kLeast_s + kStep_s * i;
+    surprises.push_back(way.coarse(shift_s) + turn.coarse(shift_s));
   }
-  return amount;
+  const auto least =
+      static_cast<std::size_t>(std::ranges::min_element(surprises) - surprises.begin());
+  Shift best{.shift_s = kLeast_s + kStep_s * static_cast<double>(least),
+             .surprise = surprises[least]};
+  // Where all shifts fit alike, none is the best.
+  if (least == 0 || least + 1 == surprises.size()) {
+    best.is_beyond = std::ranges::max(surprises) - best.surprise > kLeastSurprise;
+    return best;
+  }
+  way.settle(best.shift_s);
+  turn.settle(best.shift_s);
+  for (const double step : {kStep_s, kFineStep_s, kFineStep_s}) {
+    const auto at = [&](double by_s) {
+      return way.fine(best.shift_s + by_s) + turn.fine(best.shift_s + by_s);
+    };
+    best.surprise = at(0);
+    const Parabola curve = parabola(at(-step), best.surprise, at(step), step);
+    best.shift_s += curve.off;
+    // Between frames a curve may be flat that bends over a whole frame.
+    if (curve.curvature > 0) best.curvature = curve.curvature;
+  }
+  return best;
 }
 
 }  // namespace
@@ -207,29 +379,32 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
         "the camera saw it in {} pairs of frames while its log has commands, and {} are needed",
         intervals.size(), kLeastIntervals));
   }
-  const Commanded commanded(commands);
-  std::vector<double> surprises;
-  for (int i = 0; i < kShifts; ++i)
-    surprises.push_back(fit_at(kLeast_s + kStep_s * i, intervals, commanded).surprise());
-  const auto least =
-      static_cast<std::size_t>(std::ranges::min_element(surprises) - surprises.begin());
-  double shift_s = kLeast_s + kStep_s * static_cast<double>(least);
-  const Amount amount = amount_of(fit_at(shift_s, intervals, commanded));
-  const bool is_to_turn = amount.turn_rad >= kLeastTurn_rad;
-  if (!is_to_turn && amount.way_m < kLeastWay_m) return not_told("its commands did not move it");
-
-  const bool is_at_the_edge = least == 0 || least + 1 == surprises.size();
-  double curvature = 0;
-  if (!is_at_the_edge) {
-    const double before = surprises[least - 1];
-    const double after = surprises[least + 1];
-    const double bend = before - 2 * surprises[least] + after;
-    if (bend > 0) shift_s += kStep_s * (before - after) / (2 * bend);
-    curvature = bend / (kStep_s * kStep_s);
+  std::vector<double> speeds;
+  std::vector<double> spins;
+  for (const TimedCommand& command : commands) {
+    speeds.push_back((command.left_mps + command.right_mps) / 2);
+    spins.push_back((command.right_mps - command.left_mps) / kTreadDistance_m);
   }
-  const Fit best = fit_at(shift_s, intervals, commanded);
+  const bool is_to_turn = sum_of_sizes(spins) * kPeriod_s >= kLeastTurn_rad;
+  if (!is_to_turn && sum_of_sizes(speeds) * kPeriod_s < kLeastWay_m) {
+    return not_told("its commands did not move it");
+  }
+  Followed way(commands, std::move(speeds), Seen(intervals, false), kWayLimits);
+  Followed turn(commands, std::move(spins), Seen(intervals, true), kTurnLimits);
+  // Where commands change at the same place between frames each time, a limit and a shift can take
+  // each other's part: a limit must be worth it.
+  const Shift unlimited = best_shift(way, turn, false);
+  const Shift limited = best_shift(way, turn, true);
+  const bool is_limited = unlimited.surprise - limited.surprise > kLeastSurprise;
+  way.limit(is_limited);
+  turn.limit(is_limited);
+  const Shift& best = is_limited ? limited : unlimited;
+
   Latency latency;
-  latency.agreement = is_to_turn ? best.turn_agreement : best.way_agreement;
+  const Followed& telling = is_to_turn ? turn : way;
+  latency.agreement = telling.seen()
+                          .fit(telling.response_of(telling.best_limit(best.shift_s)), best.shift_s)
+                          .agreement;
   if (*latency.agreement < kLeastAgreement) {
     latency.reason = fmt::format(
         "what the camera saw does not follow its commands (agreement "
@@ -237,28 +412,28 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
         *latency.agreement, kLeastAgreement);
     return latency;
   }
-  if (is_at_the_edge) {
+  if (best.is_beyond) {
     latency.beyond = true;
-    latency.reason =
-        fmt::format("its motion is {} s or more from its commands; is the start of the run right?",
-                    least == 0 ? kLeast_s : kMost_s);
+    latency.reason = fmt::format(
+        "its motion is {:.1f} s or more from its commands; is the start of the run "
+        "right?",
+        best.shift_s);
     return latency;
   }
-  if (curvature > 0) {
-    latency.error_s = std::sqrt(
-        std::max(1 / curvature, sandwich_variance(shift_s, best, curvature, intervals, commanded)));
-  }
-  if (!(curvature > 0) || latency.error_s > kLargestError_s) {
-    latency.reason =
-        curvature > 0
-            ? fmt::format(
-                  "its commands change too little: it would be known to {:.0f} ms, and {:.0f} "
-                  "are allowed",
-                  1000 * latency.error_s, 1000 * kLargestError_s)
-            : "its commands do not change";
+  if (!(best.curvature > 0)) {
+    latency.reason = "its commands do not change";
     return latency;
   }
-  latency.seconds = shift_s;
+  latency.error_s = std::sqrt(
+      std::max(1 / best.curvature, sandwich_variance(way, turn, intervals, best.shift_s)));
+  if (latency.error_s > kLargestError_s) {
+    latency.reason = fmt::format(
+        "its commands change too little: it would be known to {:.0f} ms, and {:.0f} "
+        "are allowed",
+        1000 * latency.error_s, 1000 * kLargestError_s);
+    return latency;
+  }
+  latency.seconds = best.shift_s;
   return latency;
 }
 

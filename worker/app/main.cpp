@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <span>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -20,6 +21,8 @@
 #include "base/log.h"
 #include "base/process/guard.h"
 #include "base/shown_text.h"
+#include "console/complete.h"
+#include "console/declared.h"
 #include "proto/access/find_coordinator.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -154,6 +157,36 @@ int run(const Arguments& arguments) {
   std::_Exit(static_cast<int>(end.code));
 }
 
+/// For scripts, as swarmsmith itself answers them (console/program.h); false: no such words.
+bool answer_scripts(const CLI::App& app, std::span<const std::string> words) {
+  if (words.empty()) return false;
+  const std::vector<cli::DeclaredOption> options = cli::declared_options(app);
+  if (words.front() == "--declared") {
+    const auto alone = [&](const CLI::App*) {
+      return JsonObject()
+          .add("name", "")
+          .add("summary", "")
+          .add("details", "")
+          .add("another_program", false)
+          .add("options", cli::declared_json(options));
+    };
+    std::cout << JsonObject()
+                     .add("program", app.get_name())
+                     .add("purpose", app.get_description())
+                     .add("begin", "")
+                     .add("commands", json_list(std::array{&app}, alone))
+                     .text()
+              << '\n';
+    return true;
+  }
+  if (words.front() != "--complete") return false;
+  std::vector<std::string> typed = cli::typed_words(words.subspan(1));
+  const std::string begin = typed.back();
+  typed.pop_back();
+  cli::write_offer(std::cout, cli::offer_next(options, typed, begin, nullptr), begin);
+  return true;
+}
+
 int run_command_line(int argc, char** argv) {
   Arguments arguments;
   CLI::App app{
@@ -183,6 +216,7 @@ int run_command_line(int argc, char** argv) {
                "Connect to a coordinator on another host without encryption");
   app.add_option("--slots", arguments.slots,
                  "Parallel evaluations; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
+      ->type_name("N")
       ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Die when the process that started this one ends");
@@ -197,6 +231,7 @@ int run_command_line(int argc, char** argv) {
   app.add_flag("--allow-shell", arguments.allow_shell,
                "Run command lines that need a shell with /bin/sh: campaigns may then run anything");
   app.set_version_flag("--version", SWARMSMITH_VERSION);
+  if (answer_scripts(app, std::vector<std::string>(argv + 1, argv + argc))) return 0;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,24 +8,31 @@ namespace swarmsmith {
 
 RobotClock::RobotClock(const ControlTiming& timing, const Rng& run, int robot)
     : timing_(&timing),
+      is_prompt_(timing.delays.empty() && timing.driver_sub_steps == 0),
       jitter_(run.split("jitter", static_cast<std::uint64_t>(robot))),
       latency_(run.split("latency", static_cast<std::uint64_t>(robot))),
+      driver_(driver_beats(timing.driver_sub_steps, run, robot)),
       period_(kSubStepsPerInstant * run.split("period", static_cast<std::uint64_t>(robot))
-                                        .uniform(timing.least_period, timing.most_period)) {
+                                        .uniform(timing.least_period, timing.most_period)),
+      least_step_(period_ < 1 ? 0 : 1) {
   next_cycle();
+  next_ = std::max<std::int64_t>(1, next_);  // nothing can be sensed before the start
 }
 
 std::int64_t RobotClock::draw_arrival(std::int64_t now) {
+  const std::int64_t sent = timing_->driver_sub_steps == 0 ? now : driver_.after(now);
+  last_arrival_ = std::max(last_arrival_, sent + draw_delay());
+  return last_arrival_;
+}
+
+int RobotClock::draw_delay() {
+  if (timing_->delays.empty()) return 0;
   double u = latency_.uniform();
-  int delay = timing_->delays.back().sub_steps;
   for (const ControlTiming::Delay& choice : timing_->delays) {
     u -= choice.probability;
-    if (u >= 0) continue;
-    delay = choice.sub_steps;
-    break;
+    if (u < 0) return choice.sub_steps;
   }
-  last_arrival_ = std::max(last_arrival_, now + delay);
-  return last_arrival_;
+  return timing_->delays.back().sub_steps;
 }
 
 }  // namespace swarmsmith

@@ -5,6 +5,7 @@
 
 #include "sim/control/labeler.h"
 #include "sim/control/lidar_clustering.h"
+#include "sim/engine/internal/float32.h"
 #include "sim/engine/internal/lidar.h"
 #include "sim/engine/internal/light.h"
 
@@ -35,6 +36,12 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       motion_(world.body(robot)),
       proximity_rays_(world, robot, profile.proximity.range_m),
       proximity_noise_(profile.proximity, run, robot),
+      distorts_proximity_(profile.float32_wire || profile.proximity.touch_is_nothing),
+      ground_hold_{.beats = driver_beats(profile.timing.driver_sub_steps, run, robot),
+                   .next = profile.timing.driver_sub_steps == 0 ? Beats::kNever : 0},
+      neighbour_hold_{
+          .beats = Beats(profile.neighbours.every_sub_steps, run, "neighbour beats", robot),
+          .next = profile.neighbours.every_sub_steps == 0 ? Beats::kNever : 0},
       neighbour_miss_rate_(miss_rate_of_run(profile.neighbours, run, robot)) {
   const GroundColorSensing& ground = profile.ground_color;
   if (ground.sd > 0) ground_noise_ = NoiseStream(run, "ground", robot);
@@ -45,6 +52,30 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
   if (neighbour_miss_rate_ > 0) neighbour_misses_ = NoiseStream(run, "neighbour misses", robot);
   readings_.neighbours.reserve(static_cast<std::size_t>(world.robots()));
   floor_ = floor_at(arena, floor_place_);
+  read_at_beat(0);
+}
+
+void RobotSenses::read_at_beat(std::int64_t now) {
+  const std::int64_t cycle = cycle_.number;
+  if (has_beat(Sensor::GroundColor, ground_hold_, now)) ground_color();
+  if (has_beat(Sensor::Neighbours, neighbour_hold_, now)) neighbours();
+  cycle_.number = cycle;
+}
+
+bool RobotSenses::has_beat(Sensor sensor, Hold& hold, std::int64_t now) {
+  if (hold.next != now) return false;
+  hold.next = hold.beats.after(now);
+  cycle_.number = hold.readings++;
+  held_ = held_ | sensor;
+  computed_ = computed_.without(sensor);
+  return true;
+}
+
+void RobotSenses::distort(std::span<double> proximity) const {
+  for (double& reading : proximity) {
+    if (profile_->proximity.touch_is_nothing && std::isinf(reading)) reading = HUGE_VAL;
+    if (profile_->float32_wire) reading = as_float32(reading);
+  }
 }
 
 bool RobotSenses::is_due(Sensor sensor) {
@@ -57,6 +88,7 @@ const ProximityReadings& RobotSenses::proximity() {
   if (is_due(Sensor::Proximity)) {
     proximity_rays_.cast(readings_.proximity_m);
     proximity_noise_.apply(readings_.proximity_m, cycle_.number);
+    if (distorts_proximity_) distort(readings_.proximity_m);
   }
   return readings_.proximity_m;
 }
@@ -66,6 +98,7 @@ FrontProximity RobotSenses::front_proximity() {
   proximity_rays_.cast(front_m_);
   const auto front = std::span(front_m_).first<kFrontSensors>();
   proximity_noise_.apply(front, cycle_.number);
+  if (distorts_proximity_) distort(front);
   return front;
 }
 
@@ -105,10 +138,17 @@ std::span<const Neighbour> RobotSenses::neighbours() {
   if (!is_due(Sensor::Neighbours)) return readings_.neighbours;
   if (profile_->neighbours.source == NeighbourSensing::Source::Camera) {
     find_neighbours(*world_, robot_, room_, readings_.neighbours);
+    if (profile_->float32_wire) {
+      for (Neighbour& seen : readings_.neighbours) {
+        seen = {as_float32(seen.distance_m), as_float32(seen.direction_x),
+                as_float32(seen.direction_y)};
+      }
+    }
   } else {
     turret_ranges_m_.resize(kLidarRays);
     scan_turrets(*world_, robot_, turret_ranges_m_);
     add_lidar_noise(turret_ranges_m_, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
+    round_scan(turret_ranges_m_);
     cluster_lidar(turret_ranges_m_, readings_.neighbours);
   }
   if (neighbour_miss_rate_ > 0) drop_missed_neighbours();
@@ -148,8 +188,15 @@ void RobotSenses::read_motion(Sensors sensors) {
 void RobotSenses::read_lidar() {
   readings_.lidar_m.resize(kLidarRays);
   const bool within_limits = scan_surroundings(*world_, robot_, readings_.lidar_m);
-  if (within_limits && profile_->lidar.half_width_m == 0) return;
-  add_lidar_noise(readings_.lidar_m, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
+  if (!within_limits || profile_->lidar.half_width_m > 0)
+    add_lidar_noise(readings_.lidar_m, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
+  round_scan(readings_.lidar_m);
+}
+
+void RobotSenses::round_scan(std::span<double> ranges_m) const {
+  if (!profile_->float32_wire) return;
+  for (double& range : ranges_m)
+    range = as_float32(range);
 }
 
 const Readings& RobotSenses::read(Sensors sensors) {

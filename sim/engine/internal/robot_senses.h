@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "base/rng.h"
 #include "sim/control/reference_model.h"
+#include "sim/engine/internal/beats.h"
 #include "sim/engine/internal/motion_sensors.h"
 #include "sim/engine/internal/noise_stream.h"
 #include "sim/engine/internal/proximity_noise.h"
@@ -48,8 +50,15 @@ class RobotSenses final : public SimulatedSenses {
     // No sensor feels what LEDs show.
     cycle_.acted.left_mps = cycle.acted.left_mps;
     cycle_.acted.right_mps = cycle.acted.right_mps;
-    computed_ = {};
+    computed_ = held_;
   }
+
+  /// When it next reads what it holds from one beat to the next; Beats::kNever when it holds
+  /// nothing.
+  std::int64_t next_beat() const { return std::min(ground_hold_.next, neighbour_hold_.next); }
+  /// Reads what has a beat at `now`, before the control cycle of that sub-step. The noise of such a
+  /// reading is of its number, the start's being 0, in place of the cycle's.
+  void read_at_beat(std::int64_t now);
 
   const ProximityReadings& proximity() override;
   FrontProximity front_proximity() override;
@@ -64,12 +73,22 @@ class RobotSenses final : public SimulatedSenses {
   Sensors computed() const { return computed_; }
 
  private:
+  /// A sensor that is read at beats, and when.
+  struct Hold {
+    Beats beats;
+    std::int64_t next;  ///< Beats::kNever for a sensor that is read in each cycle
+    std::int64_t readings = 0;
+  };
+  bool has_beat(Sensor sensor, Hold& hold, std::int64_t now);
+  /// What becomes of distances on the way to the control software.
+  void distort(std::span<double> proximity) const;
   /// Whether the sensor has not been read in this cycle; it counts as read from now on.
   bool is_due(Sensor sensor);
   /// What the ground sensor makes of the floor in this cycle, by its bias and noise.
   void blur(const Rgb& floor, Rgb& ground) const;
   void read_motion(Sensors sensors);
   void read_lidar();
+  void round_scan(std::span<double> ranges_m) const;
   void drop_missed_neighbours();
 
   const World* world_;
@@ -82,6 +101,10 @@ class RobotSenses final : public SimulatedSenses {
   NoiseStream ground_noise_;
   NoiseStream lidar_noise_;
   NoiseStream neighbour_misses_;
+  bool distorts_proximity_;
+  Hold ground_hold_;
+  Hold neighbour_hold_;
+  Sensors held_;                    ///< those that are read at beats
   double ground_bias_ = 0;          ///< of this robot in this run, on all channels
   double neighbour_miss_rate_ = 0;  ///< of this robot in this run
   Cycle cycle_;

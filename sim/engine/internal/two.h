@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 namespace swarmsmith {
@@ -21,9 +23,26 @@ inline Two greater(Two a, Two b) {
   return a < b ? b : a;
 }
 
-/// Without the sign, but for that of zeros.
+/// Their bits, and what comparisons give: of each all bits where it holds, none elsewhere.
+using TwoBits [[gnu::vector_size(16)]] = std::int64_t;
+inline constexpr TwoBits kSigns = {INT64_MIN, INT64_MIN};
+
+/// Without the sign.
 inline Two size_of(Two x) {
-  return x < 0 ? -x : x;
+  return std::bit_cast<Two>(std::bit_cast<TwoBits>(x) & ~kSigns);
+}
+/// Numbers that are not negative, with the signs of others.
+inline Two with_sign(Two size, Two signs) {
+  return std::bit_cast<Two>(std::bit_cast<TwoBits>(size) |
+                            (std::bit_cast<TwoBits>(signs) & kSigns));
+}
+/// The other sign where it holds.
+inline Two turned_where(TwoBits holds, Two x) {
+  return std::bit_cast<Two>(std::bit_cast<TwoBits>(x) ^ (holds & kSigns));
+}
+/// Numbers where it holds, 0 elsewhere.
+inline Two only_where(TwoBits holds, Two x) {
+  return std::bit_cast<Two>(std::bit_cast<TwoBits>(x) & holds);
 }
 
 inline Two load_two(const double* from) {

@@ -12,7 +12,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Delays act in whole sub-steps of the engine.
+/// Delays and beats are whole sub-steps of the engine.
 constexpr double kSubSteps_per_s = 100;
 /// The visitor that takes a profile's fields out of its table and the tables in it. A field that is
 /// not there keeps its value.
@@ -74,13 +74,9 @@ class FieldReader {
         if (!item.has(wanted))
           item.complain(wanted, "a delay needs a `" + std::string(wanted) + "`");
       }
-      const double steps =
-          kSubSteps_per_s * item.seconds("time", {0, kLongestDelay / kSubSteps_per_s}).value_or(0);
-      if (std::abs(steps - std::round(steps)) > 1e-6) {
-        item.complain("time", "`time` must be a multiple of 10 ms, the step of the simulator");
-      }
+      const int steps = sub_steps(item, "time").value_or(0);
       const auto probability = item.number("probability", {0, 1});
-      delays.push_back({static_cast<int>(std::lround(steps)), probability.value_or(0)});
+      delays.push_back({steps, probability.value_or(0)});
       item.finish();
     }
     // A sum over probabilities that could not be read would only confuse.
@@ -91,6 +87,14 @@ class FieldReader {
     table->complain(key, "the probabilities of `" + std::string(key) +
                              "` must sum to 1, these sum to " + number_text(sum));
   }
+  void beat(std::string_view key, int& value) {
+    TableReader* table = current();
+    if (table != nullptr) value = sub_steps(*table, key).value_or(value);
+  }
+  template <class Visit>
+  void later(bool /*is_ideal*/, const Visit& visit) {
+    visit();
+  }
   void period(std::string_view key, double& least, double& most) {
     TableReader* table = current();
     const auto texts = table == nullptr ? std::nullopt : table->texts(key);
@@ -99,7 +103,7 @@ class FieldReader {
     const auto second = texts->size() == 2 ? factor_of((*texts)[1]) : std::nullopt;
     if (!first || !second || *first > *second) {
       table->complain(key, "`" + std::string(key) +
-                               "` must be the shortest and the longest period, from 10 ms to 1 s, "
+                               "` must be the shortest and the longest period, from 1 ms to 1 s, "
                                "such as [\"75 ms\", \"100 ms\"]");
       return;
     }
@@ -124,6 +128,16 @@ class FieldReader {
   TableReader* current() {
     if (!in_device_) return root_;
     return device_.get();
+  }
+  static std::optional<int> sub_steps(TableReader& table, std::string_view key) {
+    const auto time_s = table.seconds(key, {0, kLongestDelay / kSubSteps_per_s});
+    if (!time_s) return std::nullopt;
+    const double steps = kSubSteps_per_s * *time_s;
+    if (std::abs(steps - std::round(steps)) > 1e-6) {
+      table.complain(
+          key, "`" + std::string(key) + "` must be a multiple of 10 ms, the step of the simulator");
+    }
+    return static_cast<int>(std::lround(steps));
   }
   static std::optional<double> factor_of(const std::string& text) {
     const auto seconds = parse_seconds(text);

@@ -106,6 +106,7 @@ TEST(NodeStates, ReadBackFromTheirText) {
                   .reasons = {"a \"quoted\" reason"},
                   .not_ready = {"x", "y"},
                   .log_trouble = "full",
+                  .log_open = true,
                   .order = "o",
                   .refused = "r",
                   .start_unix_s = 1795000000.5,

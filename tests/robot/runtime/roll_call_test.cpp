@@ -64,7 +64,10 @@ class Bench {
       step();
   }
 
-  bool all_stand() const {
+  /// After each robot's next tick.
+  bool all_stand() {
+    for (int i = 0; i < 10; ++i)
+      step();
     return std::ranges::all_of(robots, [](const auto& robot) { return robot->speed() == 0; });
   }
 
@@ -171,7 +174,7 @@ TEST(RunStarter, StopsAllWhenOneFails) {
   EXPECT_TRUE(bench.all_stand());
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
   EXPECT_THAT(bench.starter->complaints(),
-              ElementsAre(HasSubstr("rvr3: failed: proximity: silent for 1.")));
+              ElementsAre(HasSubstr("rvr3: failed: sensors were silent in 3 of 50 cycles")));
 }
 
 TEST(RunStarter, StopsAllWhenOneDoesNotTakeTheStart) {
@@ -183,6 +186,25 @@ TEST(RunStarter, StopsAllWhenOneDoesNotTakeTheStart) {
   bench.run(12);
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
   EXPECT_TRUE(bench.robots[0]->rows.empty()) << "stopped before the agreed instant";
+}
+
+TEST(RunStarter, WaitsUntilAllLogsAreClosed) {
+  Bench bench;
+  for (const auto& robot : bench.robots)
+    robot->node.set_log_open(true);
+  bench.run(8.5);
+  ASSERT_EQ(bench.robots[0]->state().phase, Phase::Ended);
+  EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Watching);
+  bench.robots[0]->node.set_log_open(false);
+  bench.robots[1]->node.set_log_open(false);
+  bench.robots[2]->node.set_log_trouble("the disk is full");
+  bench.robots[2]->node.lose_log();
+  bench.robots[2]->node.set_log_open(false);
+  bench.run(1);
+  EXPECT_EQ(bench.starter->stage(), RunStarter::Stage::Over);
+  EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
+  EXPECT_THAT(bench.starter->complaints(),
+              ElementsAre("rvr3: failed: the log is not whole: the disk is full"));
 }
 
 TEST(RunStarter, StopsAllWhenThePersonWantsIt) {

@@ -54,6 +54,20 @@ TEST(InProcessSwarm, KeepsTheNewestReadingAndEveryOrder) {
   EXPECT_EQ(ranges, 1);
 }
 
+TEST(InProcessSwarm, KeepsTheNewestCommandOfEachSender) {
+  InProcessSwarm swarm({"rvr1"}, Keep::Newest);
+  for (const double speed : {0.1, 0.2}) {
+    swarm.robot(0).send(WheelsMessage{{}, speed, 0, -1, "one"});
+    swarm.robot(0).send(WheelsMessage{{}, speed, 0, -1, "another"});
+  }
+  for (const char* sender : {"one", "another"}) {
+    const auto wheels = std::get<WheelsMessage>(swarm.world().receive(now())->message);
+    EXPECT_EQ(wheels.sender, sender);
+    EXPECT_EQ(wheels.left_mps, 0.2);
+  }
+  EXPECT_FALSE(swarm.world().receive(now()).has_value());
+}
+
 TEST(InProcessSwarm, KeepsAllInLockStep) {
   InProcessSwarm swarm({"rvr1"}, Keep::All);
   for (int cycle = 1; cycle <= 100; ++cycle)

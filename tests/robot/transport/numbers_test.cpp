@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <limits>
 
 namespace swarmsmith {
@@ -104,13 +103,6 @@ TEST(Numbers, AllOtherMessagesComeBack) {
   NeighboursMessage neighbours_came;
   EXPECT_FALSE(read_numbers({1, 2}, neighbours_came));
   EXPECT_TRUE(read_numbers({}, neighbours_came));
-}
-
-TEST(Numbers, ADriverRounds) {
-  EXPECT_NE(as_float32(0.3), 0.3);
-  EXPECT_EQ(as_float32(0.25), 0.25);
-  EXPECT_EQ(as_float32(kInfinity), kInfinity);
-  EXPECT_TRUE(std::isnan(as_float32(std::numeric_limits<double>::quiet_NaN())));
 }
 
 }  // namespace

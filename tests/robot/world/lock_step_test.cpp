@@ -133,7 +133,7 @@ TEST(LockStep, ByCountingHasTheSameBits) {
   const Scene scene("rvr");
   InProcessSwarm swarm(names());
   const Nodes nodes(swarm, scene.controller, watermelon(), cli::Pace::CountedTopics, scene.seed);
-  const auto result = run_in_lock_step(swarm.world(), topics_of(scene.profile), scene.run(), {});
+  const auto result = run_in_lock_step(swarm.world(), world_topics(), scene.run(), {});
   ASSERT_TRUE(result.has_value()) << to_string(result.error());
   EXPECT_EQ(result->state_digest, scene.alone().state_digest);
 }

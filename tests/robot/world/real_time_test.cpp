@@ -33,7 +33,7 @@ struct Scene {
 };
 
 TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
-  const Scene scene(12);
+  const Scene scene(25);
   InProcessSwarm swarm({"rvr1"}, Keep::Newest);
   std::atomic<bool> over{false};
   // Drives when the first three readings come, then is silent.
@@ -48,16 +48,16 @@ TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
   });
   std::vector<double> x;
   const auto result =
-      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), {},
+      run_in_real_time(swarm.world(), world_topics(), scene.run(), {},
                        [&](const Snapshot& now) { x.push_back(now.robots[0].pose.x); });
   over = true;
   node.join();
   ASSERT_TRUE(result.has_value()) << to_string(result.error());
   EXPECT_EQ(result->stops_by_silence, 1);
-  ASSERT_EQ(x.size(), 13U);
+  ASSERT_EQ(x.size(), 26U);
   EXPECT_GT(x.back(), 0.02) << "it drove";
-  EXPECT_LT(x.back(), 0.3 * 1.1) << "and did not go on";
-  EXPECT_EQ(x[11], x[12]) << "at the end it stands";
+  EXPECT_LT(x.back(), 0.3 * 2.4) << "and did not go on";
+  EXPECT_EQ(x[24], x[25]) << "at the end it stands";
 }
 
 TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
@@ -81,8 +81,7 @@ TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
     if (start == TimePoint{}) start = SystemClock().now() + std::chrono::milliseconds(200);
     return start;
   };
-  const auto result =
-      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), options);
+  const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);
   over = true;
   node.join();
   ASSERT_TRUE(result.has_value()) << to_string(result.error());
@@ -95,8 +94,7 @@ TEST(RealTime, ARobotThatDrivesBeforeTheStartIsRefused) {
   swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, -1, {}});
   RealTimeOptions options;
   options.start_of = [](const StateMessage&) { return std::nullopt; };
-  const auto result =
-      run_in_real_time(swarm.world(), topics_of(scene.profile), scene.run(), options);
+  const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);
   ASSERT_FALSE(result.has_value());
   EXPECT_THAT(result.error().message, HasSubstr("before a run was started"));
 }

@@ -18,7 +18,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::array kMissions = {"aggregation", "grid_exploration", "color_selection"};
-constexpr std::array kProfiles = {"argos3", "rvr", "pseudo-reality"};
+constexpr std::array kProfiles = {"argos3", "rvr", "pseudo-reality", "thesis-robots"};
 
 /// One of each architecture, of modules that all flavours have; together they ask for every sensor
 /// that the flavour's modules know.
@@ -161,6 +161,8 @@ TEST(Decider, TheSameControlSoftwareBehindItGivesTheSameBits) {
       const std::vector<Controller> all = controllers(*flavour);
       for (const char* profile_name : kProfiles) {
         const Profile profile = built_in_profile(profile_name).value();
+        // Of 800 cycles a second 20 s are enough.
+        mission.cycles = profile.timing.most_period < 0.1 ? 200 : 1200;
         for (const Controller& controller : all) {
           SCOPED_TRACE(std::string(mission_name) + " " + flavour->name + " " + profile_name + " " +
                        std::string(name_of(architecture_of(controller))));
@@ -176,12 +178,12 @@ TEST(Decider, TheSameControlSoftwareBehindItGivesTheSameBits) {
           // The engine needs no controller then.
           const Controller none;
           const Recorded run = Recorded::of({.controller = none,
-                                   .flavour = *flavour,
-                                   .profile = profile,
-                                   .mission = mission,
-                                   .instance = instance,
-                                   .seed = 17},
-                                  &decider);
+                                             .flavour = *flavour,
+                                             .profile = profile,
+                                             .mission = mission,
+                                             .instance = instance,
+                                             .seed = 17},
+                                            &decider);
           EXPECT_EQ(run.result.state_digest, expected.result.state_digest);
           EXPECT_EQ(run.result.score, expected.result.score);
           EXPECT_EQ(run.commands, expected.commands);
@@ -215,7 +217,8 @@ class ShortRun : public testing::Test {
 TEST_F(ShortRun, WhatADeciderReadsChangesNothing) {
   OtherSide decider(setup());
   decider.reads_all = true;
-  EXPECT_EQ(Recorded::of(setup(), &decider).result.state_digest, Recorded::of(setup()).result.state_digest);
+  EXPECT_EQ(Recorded::of(setup(), &decider).result.state_digest,
+            Recorded::of(setup()).result.state_digest);
 }
 
 /// Notes what the engine calls.

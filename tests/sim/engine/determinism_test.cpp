@@ -46,7 +46,7 @@ const std::map<std::string, std::string>& machines() {
       {"chocolate",
        "--nstates 4 --s0 0 --rwm0 12 --n0 3 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 "
        "0 "
-       "--p0x1 0.8 --n0x2 2 --c0x2 5 --p0x2 0.05 --s1 2 --att1 3.25 --n1 3 --n1x0 0 --c1x0 5 "
+       "--p0x1 0.8 --n0x2 2 --c0x2 5 --p0x2 0.05 --s1 4 --att1 3.25 --n1 3 --n1x0 0 --c1x0 5 "
        "--p1x0 0.03 --n1x1 1 --c1x1 0 --p1x1 1 --n1x2 2 --c1x2 2 --p1x2 0.9 --s2 2 --n2 2 --n2x0 0 "
        "--c2x0 1 --p2x0 0.02 --n2x1 2 --c2x1 5 --p2x1 0.02 --s3 5 --rep3 2.5 --n3 2 --n3x0 0 "
        "--c3x0 4 "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "sim/engine/simulate.h"
@@ -130,6 +131,36 @@ TEST(RobotClock, CommandsKeepTheirOrder) {
   EXPECT_GT(waited, 50) << "a late command delays those after it";
 }
 
+TEST(RobotClock, CyclesShorterThanASubStepShareOne) {
+  const ControlTiming timing{.least_period = 0.0125, .most_period = 0.0125};  // 800 a second
+  RobotClock clock(timing, Rng(1), 0);
+  EXPECT_EQ(clock.next(), 1) << "nothing is sensed before the start";
+  EXPECT_EQ(cycles_of(clock), 800 * 120 + 3);  // the last sub-step has those up to its middle
+  std::array<int, 4> cycles{};
+  for (; clock.next() < 4; clock.next_cycle())
+    ++cycles.at(static_cast<std::size_t>(clock.next()));
+  EXPECT_EQ(cycles, (std::array<int, 4>{0, 11, 8, 8}));
+}
+
+TEST(RobotClock, ADriverSendsCommandsAtItsBeats) {
+  const ControlTiming timing{.driver_sub_steps = 20};
+  std::array<int, 21> firsts{};
+  for (std::uint64_t run = 1; run <= 400; ++run) {
+    RobotClock clock(timing, Rng(run), 1);
+    const std::int64_t first = clock.arrival_of_command(0);
+    ++firsts.at(static_cast<std::size_t>(first));
+    EXPECT_EQ(clock.arrival_of_command(first - 1), first);
+    EXPECT_EQ(clock.arrival_of_command(first), first + 20) << "what is sent was there before";
+    EXPECT_EQ(clock.arrival_of_command(first + 19), first + 20);
+  }
+  EXPECT_EQ(firsts[0], 0);
+  for (std::size_t phase = 1; phase <= 20; ++phase)
+    EXPECT_GT(firsts.at(phase), 5) << phase;
+  const ControlTiming slow{.delays = {{7, 1}}, .driver_sub_steps = 20};
+  EXPECT_EQ(RobotClock(slow, Rng(1), 1).arrival_of_command(0),
+            RobotClock(timing, Rng(1), 1).arrival_of_command(0) + 7);
+}
+
 TEST(RobotClock, ALateCommandMovesTheRobotLater) {
   ReferenceRuns runs("aggregation");
   runs.instances[0].starts = {{0, 0, 0}};
@@ -144,6 +175,40 @@ TEST(RobotClock, ALateCommandMovesTheRobotLater) {
   // Computed at 0.1 s, acts at once: what moves is seen at 0.2 s.
   EXPECT_EQ(first_motion(0), 2);
   EXPECT_EQ(first_motion(20), 4);
+}
+
+/// The speeds that a run commands.
+std::set<double> speeds_of(const ReferenceRuns& runs, const Machine& machine) {
+  std::set<double> speeds;
+  runs.run(machine, 1, 0, [&](const Snapshot& now) {
+    for (const RobotRecord& robot : now.robots) {
+      if (now.cycle > 0) speeds.insert({robot.command.left_mps, robot.command.right_mps});
+    }
+  });
+  return speeds;
+}
+
+TEST(Treads, TakeCommandsAsTheWireAndTheDriverMakeThem) {
+  ReferenceRuns runs("aggregation");
+  const Machine explores = machine_of("--nstates 1 --s0 0 --rwm0 5");
+  EXPECT_EQ(speeds_of(runs, explores), (std::set<double>{-0.3, 0.3}));
+  runs.profile.float32_wire = true;
+  const auto rounded = static_cast<double>(0.3F);
+  EXPECT_EQ(speeds_of(runs, explores), (std::set<double>{-rounded, rounded}));
+  runs.profile.treads.step_mps = 0.25;
+  EXPECT_EQ(speeds_of(runs, explores), (std::set<double>{-0.25, 0.25}));
+  runs.profile.treads.step_mps = 1.4;
+  EXPECT_EQ(speeds_of(runs, explores), std::set<double>{0});
+}
+
+TEST(Treads, StepsNeverLeadBeyondTheWheelsRange) {
+  ReferenceRuns runs("aggregation");
+  Flavour fast = watermelon_argos3();
+  fast.speed_mps = 1.55;
+  runs.flavour = &fast;
+  runs.profile.treads.step_mps = 0.2;
+  EXPECT_EQ(speeds_of(runs, machine_of("--nstates 1 --s0 0 --rwm0 5")),
+            (std::set<double>{-1.55, 1.55}));
 }
 
 TEST(TrackedPoint, AScoreCanSeeTheTagInsteadOfTheCentre) {

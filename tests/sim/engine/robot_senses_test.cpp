@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "base/math.h"
@@ -221,6 +222,128 @@ TEST(RobotSenses, GroundNoiseIsClampedToAByte) {
     black += color.r == 0 ? 1 : 0;
   }
   EXPECT_NEAR(black / 1000.0, normal_cdf(0.5 / 5), 0.06);
+}
+
+double as_float(double value) {
+  return static_cast<double>(static_cast<float>(value));
+}
+
+TEST(RobotSenses, AWireOfFloat32RoundsDistancesAndNeighboursAndLeavesTheRest) {
+  Scene scene{.poses = {{0.01, 0.02, 0.3}, {0.4, 0.11, 1}, {0, -1, kPi}}};
+  scene.profile.proximity.sd_m = 0.01;
+  scene.profile.ground_color.sd = 5;
+  Profile wired = scene.profile;
+  wired.float32_wire = true;
+  for (const auto source : {NeighbourSensing::Source::Camera, NeighbourSensing::Source::Lidar}) {
+    scene.profile.neighbours.source = source;
+    wired.neighbours.source = source;
+    RobotSenses exact = scene.senses(0);
+    RobotSenses sent(scene.world, scene.arena, wired, 0, Rng(1));
+    RobotSenses asked_for_the_front(scene.world, scene.arena, wired, 0, Rng(1));
+    for (RobotSenses* senses : {&exact, &sent, &asked_for_the_front})
+      senses->begin_cycle({.number = 1});
+    bool any = false;
+    for (std::size_t i = 0; i < kProximitySensors; ++i) {
+      EXPECT_EQ(sent.proximity()[i], as_float(exact.proximity()[i])) << i;
+      any |= std::isfinite(exact.proximity()[i]);
+      if (i < kFrontSensors) {
+        EXPECT_EQ(asked_for_the_front.front_proximity()[i], sent.proximity()[i]) << i;
+      }
+    }
+    EXPECT_TRUE(any);
+    EXPECT_EQ(sent.ground_color(), exact.ground_color());
+    ASSERT_EQ(sent.neighbours().size(), 1);
+    const Neighbour seen = sent.neighbours()[0];
+    const Neighbour there = exact.neighbours()[0];
+    if (source == NeighbourSensing::Source::Camera) {
+      EXPECT_EQ(seen.distance_m, as_float(there.distance_m));
+      EXPECT_EQ(seen.direction_x, as_float(there.direction_x));
+      EXPECT_EQ(seen.direction_y, as_float(there.direction_y));
+    } else {
+      // The scan is rounded, not what is made of it.
+      EXPECT_NE(seen.distance_m, there.distance_m);
+      EXPECT_NEAR(seen.distance_m, there.distance_m, 1e-7);
+      EXPECT_NE(seen.distance_m, as_float(seen.distance_m));
+    }
+    const std::vector<double> scan = exact.read(Sensor::Lidar).lidar_m;
+    for (std::size_t ray = 0; ray < scan.size(); ++ray)
+      EXPECT_EQ(sent.read(Sensor::Lidar).lidar_m[ray], as_float(scan[ray]));
+  }
+}
+
+TEST(RobotSenses, WhatTouchesMayReadAsNothing) {
+  Scene scene{.poses = {{0, 0, 0}, {0.3, 0, 0}, {0, -0.5, kPi}}};
+  RobotSenses senses = scene.senses(0);
+  senses.begin_cycle({.number = 1});
+  EXPECT_EQ(senses.proximity()[1], -kInfinity);
+  const double right = senses.proximity()[3];
+  EXPECT_TRUE(std::isfinite(right));
+  scene.profile.proximity.touch_is_nothing = true;
+  RobotSenses blind = scene.senses(0);
+  blind.begin_cycle({.number = 1});
+  EXPECT_EQ(blind.front_proximity()[1], kInfinity);
+  EXPECT_EQ(blind.proximity()[1], kInfinity);
+  EXPECT_EQ(blind.proximity()[3], right);
+}
+
+/// Cycles from `cycle` up to that at a sub-step, one a sub-step, in which the reading stays as it
+/// is.
+template <class Read>
+void expect_held_until(RobotSenses& senses, std::int64_t& now, std::int64_t beat,
+                       const Read& read) {
+  const auto held = read();
+  while (++now < beat) {
+    senses.begin_cycle({.number = now});
+    EXPECT_EQ(read(), held) << now;
+  }
+}
+
+TEST(RobotSenses, AReadingOfADriverHoldsFromBeatToBeat) {
+  Scene scene;
+  scene.profile.ground_color.sd = 40;  // so that two readings are never the same
+  scene.profile.lidar.half_width_m = 0.01;
+  scene.profile.neighbours.source = NeighbourSensing::Source::Lidar;
+  scene.profile.proximity.sd_m = 0.01;
+  const auto ground = [](RobotSenses& senses) { return senses.ground_color(); };
+  const auto neighbour = [](RobotSenses& senses) { return senses.neighbours()[0].distance_m; };
+  const auto holds = [&](const auto& read_with, int every) {
+    RobotSenses senses = scene.senses(0);
+    const auto read = [&] { return read_with(senses); };
+    std::int64_t now = 0;
+    std::int64_t beat = senses.next_beat();
+    EXPECT_GE(beat, 1);
+    EXPECT_LE(beat, every);
+    for (int reading = 0; reading < 3; ++reading) {
+      const auto before = read();
+      expect_held_until(senses, now, beat, read);
+      senses.read_at_beat(now);
+      EXPECT_EQ(senses.next_beat(), beat + every);
+      beat = senses.next_beat();
+      senses.begin_cycle({.number = now});
+      EXPECT_NE(read(), before);
+    }
+    const double distance = senses.proximity()[1];
+    senses.begin_cycle({.number = now + 1});
+    EXPECT_NE(senses.proximity()[1], distance) << "of another device, read in each cycle";
+  };
+  scene.profile.timing.driver_sub_steps = 20;
+  holds(ground, 20);
+  scene.profile.timing.driver_sub_steps = 0;
+  scene.profile.neighbours.every_sub_steps = 10;
+  holds(neighbour, 10);
+  scene.profile.neighbours.every_sub_steps = 0;
+  EXPECT_EQ(scene.senses(0).next_beat(), Beats::kNever);
+}
+
+TEST(RobotSenses, BeatsHaveAnotherPhaseForEachRobotAndRun) {
+  Scene scene;
+  scene.profile.timing.driver_sub_steps = 20;
+  std::set<std::int64_t> firsts;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (const int robot : {0, 1, 2})
+      firsts.insert(scene.senses(robot, seed).next_beat());
+  }
+  EXPECT_GT(firsts.size(), 10);
 }
 
 }  // namespace

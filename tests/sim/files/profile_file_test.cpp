@@ -51,11 +51,26 @@ TEST(Profile, PseudoRealityHasTheNumbersOfTheThesisFacts) {
                      .tracking = {.tag = {-0.072, 0}, .scores_tag = false}}));
 }
 
+TEST(Profile, TheRobotsOfTheThesisAreWhatTheirProgramsMakeOfThem) {
+  EXPECT_EQ(
+      built_in_profile("thesis-robots"),
+      (Profile{.name = "thesis-robots",
+               .float32_wire = true,
+               .proximity = {.range_m = 0.4, .sd_m = 0.01, .touch_is_nothing = true},
+               .ground_color = {.sd = 5, .labeler = true},
+               .lidar = {.half_width_m = 0.01},
+               .neighbours = {.source = NeighbourSensing::Source::Lidar, .every_sub_steps = 10},
+               .timing = {.least_period = 0.0125, .most_period = 0.0125, .driver_sub_steps = 20},
+               .treads = {.step_mps = 0.01},
+               .tracking = {.tag = {-0.072, 0}, .scores_tag = true}}));
+}
+
 TEST(Profile, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   const Expected<Profile> none = built_in_profile("mars");
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(none.error().message, HasSubstr("built in are: rvr, argos3, pseudo-reality"));
+  EXPECT_THAT(none.error().message,
+              HasSubstr("built in are: rvr, argos3, pseudo-reality, thesis-robots"));
 }
 
 TEST(ProfileText, ReadsBackToTheSameProfileBitForBit) {
@@ -73,6 +88,48 @@ TEST(ProfileText, ReadsBackToTheSameProfileBitForBit) {
     EXPECT_EQ(read_profile_table(*table), profile) << text;
     EXPECT_TRUE(wrong.empty()) << text;
   }
+}
+
+TEST(ProfileText, LeavesOutWhatCameLaterWhereItIsIdeal) {
+  // The digest of a campaign is made of this text: another one would be another campaign.
+  const std::string text =
+      text_of(profile_sections(built_in_profile("argos3").value(), "simulator.profile"));
+  EXPECT_EQ(text,
+            "\n[simulator.profile]\n"
+            "name = \"argos3\"\n"
+            "contacts = \"exact\"\n"
+            "\n"
+            "[simulator.profile.proximity]\n"
+            "range = 0.4\n"
+            "sd = 0\n"
+            "scale_sd = 0\n"
+            "largest_miss_rate = 0\n"
+            "phantom_rate = 0\n"
+            "\n"
+            "[simulator.profile.ground_color]\n"
+            "sd = 0\n"
+            "bias_sd = 0\n"
+            "labeler = false\n"
+            "labels = [\"black\", \"gray\", \"white\", \"red\", \"green\", \"blue\", "
+            "\"yellow\"]\n"
+            "\n"
+            "[simulator.profile.lidar]\n"
+            "half_width = 0\n"
+            "\n"
+            "[simulator.profile.neighbours]\n"
+            "source = \"camera\"\n"
+            "miss_rate = 0\n"
+            "weak_share = 0\n"
+            "weak_miss_rate = 0\n"
+            "\n"
+            "[simulator.profile.timing]\n"
+            "delays = []\n"
+            "period = [\"100 ms\", \"100 ms\"]\n"
+            "jitter = 0\n"
+            "\n"
+            "[simulator.profile.tracking]\n"
+            "tag = [0, 0]\n"
+            "score_point = \"centre\"\n");
 }
 
 TEST(ProfileFile, HasTheNameOfItsFileAndIdealDevicesUnlessItSaysOtherwise) {
@@ -126,6 +183,14 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"[timing]\ndelays = [ { time = \"100 ms\" } ]\n", "a delay needs a `probability`"},
       {"[timing]\nperiod = [\"100 ms\", \"75 ms\"]\n",
        "mine.toml:3:10: `period` must be the shortest"},
+      {"[timing]\nperiod = [\"0.5 ms\", \"75 ms\"]\n",
+       "`period` must be the shortest and the longest period, from 1 ms to 1 s"},
+      {"[timing]\ndriver = \"205 ms\"\n",
+       "mine.toml:3:10: `driver` must be a multiple of 10 ms, the step of the simulator"},
+      {"[neighbours]\nevery = \"11 s\"\n", "mine.toml:3:9: `every` must be from"},
+      {"[treads]\nstep = 2\n", "mine.toml:3:8: `step` must be from 0 to 1.55, this is 2"},
+      {"[proximity]\ntouch = \"noting\"\n", "mine.toml:3:9: `touch` cannot be \"noting\" (did you"},
+      {"wire = \"float16\"\n", "mine.toml:2:8: `wire` cannot be \"float16\""},
       {"base = \"rvx\"\n", "mine.toml:2:8: `base` cannot be \"rvx\" (did you mean \"rvr\"?)"},
       {"contacts = \"bullet\"\n", "mine.toml:2:12: `contacts` cannot be \"bullet\""},
   };

@@ -59,6 +59,7 @@ RobotLog log_of(const std::string& robot, std::uint64_t seed = 1) {
 TrackedRobot moved_by(const RobotLog& log, double latency_s) {
   TrackedRobot robot;
   robot.name = log.robot;
+  Rng noise(7);
   Pose pose;
   constexpr double kStep_s = 1.0 / 300;
   for (int step = 0; step < 300 * 61; ++step) {
@@ -66,7 +67,8 @@ TrackedRobot moved_by(const RobotLog& log, double latency_s) {
     if (step % 10 == 0) {
       Sample sample;
       sample.time_s = time_s;
-      sample.pose = pose;
+      sample.pose = {pose.x + noise.normal(0, 0.0003), pose.y + noise.normal(0, 0.0003),
+                     pose.theta + noise.normal(0, 0.003)};
       robot.samples.push_back(sample);
     }
     const auto cycle = static_cast<std::int64_t>(std::floor((time_s - latency_s) * 10 + 1e-6));
@@ -106,8 +108,8 @@ TEST_F(RobotLogsTest, OfAGoodRunGiveTheLatenciesAndNothingElse) {
   const RobotFindings found = judged();
   EXPECT_THAT(found.issues, IsEmpty());
   ASSERT_EQ(found.latencies.size(), 2U);
-  EXPECT_NEAR(found.latencies[0]->seconds.value(), 0.06, 0.005);
-  EXPECT_NEAR(found.latencies[1]->seconds.value(), 0.2, 0.005);
+  EXPECT_NEAR(found.latencies[0]->seconds.value(), 0.06, 0.01);
+  EXPECT_NEAR(found.latencies[1]->seconds.value(), 0.2, 0.01);
 }
 
 TEST_F(RobotLogsTest, OfNoRobotSayNothing) {
@@ -178,13 +180,13 @@ TEST_F(RobotLogsTest, ALogWithoutAnEndIsJudgedByItsRows) {
 TEST_F(RobotLogsTest, AClockThatIsOffIsSaidAndTakenOutOfTheLatency) {
   logs[0].record.head.clock_offset_s = -0.015;
   EXPECT_THAT(judged().issues, IsEmpty());
-  EXPECT_NEAR(judged().latencies[0]->seconds.value(), 0.045, 0.005);
+  EXPECT_NEAR(judged().latencies[0]->seconds.value(), 0.045, 0.015);
   logs[0].record.head.clock_offset_s = 0.035;
   EXPECT_THAT(judged().issues,
               ElementsAre(Is(IssueCode::ClockOffset, "rvr1",
                              "its clock was 35 ms ahead of the operator's (at most 20 ms): it "
                              "began earlier")));
-  EXPECT_NEAR(judged().latencies[0]->seconds.value(), 0.095, 0.005);
+  EXPECT_NEAR(judged().latencies[0]->seconds.value(), 0.095, 0.015);
 }
 
 TEST_F(RobotLogsTest, SwappedLogsAreSeenInTheMotion) {
