@@ -96,8 +96,8 @@ class CampaignRun {
       const auto found = std::ranges::find(running, place);
       std::optional<std::size_t> served;
       if (found != running.end()) served = static_cast<std::size_t>(found - running.begin());
-      dashboard.stores.push_back({std::filesystem::absolute(members_.campaign(place).store), served,
-                                  served.has_value()});
+      dashboard.stores.push_back(
+          {std::filesystem::absolute(members_.campaign(place).store), served, served.has_value()});
     }
     dashboard.version = program_name();
     CoordinatorArgument coordinator;

@@ -9,7 +9,7 @@ import unittest
 import robots
 from programs import BIN, SWARMSMITH, ProgramTest, call
 from robot_lock_step_test import WATERMELON
-from robots import Process, ZeroMq
+from robots import Process, ZeroMq, machine_file
 
 FOLDER = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "build-aarch64"
 EMULATOR = "qemu-aarch64-static"
@@ -43,15 +43,16 @@ class Aarch64(ProgramTest):
         """What the world says of a run with three nodes; `--compare` runs it in the world's process, too."""
         way = ZeroMq(command=node_program)
         words = ("--flavour", "watermelon")
+        machine = machine_file(self, WATERMELON)
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
-        nodes = way.nodes(self, 3, WATERMELON, *words, "--lock-step", "senses", "--logs", folder)
+        nodes = way.nodes(self, 3, machine, *words, "--lock-step", "senses", "--logs", folder)
         way.command = world_program
         world = way.program(self, "world", "--mission", "aggregation", "--seeds", "4", "--lock-step", "--compare",
-                            "--machine", WATERMELON, *words, "--json")
+                            "--machine", machine, *words, "--json")
         self.assertEqual(world.end(), 0, world.said() + "".join(node.said() for node in nodes))
         rows = world.rows()
         self.assertTrue(all(row["same_in_process"] for row in rows), rows)
-        done = call("evaluate", *WATERMELON.split(), *words, "--mission", "aggregation", "--seeds", "4", "--json")
+        done = call("evaluate", machine, *words, "--mission", "aggregation", "--seeds", "4", "--json")
         self.assertEqual(rows[0]["score"], json.loads(done.stdout)["score"])
         for node in nodes:
             self.assertEqual(node.end(), 0, node.said())
