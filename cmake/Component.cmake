@@ -62,7 +62,7 @@ function(swarmsmith_test name)
   target_link_libraries(${target} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
     swarmsmith_warnings swarmsmith_exact_arithmetic)
   # The code under test is optimised; its tests compile in two thirds of the time.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O0>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE
     SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
     SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
