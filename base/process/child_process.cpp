@@ -157,7 +157,7 @@ const std::string& ChildProcess::last_line() {
 void ChildProcess::finish_by(TimePoint until) {
   while (runs() && !ended()) {
     if (SystemClock().now() >= until) {
-      signal(SIGKILL);
+      kill(-pid_, SIGKILL);  // a shell's programs, too
       int status = 0;
       waitpid(pid_, &status, 0);
       pid_ = 0;

@@ -15,6 +15,7 @@ Run declare_run(Options& options) {
     AccessFlags access;
     std::string workers;
     std::optional<std::int64_t> slots;
+    bool ship = false;
     HttpFlags http;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -25,10 +26,12 @@ Run declare_run(Options& options) {
   options.integer(
       "--slots", arguments->slots, {1, 10'000},
       "Parallel evaluations on this host (default: one per worker; with auto one per core)");
+  options.flag("--ship", arguments->ship,
+               "Send workers along to hosts of ssh and Slurm: nothing need be installed there");
   arguments->access.declare(options);
   arguments->http.declare(options);
   return [arguments](Output& output) {
-    const auto campaigns = arguments->campaign.read(output);
+    auto campaigns = arguments->campaign.read(output);
     if (!campaigns) return ExitCode::Usage;
     RunOptions run{.access = arguments->access};
     arguments->http.put(run, *campaigns);
@@ -53,6 +56,18 @@ Run declare_run(Options& options) {
       }
       launch.slots = *arguments->slots;
       run.launch = launch;
+    }
+    if (arguments->ship) {
+      for (Campaign& campaign : *campaigns)
+        campaign.launch.ship = true;
+      if (run.launch) run.launch->ship = true;
+      if (launch_of(campaigns->front(), run).kind == LaunchOptions::Kind::Local) {
+        return fail(output, ExitCode::Usage,
+                    Error{ErrorKind::BadInput,
+                          "applies to workers on other hosts: ssh:HOSTFILE, slurm or "
+                          "slurm:JOBSxCPUS",
+                          "--ship"});
+      }
     }
     return run_campaigns(output, *campaigns, run);
   };

@@ -34,6 +34,7 @@ struct LaunchOptions {
   std::int64_t slots = 0;      ///< of this host, in all its processes; 0: a core each
   SshOptions ssh;
   SlurmOptions slurm;
+  bool ship = false;  ///< whether ssh and Slurm's jobs get the worker from here
 
   friend bool operator==(const LaunchOptions&, const LaunchOptions&) = default;
 };

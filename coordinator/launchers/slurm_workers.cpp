@@ -86,16 +86,26 @@ Expected<SlurmWorkers> SlurmWorkers::start(SlurmWorkersOptions options) {
                       "with Slurm's programs in PATH",
                       program);
   }
-  if (options.program.empty()) {
-    Expected<fs::path> found = find_worker_program();
-    if (!found) return Unexpected(found.error());
-    options.program = std::move(*found);
+  std::vector<std::string> command = address_arguments(options.address);
+  std::ranges::copy(options.arguments, std::back_inserter(command));
+  fs::path cache;
+  for (const WorkerBundle& bundle : options.bundles) {
+    Expected<fs::path> installed = install_here(bundle);
+    if (!installed) return Unexpected(installed.error());
+    cache = std::move(*installed);
+  }
+  if (!options.bundles.empty()) {
+    command = start_words(options.bundles, cache, command);
+  } else {
+    if (options.program.empty()) {
+      Expected<fs::path> found = find_worker_program();
+      if (!found) return Unexpected(found.error());
+      options.program = std::move(*found);
+    }
+    command.insert(command.begin(), options.program.string());
   }
   std::error_code failed;
   options.folder = fs::absolute(options.folder, failed);
-  std::vector<std::string> command{options.program.string()};
-  std::ranges::copy(address_arguments(options.address), std::back_inserter(command));
-  std::ranges::copy(options.arguments, std::back_inserter(command));
   const auto written =
       write_script(options.folder / "worker.sh", text_of({.job_name = options.job_name,
                                                           .folder = options.folder,

@@ -12,6 +12,7 @@
 #include "coordinator/launchers/launch_options.h"
 #include "coordinator/launchers/launcher.h"
 #include "coordinator/launchers/slurm_jobs.h"
+#include "coordinator/launchers/worker_bundle.h"
 
 namespace swarmsmith {
 
@@ -26,6 +27,8 @@ struct SlurmWorkersOptions {
   WorkerAddress address;
   std::filesystem::path program;       ///< on every node; empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the worker
+  /// In place of `program`, from the cache of this user, which every node must see; empty: none.
+  std::vector<WorkerBundle> bundles{};
   SlurmTimes times;
 };
 

@@ -19,22 +19,46 @@ constexpr int kRefused = 7;      // swarmsmith-worker: another build
 constexpr int kNoProgram = 127;  // the shell of that host
 constexpr int kSshFailed = 255;  // ssh itself
 
-/// What an exit code of ssh means, for people.
-std::string reason(int status, const std::string& said) {
+bool is_sent_to(const SshWorkersOptions& options, const SshHost& host) {
+  return !options.bundles.empty() && host.program.empty();
+}
+
+/// ssh to a host, with more options, and without a command for it.
+std::vector<std::string> words_to(const SshWorkersOptions& options, const SshHost& host,
+                                  const std::vector<std::string>& more) {
+  // ssh takes the first of several values: the user's options win.
+  std::vector<std::string> words{options.ssh};
+  std::ranges::copy(options.options, std::back_inserter(words));
+  for (const char* word : {"-T", "-a", "-x", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "-o",
+                           "ServerAliveInterval=5", "-o", "ServerAliveCountMax=3"}) {
+    words.emplace_back(word);
+  }
+  std::ranges::copy(more, std::back_inserter(words));
+  words.emplace_back("--");
+  words.push_back(host.name);
+  return words;
+}
+
+/// What an exit code of ssh means, for people. `sent`: the worker was.
+std::string reason(int status, const std::string& said, bool sent) {
   const std::string words = said.empty() ? "" : ": " + said;
   if (!WIFEXITED(status)) return "ssh was killed";
   switch (WEXITSTATUS(status)) {
     case 0:
       return "the worker was drained";
     case kRefused:
-      return "the worker there and the coordinator are different builds; it is not started again";
+      return sent ? "bundle and coordinator are different builds (`./dev bundle` makes it anew)"
+                  : "the worker there and the coordinator are different builds; it is not started "
+                    "again";
     case kNoProgram:
+      if (sent) break;
       return "there is no such program there (`program=PATH` in the host file names it)" + words;
     case kSshFailed:
       return "cannot be reached" + words;
     default:
-      return "the worker ended with code " + std::to_string(WEXITSTATUS(status)) + words;
+      break;
   }
+  return "the worker ended with code " + std::to_string(WEXITSTATUS(status)) + words;
 }
 
 }  // namespace
@@ -43,22 +67,20 @@ std::vector<std::string> ssh_words(const SshWorkersOptions& options, const SshHo
   WorkerAddress address = options.address;
   if (!host.coordinator.empty()) address.coordinator = host.coordinator;
   if (!host.key.empty()) address.key = host.key;
-  const auto& program = host.program.empty() ? options.program : host.program;
-  std::vector<std::string> worker{program.string(), "--watch-input"};
+  std::vector<std::string> worker{"--watch-input"};
   std::ranges::copy(address_arguments(address), std::back_inserter(worker));
   if (host.slots > 0) {
     worker.emplace_back("--slots");
     worker.push_back(std::to_string(host.slots));
   }
   std::ranges::copy(options.arguments, std::back_inserter(worker));
-  // ssh takes the first of several values: the user's options win.
-  std::vector<std::string> words{options.ssh};
-  std::ranges::copy(options.options, std::back_inserter(words));
-  for (const char* word : {"-T", "-a", "-x", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "-o",
-                           "ServerAliveInterval=5", "-o", "ServerAliveCountMax=3", "--"}) {
-    words.emplace_back(word);
+  if (is_sent_to(options, host)) {
+    worker = start_words(options.bundles, {}, worker);
+  } else {
+    const auto& program = host.program.empty() ? options.program : host.program;
+    worker.insert(worker.begin(), program.string());
   }
-  words.push_back(host.name);
+  std::vector<std::string> words = words_to(options, host, {});
   words.push_back("exec " + shell_line(worker));
   return words;
 }
@@ -71,20 +93,20 @@ Expected<SshWorkers> SshWorkers::start(SshWorkersOptions options) {
                       "otherwise",
                       options.ssh);
   }
-  if (options.program.empty()) {
+  const bool all_sent = std::ranges::all_of(
+      options.hosts, [&](const SshHost& host) { return is_sent_to(options, host); });
+  if (options.program.empty() && !all_sent) {
     Expected<std::filesystem::path> found = find_worker_program();
     if (!found) return Unexpected(found.error());
     options.program = std::move(*found);
   }
-  SshWorkers workers;
-  workers.wanted_ = static_cast<std::int64_t>(options.hosts.size());
+  SshWorkers workers(std::move(options));
   std::random_device device;
-  for (const SshHost& host : options.hosts) {
-    workers.workers_.push_back(
-        {.words = ssh_words(options, host),
-         .host = host.name,
-         .ssh = {},
-         .backoff = Backoff(options.first_pause, options.longest_pause, Rng(device()))});
+  for (const SshHost& host : workers.options_.hosts) {
+    workers.workers_.push_back({.host = host,
+                                .ssh = {},
+                                .backoff = Backoff(workers.options_.first_pause,
+                                                   workers.options_.longest_pause, Rng(device()))});
     workers.launch(workers.workers_.back(), SystemClock().now());
   }
   return workers;
@@ -95,16 +117,63 @@ SshWorkers::~SshWorkers() {
 }
 
 void SshWorkers::launch(Worker& worker, TimePoint now) {
-  const auto started = worker.ssh.start(worker.words, ChildProcess::Streams::Held);
+  std::vector<std::string> words = ssh_words(options_, worker.host);
+  if (worker.sends != nullptr) {
+    words = {"/bin/sh", "-c", send_line(*worker.sends, words_to(options_, worker.host, {"-C"}))};
+  }
+  const auto started = worker.ssh.start(words, ChildProcess::Streams::Held);
   worker.started = now;
   if (started) return;
   worker.trouble = to_string(started.error());
+  worker.sends = nullptr;
   worker.start_at = now + worker.backoff.next();
 }
 
+bool SshWorkers::is_sent_now(const WorkerBundle* bundle) const {
+  return std::ranges::any_of(workers_,
+                             [bundle](const Worker& worker) { return worker.sends == bundle; });
+}
+
+void SshWorkers::on_sent(Worker& worker, bool well, TimePoint now) {
+  const WorkerBundle* bundle = std::exchange(worker.sends, nullptr);
+  worker.sent = well;
+  if (well) {
+    sent_.insert(bundle);
+    worker.trouble.clear();
+    worker.start_at = now;
+  } else {
+    worker.trouble = "the worker cannot be sent there: " + worker.ssh.last_line();
+    worker.start_at = now + worker.backoff.next();
+  }
+}
+
+void SshWorkers::on_lacking(Worker& worker, TimePoint now) {
+  const std::string& said = worker.ssh.last_line();
+  const std::string architecture = said.substr(said.rfind(' ') + 1);
+  const auto bundle =
+      std::ranges::find(options_.bundles, architecture, &WorkerBundle::architecture);
+  if (bundle == options_.bundles.end()) {
+    worker.trouble = "it is of kind " + architecture + ", and there is no bundle for that in " +
+                     options_.bundles.front().archive.parent_path().string() + " (`./dev bundle`)";
+    worker.refused = true;
+  } else if (std::exchange(worker.sent, false)) {
+    worker.trouble = "the worker was sent there, and is not to be found: " + said;
+    worker.start_at = now + worker.backoff.next();
+  } else {
+    worker.trouble = "the worker is sent there";
+    worker.start_at = now;
+    const bool wait = !sent_.contains(&*bundle) && is_sent_now(&*bundle);
+    (wait ? worker.after : worker.sends) = &*bundle;
+  }
+}
+
 void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
-  worker.trouble = reason(status, worker.ssh.last_line());
-  worker.refused = WIFEXITED(status) && WEXITSTATUS(status) == kRefused;
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  const bool ships = is_sent_to(options_, worker.host);
+  if (worker.sends != nullptr) return on_sent(worker, code == 0, now);
+  if (ships && code == kNotInCache) return on_lacking(worker, now);
+  worker.trouble = reason(status, worker.ssh.last_line(), ships);
+  worker.refused = code == kRefused;
   if (now - worker.started >= kShortLife) worker.backoff.reset();
   worker.start_at = now + worker.backoff.next();
 }
@@ -117,10 +186,13 @@ std::string SshWorkers::tend(TimePoint now) {
       if (now - worker.started >= kShortLife) worker.trouble.clear();
       continue;
     }
-    if (!worker.refused && now >= worker.start_at) launch(worker, now);
+    if (worker.refused || now < worker.start_at) continue;
+    if (worker.after != nullptr && is_sent_now(worker.after)) continue;
+    if (std::exchange(worker.after, nullptr) != nullptr) worker.trouble.clear();
+    launch(worker, now);
   }
   const bool none_left = !workers_.empty() && std::ranges::all_of(workers_, &Worker::refused);
-  return none_left ? "ssh: " + workers_.front().host + ": " + workers_.front().trouble : "";
+  return none_left ? "ssh: " + workers_.front().host.name + ": " + workers_.front().trouble : "";
 }
 
 std::string SshWorkers::stop(Duration grace) {
@@ -134,17 +206,17 @@ std::string SshWorkers::stop(Duration grace) {
 }
 
 LauncherStatus SshWorkers::status() const {
-  LauncherStatus status{.name = "ssh", .wanted = wanted_};
+  LauncherStatus status{.name = "ssh", .wanted = std::ssize(options_.hosts)};
   std::int64_t others = 0;
   for (const Worker& worker : workers_) {
-    if (worker.ssh.runs()) {
+    if (worker.ssh.runs() && worker.sends == nullptr) {
       ++status.running;
     } else {
       ++status.pending;
     }
     if (worker.trouble.empty()) continue;
     if (status.note.empty()) {
-      status.note = worker.host + ": " + worker.trouble;
+      status.note = worker.host.name + ": " + worker.trouble;
     } else {
       ++others;
     }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/clock.h"
@@ -9,6 +11,7 @@
 #include "coordinator/launchers/host_file.h"
 #include "coordinator/launchers/launch_options.h"
 #include "coordinator/launchers/launcher.h"
+#include "coordinator/launchers/worker_bundle.h"
 
 namespace swarmsmith {
 
@@ -18,6 +21,8 @@ struct SshWorkersOptions {
   WorkerAddress address;               ///< paths as they are on every host that has no others
   std::filesystem::path program;       ///< the same; empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the worker
+  /// Sent to hosts whose line names no program, if they have not got theirs yet; empty: none.
+  std::vector<WorkerBundle> bundles{};
   std::string ssh = "ssh";
   /// Before a host is tried again; twice as long each time, up to `longest_pause`.
   Duration first_pause = std::chrono::seconds(1);
@@ -33,21 +38,26 @@ std::vector<std::string> ssh_words(const SshWorkersOptions& options, const SshHo
 /// launcher stops: it then drains. So nothing stays behind on a host whichever of them dies; a host
 /// that is cut off the network is left after ten minutes by the worker itself. A terminal (-tt)
 /// would hang the worker up instead of letting it drain.
+///
+/// With bundles, a host that lacks its own gets it by another ssh, and is tried again. Hosts may
+/// share the folder that it goes to: of each bundle, the first one is waited for by all others.
 class SshWorkers final : public Launcher {
  public:
   static Expected<SshWorkers> start(SshWorkersOptions options);
   ~SshWorkers() override;
   SshWorkers(SshWorkers&&) noexcept = default;
 
-  /// Trouble: every host has refused its worker for good (another build).
+  /// Trouble: every host has refused its worker for good (another build, no bundle for it).
   std::string tend(TimePoint now) override;
   std::string stop(Duration grace) override;
   LauncherStatus status() const override;
 
  private:
   struct Worker {
-    std::vector<std::string> words;
-    std::string host;
+    SshHost host;
+    const WorkerBundle* sends = nullptr;  ///< what `ssh` sends, in place of running a worker
+    const WorkerBundle* after = nullptr;  ///< another host's is waited for
+    bool sent = false;                    ///< the last thing that ended well was that
     ChildProcess ssh;
     TimePoint started;
     TimePoint start_at;
@@ -56,12 +66,16 @@ class SshWorkers final : public Launcher {
     std::string trouble;   ///< why it does not run
   };
 
-  SshWorkers() = default;
+  explicit SshWorkers(SshWorkersOptions options) : options_(std::move(options)) {}
   void launch(Worker& worker, TimePoint now);
   void on_ended(Worker& worker, int status, TimePoint now);
+  void on_sent(Worker& worker, bool well, TimePoint now);
+  void on_lacking(Worker& worker, TimePoint now);
+  bool is_sent_now(const WorkerBundle* bundle) const;
 
+  SshWorkersOptions options_;
+  std::set<const WorkerBundle*> sent_;  ///< to one host at least
   std::vector<Worker> workers_;
-  std::int64_t wanted_ = 0;
 };
 
 }  // namespace swarmsmith

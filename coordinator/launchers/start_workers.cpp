@@ -7,6 +7,7 @@
 #include "coordinator/launchers/local_workers.h"
 #include "coordinator/launchers/slurm_workers.h"
 #include "coordinator/launchers/ssh_workers.h"
+#include "coordinator/launchers/worker_bundle.h"
 
 namespace swarmsmith {
 namespace {
@@ -36,22 +37,33 @@ Started start_local(const WorkersSetup& setup) {
                                     .secret = setup.local_secret}));
 }
 
+/// Those to send; none when none shall be.
+Expected<std::vector<WorkerBundle>> bundles_of(const WorkersSetup& setup) {
+  return setup.launch.ship ? find_bundles() : std::vector<WorkerBundle>();
+}
+
 Started start_ssh(const WorkersSetup& setup) {
   auto hosts = read_hosts(setup.launch.ssh.hosts);
   if (!hosts) return tl::unexpected(std::move(hosts.error()));
+  auto bundles = bundles_of(setup);
+  if (!bundles) return tl::unexpected(std::vector<Error>{bundles.error()});
   return boxed(SshWorkers::start({.hosts = std::move(*hosts),
                                   .options = setup.launch.ssh.options,
                                   .address = setup.address,
-                                  .arguments = setup.arguments}));
+                                  .arguments = setup.arguments,
+                                  .bundles = std::move(*bundles)}));
 }
 
 Started start_slurm(const WorkersSetup& setup) {
+  auto bundles = bundles_of(setup);
+  if (!bundles) return tl::unexpected(std::vector<Error>{bundles.error()});
   return boxed(SlurmWorkers::start(
       {.slurm = setup.launch.slurm,
        .job_name = slurm_job_name(setup.campaign_digest, setup.store),
        .folder = setup.shared_folder / (setup.store.filename().string() + ".slurm"),
        .address = setup.address,
-       .arguments = setup.arguments}));
+       .arguments = setup.arguments,
+       .bundles = std::move(*bundles)}));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ PasswordAuthentication no
 KbdInteractiveAuthentication no
 UsePAM no
 PrintMotd no
+SetEnv XDG_CACHE_HOME={folder}/cache
 """
 
 CLIENT = """\
@@ -57,10 +58,11 @@ def _program(name):
 
 class OneHostSsh:
     """Hosts node1 and node2 are this one; `silent` takes connections and says nothing; `closed`
-    has nobody who listens. `client_config` is what ssh -F takes."""
+    has nobody who listens. `client_config` is what ssh -F takes. Accounts keep things in `cache`."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
+        self.cache = self.folder / "cache"
         port, closed = free_ports(2)
         self.quiet = socket.socket()
         self.quiet.bind(("127.0.0.1", 0))

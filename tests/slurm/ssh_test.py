@@ -2,12 +2,14 @@
 import contextlib
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import unittest
 
 import campaigns
 from campaigns import PATIENCE, SWARMSMITH, ProgramTest, call, send, wait_for
+import bundle_test
 import one_host_ssh
 
 
@@ -53,10 +55,10 @@ class Ssh(ProgramTest):
             workers='launcher = "ssh"\n[workers.ssh]\nhosts = "hosts"\n'
                     f'options = ["-F", "{self.ssh.client_config}"]\n'))
 
-    def run_by_ssh(self):
+    def run_by_ssh(self, *words):
         with open(self.said, "a") as said:
             process = subprocess.Popen(
-                [SWARMSMITH, "run", self.file, "--store", self.store], stderr=said,
+                [SWARMSMITH, "run", self.file, "--store", self.store, *words], stderr=said,
                 stdout=subprocess.DEVNULL, start_new_session=True,
                 env=self.environment)
         self.addCleanup(self._end, process)
@@ -140,6 +142,68 @@ class Ssh(ProgramTest):
         done = self.run_to_its_end()
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("`swarmsmith keygen`", done.stderr)
+
+    def test_hosts_without_the_program_are_sent_it_even_if_sending_is_interrupted(self):
+        if why := bundle_test.why_not():
+            self.skipTest(why)
+        bundles = self.folder / "the bundles"
+        archive = bundle_test.pack(bundles)
+        # The first time, half of it is unpacked, and then nothing comes for a long while.
+        half, go_on = self.folder / "half", self.folder / "go on"
+        os.mkfifo(go_on)
+        xz = self.folder / "bin/xz"
+        xz.parent.mkdir()
+        xz.write_text(f"""#!/bin/sh
+PATH=${{PATH#*:}}
+if test "$1" = -dc && mkdir '{half}'; then xz "$@" | head -c 5000000; read line <'{go_on}'; fi
+exec xz "$@"
+""")
+        xz.chmod(0o755)
+        self.environment |= {"SWARMSMITH_BUNDLES": str(bundles), "PATH": f"{xz.parent}:{os.environ['PATH']}"}
+        self.campaign("node1 slots=1\nnode2 slots=1\n")
+        cache = self.ssh.cache / "swarmsmith"
+        process = self.run_by_ssh("--ship")
+        wait_for(lambda: half.exists() and list(cache.glob("new.*/*/lib/libc.so.6")), "half a bundle", 30)
+        sending, = [pid for pid in processes("SHA256SUMS") if shutil.which("ssh") == os.readlink(f"/proc/{pid}/exe")]
+        send(sending, signal.SIGKILL)
+        go_on.write_text("\n")
+        wait_for(lambda: "the worker cannot be sent there" in self.said.read_text(), "a word about that")
+        sent = wait_for(lambda: len(self.sent()) == 2 and self.sent(), "two workers", 30)
+        self.assertEqual({os.readlink(f"/proc/{pid}/exe") for pid in sent},
+                         {str(path / "ld.so") for path in cache.iterdir()})
+        self.assertEqual([path.name.rsplit("-", 1)[0] for path in cache.iterdir()], [archive.name.removesuffix(".tar.xz")])
+        self.interrupt(process)
+        # What is there is not sent again.
+        xz.write_text(f"#!/bin/sh\ntest \"$1\" = -tq || touch '{self.folder}/again'\n")
+        self.file.write_text(self.file.read_text().replace("[workers]", "[workers]\nship = true"))
+        process = self.run_by_ssh()
+        wait_for(lambda: len(self.sent()) == 2, "two workers", 30)
+        self.interrupt(process)
+        self.assertFalse((self.folder / "again").exists())
+
+    def interrupt(self, process):
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
+        wait_for(lambda: not self.sent(), "the end of all workers", 30)
+
+    def sent(self):
+        """Workers of a bundle."""
+        found = []
+        for pid in processes(str(self.ssh.cache / "swarmsmith")):
+            with contextlib.suppress(FileNotFoundError):  # it ended meanwhile
+                if pathlib.Path(f"/proc/{pid}/comm").read_text() == "swarmsmith-work\n":
+                    found.append(pid)
+        return found
+
+    def test_what_cannot_be_sent_is_said_at_once(self):
+        self.environment["SWARMSMITH_BUNDLES"] = str(self.folder)
+        self.campaign("node1\n")
+        done = self.run_to_its_end("--ship")
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn(f"{self.folder}: there is no bundle to send: `./dev bundle` makes swarmsmith-worker-", done.stderr)
+        done = self.run_to_its_end("--ship", "--workers", "2")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--ship: applies to workers on other hosts", done.stderr)
 
     def run_to_its_end(self, *words):
         return subprocess.run([SWARMSMITH, "run", self.file, "--store", self.store, *words],

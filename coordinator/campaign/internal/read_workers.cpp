@@ -85,6 +85,7 @@ void read_launcher(TableReader& table, const std::filesystem::path& folder, Laun
   static const std::vector<std::string> kLaunchers = {"local", "ssh", "slurm"};
   read_slurm(table, launch.slurm);
   read_ssh(table, folder, launch.ssh);
+  launch.ship = table.boolean("ship").value_or(launch.ship);
   const auto name = table.choice("launcher", kLaunchers);
   if (!name) return;
   if (*name == "ssh" && !table.has("ssh")) {

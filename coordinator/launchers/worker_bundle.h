@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+
+namespace swarmsmith {
+
+/// A worker with loader and libraries of its own, for hosts where nothing is installed:
+/// packaging/bundle makes its archive.
+struct WorkerBundle {
+  std::string architecture;       ///< as `uname -m` has it
+  std::filesystem::path archive;  ///< FOLDER/NAME.tar.xz, with the folder NAME in it
+  std::string folder;             ///< its name in caches: NAME and the begin of the SHA-256
+
+  friend bool operator==(const WorkerBundle&, const WorkerBundle&) = default;
+};
+
+/// Those of this version, one an architecture: in the folder that SWARMSMITH_BUNDLES names, else in
+/// ../bundle (of a build) or ../share/swarmsmith, seen from the folder of this program. Errors:
+/// there is none, an archive is damaged, or xz is missing.
+Expected<std::vector<WorkerBundle>> find_bundles();
+
+/// Exit code of `start_words`: the cache has no bundle for that host.
+constexpr int kNotInCache = 91;
+
+/// The words that start the worker of the bundle that a host needs, from its cache
+/// (~/.cache/swarmsmith, or in XDG_CACHE_HOME), or from `cache`. If it is not there they write one
+/// line, which ends with the host's architecture, and end with kNotInCache.
+std::vector<std::string> start_words(const std::vector<WorkerBundle>& bundles,
+                                     const std::filesystem::path& cache,
+                                     const std::vector<std::string>& arguments);
+
+/// A line for /bin/sh that sends a bundle to `install_words`, which `way` (such as ssh and a host)
+/// takes to where they run; empty: here. Installed is what has arrived as a whole, or nothing: its
+/// files are checked, and then appear at once. So others may do the same at the same time. Writes
+/// the path of the cache, or one line why not.
+std::string send_line(const WorkerBundle& bundle, const std::vector<std::string>& way);
+
+/// Does so on this host, if it is not there yet. Returns the cache.
+Expected<std::filesystem::path> install_here(const WorkerBundle& bundle);
+
+}  // namespace swarmsmith
