@@ -297,7 +297,7 @@ def build(bin_folder, site):
         stage.write_pages()
         (work / "mkdocs.yml").write_text(
             f"INHERIT: {HERE / 'mkdocs.yml'}\ndocs_dir: {stage.folder}\nsite_dir: {work / 'site'}\n"
-            f"theme: {{custom_dir: {HERE / 'theme'}}}\nnav: {yaml_of(stage.navigation())}\n")
+            f"theme: {{custom_dir: {HERE / 'theme'}}}\ncopyright: Swarmsmith {programs.version(bin_folder)}\nnav: {yaml_of(stage.navigation())}\n")
         done = subprocess.run(["mkdocs", "build", "-f", work / "mkdocs.yml"], capture_output=True, text=True)
         if done.returncode != 0:
             raise SystemExit(done.stdout + done.stderr)

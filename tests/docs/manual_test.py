@@ -82,6 +82,10 @@ class Manual(unittest.TestCase):
             place = path.relative_to(SOURCE / "docs").with_suffix(".html").as_posix().replace("README", "index")
             self.assertTrue((self.site / place).is_file(), place)
 
+    def test_every_page_names_the_version(self):
+        for path in self.site.rglob("*.html"):
+            self.assertIn(f"Swarmsmith {programs.version(BIN)}", path.read_text(), path)
+
     def test_every_command_and_option_is_in_it(self):
         for program in programs.built(BIN):
             tells = programs.declared(BIN, program)
