@@ -118,7 +118,7 @@ class Offers(CompletionTest):
         self.assertIn("d1\taggregation, wander", self.said("swarmsmith", "--complete", "figure", "box", "first.db", "--design", ""))
 
     def test_of_stores_and_what_is_built_in_by_every_program(self):
-        wanted = {"DESIGN": "d1", "CANDIDATE": "c1000001", "MISSION": "aggregation", "PROFILE": "rvr", "FLAVOUR": "watermelon"}
+        wanted = {"DESIGN": "d1", "MISSION": "aggregation", "PROFILE": "rvr", "FLAVOUR": "watermelon"}
         asked = set()
         for program in programs.built(BIN):
             for command in programs.declared(BIN, program)["commands"]:
