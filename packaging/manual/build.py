@@ -87,6 +87,10 @@ def converted(text, relink):
     return "\n".join(lines)
 
 
+def title_of(text):
+    return re.sub(r"[`*]", "", re.search(r"^# (.*?)(?: \{#.*\})?$", text, re.M)[1])
+
+
 class Stage:
     """A folder with the pages as mkdocs wants them."""
 
@@ -95,7 +99,7 @@ class Stage:
         self.pages = {f"docs/{path.relative_to(SOURCE / 'docs').as_posix()}":
                       path.relative_to(SOURCE / "docs").as_posix() for path in sorted((SOURCE / "docs").rglob("*.md"))}
         self.pages.update(MOVED)
-        self.titles = {}
+        self.titles = {place: title_of((SOURCE / page).read_text()) for page, place in self.pages.items()}
         self.made = []
         self.made_after = {}  # by the page that they stand behind
 
@@ -125,14 +129,15 @@ class Stage:
             if place is None:  # a folder of the repository, which the manual does not have
                 return text
             new = os.path.relpath(place, here or ".") + (f"#{anchor}" if anchor else "")
+            if re.fullmatch(r"[\w/.-]+\.md", text):  # a file's name says less than the page's title
+                text = self.titles[place]
             return f"{picture}[{text}]({new}{title})"
         return changed
 
     def write(self, place, text):
         (self.folder / place).parent.mkdir(parents=True, exist_ok=True)
         (self.folder / place).write_text(text)
-        title = re.search(r"^# (.*?)(?: \{#.*\})?$", text, re.M)
-        self.titles[place] = re.sub(r"[`*]", "", title[1]) if title else place
+        self.titles[place] = title_of(text)
 
     def write_pages(self):
         for page, place in self.pages.items():
@@ -297,7 +302,7 @@ def build(bin_folder, site):
         stage.write_pages()
         (work / "mkdocs.yml").write_text(
             f"INHERIT: {HERE / 'mkdocs.yml'}\ndocs_dir: {stage.folder}\nsite_dir: {work / 'site'}\n"
-            f"theme: {{custom_dir: {HERE / 'theme'}}}\nnav: {yaml_of(stage.navigation())}\n")
+            f"theme: {{custom_dir: {HERE / 'theme'}}}\ncopyright: Swarmsmith {programs.version(bin_folder)}\nnav: {yaml_of(stage.navigation())}\n")
         done = subprocess.run(["mkdocs", "build", "-f", work / "mkdocs.yml"], capture_output=True, text=True)
         if done.returncode != 0:
             raise SystemExit(done.stdout + done.stderr)

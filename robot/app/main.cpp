@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/completion/offer_stored.h"
 #include "robot/app/commands.h"
 
 int main(int argc, char** argv) {
@@ -9,7 +10,8 @@ int main(int argc, char** argv) {
   Output output = standard_output();
   const Program program{"swarmsmith robot",
                         "Runs machines on real robots, or in a simulated world.", robot_commands(),
-                        "docs/robot-runtime.md leads from a flashed computer to a first run."};
+                        "docs/robot-runtime.md leads from a flashed computer to a first run.",
+                        offer_stored};
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const ExitCode code = run_program(program, arguments, output);

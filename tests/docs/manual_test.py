@@ -82,6 +82,14 @@ class Manual(unittest.TestCase):
             place = path.relative_to(SOURCE / "docs").with_suffix(".html").as_posix().replace("README", "index")
             self.assertTrue((self.site / place).is_file(), place)
 
+    def test_every_page_names_the_version(self):
+        for path in self.site.rglob("*.html"):
+            self.assertIn(f"Swarmsmith {programs.version(BIN)}", path.read_text(), path)
+
+    def test_links_to_pages_have_their_titles(self):
+        for path in self.site.rglob("*.html"):
+            self.assertEqual(re.findall(r"<a [^>]*>[\w/.-]+\.md</a>", path.read_text()), [], path)
+
     def test_every_command_and_option_is_in_it(self):
         for program in programs.built(BIN):
             tells = programs.declared(BIN, program)
@@ -116,13 +124,21 @@ class Manual(unittest.TestCase):
             self.shot(page, name)
             self.assertEqual(page.js("[...document.images].filter(i => i.loading !== 'lazy' && !i.naturalWidth)"
                                      ".map(i => i.src)"), [])
-        page.media(dark=True)
+        page.open((self.site / "campaign-file.html").as_uri())
+        self.shot(page, "campaign-file")
+        self.assertEqual(page.js("[...document.querySelectorAll('td:first-child code')].filter(c => c.getClientRects().length > 1)"
+                                 ".map(c => c.textContent)"), [], "keys are in one piece")
         page.viewport(390, 844)
         page.open((self.site / "tutorial-paper.html").as_uri())
         self.shot(page, "phone")
         self.assertLessEqual(page.js("document.documentElement.scrollWidth"), 390)
         self.assertEqual(page.errors(), [])
         self.assertEqual(page.hosts(), set())
+        page = chromium.page()
+        page.media(dark=True)
+        page.open((self.site / "index.html").as_uri())
+        self.shot(page, "dark")
+        self.assertEqual(page.js("document.body.dataset.mdColorScheme"), "slate")
 
     def search(self, page, word, found):
         """Types a word into the search as a person does, and finds a page."""

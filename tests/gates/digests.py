@@ -33,12 +33,14 @@ def output_of(*command):
 
 
 def commands():
-    """The words of each unit's command, from the compiler to its last option: no launcher, input and output."""
+    """The words of each unit's command, from the compiler to its last option: no launcher, input and output, and not
+    where the clone is."""
     found = {}
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
         words = shlex.split(entry["command"])
         first = next(i for i, word in enumerate(words) if word.startswith("-"))
-        found[entry["file"]] = words[first - 1:words.index("-o")]
+        found[entry["file"]] = [word for word in words[first - 1:words.index("-o")]
+                                if not word.startswith("-ffile-prefix-map=")]
     return found
 
 

@@ -26,7 +26,8 @@ packages_for() {
   case $1 in
     format) install_missing "${lint_packages[@]}" ;;
     test | tsan) install_test_packages ;;
-    long) install_test_packages; install_for_tests "${r_packages[@]}" "${snippet_packages[@]}" "${aarch64_packages[@]}" ;;
+    long) install_test_packages; install_for_tests "${r_packages[@]}" "${snippet_packages[@]}" "${aarch64_packages[@]}" \
+      "${package_packages[@]}" "${bare_packages[@]}" ;;
     asan) install_test_packages; install_missing "${lint_packages[@]}" ;;
     *) install_missing "${build_packages[@]}" "${test_packages[@]}" "${lint_packages[@]}" ;;
   esac

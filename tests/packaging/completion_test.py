@@ -117,6 +117,21 @@ class Offers(CompletionTest):
         self.assertEqual(self.offered("compare", "--method", ""), [])  # of several stores, none
         self.assertIn("d1\taggregation, wander", self.said("swarmsmith", "--complete", "figure", "box", "first.db", "--design", ""))
 
+    def test_of_stores_and_what_is_built_in_by_every_program(self):
+        wanted = {"DESIGN": "d1", "MISSION": "aggregation", "PROFILE": "rvr", "FLAVOUR": "watermelon"}
+        asked = set()
+        for program in programs.built(BIN):
+            for command in programs.declared(BIN, program)["commands"]:
+                for option in programs.options_of(command):
+                    for kind in set(option["value"].split("|")) & set(wanted):
+                        words = (*command["name"].split(), option["names"][-1])
+                        offered = self.offered(*words, "", program=program, SWARMSMITH_STORE="first.db")
+                        self.assertIn(wanted[kind], offered, (program, *words))
+                        asked.add((program, kind))
+        for program in ("swarmsmith", "swarmsmith-robot"):
+            for kind in ("DESIGN", "MISSION", "FLAVOUR"):
+                self.assertIn((program, kind), asked)
+
     def test_nothing_of_a_store_that_cannot_be_read(self):
         for store in ("damaged.db", "gone.db", "campaign.toml", "runs"):
             self.assertEqual(self.offered("figure", "box", "--store", store, "--design", ""), [], store)
@@ -139,12 +154,12 @@ class Shells(CompletionTest):
         if not shutil.which("bash"):
             self.skipTest("bash is not there")
 
-        def completed(*words):
+        def completed(*words, program="swarmsmith", **environment):
             quoted = " ".join(f"'{word}'" for word in words)
-            script = (f"source {self.prefix}/share/bash-completion/completions/swarmsmith; COMP_WORDS=(swarmsmith {quoted}); "
+            script = (f"source {self.prefix}/share/bash-completion/completions/{program}; COMP_WORDS=({program} {quoted}); "
                       f"COMP_CWORD={len(words)}; _swarmsmith_complete; printf '%s\\n' \"${{COMPREPLY[@]}}\"; "
-                      "complete -p swarmsmith >/dev/null")
-            return self.said("bash", "-c", script).split("\n")[:-1]
+                      f"complete -p {program} >/dev/null")
+            return self.said("bash", "-c", script, **environment).split("\n")[:-1]
         self.check(completed)
         self.assertEqual(completed("compare", "--by", "=", "me"), ["method"])
 
@@ -152,23 +167,24 @@ class Shells(CompletionTest):
         if not shutil.which("zsh"):
             self.skipTest("zsh is not there")
 
-        def completed(*words):
-            # A shell in a pseudo-terminal, which types the words and Tab, and shows the list.
+        def completed(*words, program="swarmsmith", **environment):
+            # A shell in a pseudo-terminal, which types the words and Tab, and shows the list. It is ready when its line
+            # editor is: before, the terminal itself takes ^U for "forget what was typed".
             script = f"""
 zmodload zsh/zpty
 zpty shell "cd {self.folder}; PATH=$PATH zsh -f -i"
 zpty -w shell 'PS1=; PROMPT=; fpath=({self.prefix}/share/zsh/vendor-completions $fpath); autoload -Uz compinit; compinit -u -d {self.folder}/.zcompdump'
 zpty -w shell 'bindkey "^I" complete-word; zstyle ":completion:*" list-prompt ""; zstyle ":completion:*" list-rows-first true; LISTMAX=10000; setopt no_list_beep'
 zpty -w shell 'compadd () {{ builtin compadd -O shown_words "$@"; print -rl -- "<" "${{shown_words[@]}}" ">" >> {self.folder}/zsh.out; builtin compadd "$@" }}'
-zpty -w shell 'echo re""ady'
+zpty -w shell 'zle-line-init () {{ print re""ady }}; zle -N zle-line-init'
 zpty -r shell got '*ready*'
-zpty -w -n shell 'swarmsmith {" ".join(words)}'$'\\t'
+zpty -w -n shell '{program} {" ".join(words)}'$'\\t'
 zpty -w -n shell $'\\x15echo do""ne\\n'
 zpty -r shell got '*done*'
 zpty -d shell
 """
             (self.folder / "zsh.out").unlink(missing_ok=True)
-            self.said("zsh", "-f", "-c", script)
+            self.said("zsh", "-f", "-c", script, **environment)
             text = (self.folder / "zsh.out").read_text() if (self.folder / "zsh.out").exists() else ""
             # What it asked about twice is listed once.
             return list(dict.fromkeys(line for line in text.split("\n") if line not in ("<", ">", "")))
@@ -178,10 +194,10 @@ zpty -d shell
         if not shutil.which("fish"):
             self.skipTest("fish is not there")
 
-        def completed(*words):
-            line = " ".join(["swarmsmith", *words])
-            done = self.said("fish", "--no-config", "-c",
-                             f"source {self.prefix}/share/fish/vendor_completions.d/swarmsmith.fish; complete -C '{line}'")
+        def completed(*words, program="swarmsmith", **environment):
+            line = " ".join([program, *words])
+            done = self.said("fish", "--no-config", "-c", f"source {self.prefix}/share/fish/vendor_completions.d/{program}.fish; "
+                             f"complete -C '{line}'", **environment)
             return [row.split("\t")[0] for row in done.splitlines()]
         self.check(completed)
 
@@ -194,6 +210,9 @@ zpty -d shell
         self.assertEqual(completed("status", "fi"), ["first.db"])
         self.assertEqual([word.rstrip("/") for word in completed("supplement", "-o", "r")], ["runs"])
         self.assertEqual(completed("run", "camp"), ["campaign.toml"])
+        robot = {"program": "swarmsmith-robot", "SWARMSMITH_STORE": "first.db"}
+        self.assertEqual(completed("start", "--design", "d", **robot), ["d1"])
+        self.assertEqual(completed("world", "--mission", "ag", **robot), ["aggregation"])
 
     def test_every_program_has_a_script_for_each_shell(self):
         for place in completion.PLACES.values():
