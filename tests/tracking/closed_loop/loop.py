@@ -50,13 +50,14 @@ def clip_of(folder, stem):
 
 
 class Lab:
-    """A filmed laboratory with the calibrations that the program made of its clips."""
+    """A filmed laboratory with the calibrations that the program made of its clips. One that is there is taken."""
 
     def __init__(self, programs, folder, *wishes):
         self.programs = programs
         self.folder = pathlib.Path(folder)
         self.arena = self.folder / "arena.toml"
-        programs.call("film", "film", "lab", self.folder, *wishes)
+        if not (self.folder / "truth.json").exists():
+            programs.call("film", "film", "lab", self.folder, *wishes)
         self.truth = json.loads((self.folder / "truth.json").read_text())
 
     def calibrate(self):
