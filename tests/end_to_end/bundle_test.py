@@ -80,6 +80,7 @@ class Bundle(ProgramTest):
         shutil.copy(keys / "worker.key", root)
         (root / "etc").mkdir()
         (root / "etc/hosts").write_text("127.0.0.1 coordinator.example\n")
+        (root / "etc/ld.so.preload").write_text("/of/another/libc.so\n")
         store = self.folder / "empty.db"
         coordinator, port = serve(self, store, "--keys", keys)
         worker = robots.Process(self, in_root(
@@ -92,6 +93,7 @@ class Bundle(ProgramTest):
         self.assertEqual((process / "comm").read_text(), "swarmsmith-work\n")
         self.assertEqual(coordinator.end(), 0, coordinator.said() + worker.said())
         self.assertEqual(worker.end(), 0, worker.said())
+        self.assertNotIn("ld.so", worker.said())
         self.assertEqual(sorted(entry.name for entry in root.iterdir()), ["bundle", "etc", "worker.key"])
         local = self.folder / "local.db"
         done = self.run_campaign(local, "--workers", "2")

@@ -1,10 +1,12 @@
 """What takes Slurm minutes: a dead node and its requeue, jobs that are preempted, a coordinator
-that is a job itself."""
+that is a job itself, workers that are sent along."""
 import os
 import pathlib
+import subprocess
 import unittest
 
 from campaigns import SWARMSMITH, SlurmTest, wait_for
+import bundle_test
 
 EXAMPLES = pathlib.Path(os.environ.get("SWARMSMITH_SOURCE", ".")) / "examples/cluster"
 
@@ -50,6 +52,29 @@ class Preempted(SlurmTest):
         self.finish(process)
         rows = self.query(self.store, "select state, count(*) as n from worker group by state")
         self.assertNotIn("lost", {row["state"] for row in rows}, rows)
+
+
+class SentAlong(SlurmTest):
+    budget = 1500
+    repetitions = 1
+    nodes = 1
+    duration_s = 20
+
+    def test_workers_are_sent_along(self):
+        if why := bundle_test.why_not():
+            self.skipTest(why)
+        bundles, cache = self.folder / "the bundles", self.folder / "a cache"
+        bundle_test.pack(bundles)
+        self.slurm.environment |= {"SWARMSMITH_BUNDLES": str(bundles), "XDG_CACHE_HOME": str(cache)}
+        self.finish(self.run_on_slurm("--ship", workers="slurm:2x1"))
+        place, = (cache / "swarmsmith").iterdir()
+        script = (self.folder / "a store.db.slurm/worker.sh").read_text()
+        self.assertIn(place.name, script)
+        self.assertNotIn(str(pathlib.Path(SWARMSMITH).parent), script)
+        # A node that does not see the cache says so.
+        place.rename(self.folder / "elsewhere")
+        done = subprocess.run(["sh", self.folder / "a store.db.slurm/worker.sh"], capture_output=True, text=True, timeout=60)
+        self.assertIn(f"{place.parent} on {os.uname().nodename} has no worker for {os.uname().machine}", done.stderr)
 
 
 class CoordinatorAsAJob(SlurmTest):

@@ -1,12 +1,9 @@
 """A campaign on a real Slurm of four nodes gives the answer of a laptop, whatever happens."""
-import os
-import pathlib
 import signal
 import subprocess
 import unittest
 
 from campaigns import PATIENCE, SWARMSMITH, SlurmTest, send, wait_for
-import bundle_test
 
 
 class Campaign(SlurmTest):
@@ -56,29 +53,6 @@ class Campaign(SlurmTest):
     def workers_by_state(self):
         rows = self.query(self.store, "select state, count(*) as n from worker group by state")
         return {row["state"]: row["n"] for row in rows}
-
-
-class SentAlong(SlurmTest):
-    budget = 1500
-    repetitions = 1
-    nodes = 1
-    duration_s = 60
-
-    def test_workers_are_sent_along(self):
-        if why := bundle_test.why_not():
-            self.skipTest(why)
-        bundles, cache = self.folder / "the bundles", self.folder / "a cache"
-        bundle_test.pack(bundles)
-        self.slurm.environment |= {"SWARMSMITH_BUNDLES": str(bundles), "XDG_CACHE_HOME": str(cache)}
-        self.finish(self.run_on_slurm("--ship", workers="slurm:2x1"))
-        place, = (cache / "swarmsmith").iterdir()
-        script = (self.folder / "a store.db.slurm/worker.sh").read_text()
-        self.assertIn(place.name, script)
-        self.assertNotIn(str(pathlib.Path(SWARMSMITH).parent), script)
-        # A node that does not see the cache says so.
-        place.rename(self.folder / "elsewhere")
-        done = subprocess.run(["sh", self.folder / "a store.db.slurm/worker.sh"], capture_output=True, text=True, timeout=60)
-        self.assertIn(f"{place.parent} on {os.uname().nodename} has no worker for {os.uname().machine}", done.stderr)
 
 
 class Refusals(SlurmTest):

@@ -67,6 +67,18 @@ TEST(ChildProcess, IsKilledWhenItDoesNotEndInTime) {
   EXPECT_EQ(kill(pid, 0), -1);
 }
 
+TEST(ChildProcess, IsKilledWithThoseThatItStarted) {
+  ChildProcess child;
+  ASSERT_TRUE(child.start({"sh", "-c", "sleep 1000 | sleep 1000"}, Streams::Held));
+  const pid_t group = child.pid();
+  child.finish_by({});
+  const TimePoint until = SystemClock().now() + seconds(60);
+  while (kill(-group, 0) == 0 && SystemClock().now() < until)
+    std::this_thread::yield();
+  EXPECT_EQ(kill(-group, 0), -1);
+  kill(-group, SIGKILL);
+}
+
 TEST(ChildProcess, ThatCannotBeStartedSaysWhy) {
   ChildProcess child;
   const auto started = child.start({"/nonexistent/program"}, Streams::Held);

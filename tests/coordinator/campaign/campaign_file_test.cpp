@@ -40,7 +40,8 @@ TEST(CampaignFile, ReadsWhoStartsWorkers) {
   const FileText plain;
   FileText file;
   file.rest =
-      "[workers]\nlauncher = \"slurm\"\n[workers.slurm]\njobs = 16\ncpus_per_task = 64\n"
+      "[workers]\nlauncher = \"slurm\"\nship = true\n[workers.slurm]\njobs = 16\ncpus_per_task = "
+      "64\n"
       "time = \"8:00:00\"\npartition = \"long\"\noptions = [\"--account=x\"]\n"
       "[workers.ssh]\nhosts = \"hosts\"\noptions = [\"-F\", \"c\"]\n";
   const Campaign campaign = parsed(file.text());
@@ -50,7 +51,8 @@ TEST(CampaignFile, ReadsWhoStartsWorkers) {
                                                       .cpus_per_task = 64,
                                                       .time = "8:00:00",
                                                       .partition = "long",
-                                                      .options = {"--account=x"}}}));
+                                                      .options = {"--account=x"}},
+                                            .ship = true}));
   EXPECT_EQ(parsed(plain.text()).launch, LaunchOptions{});
   EXPECT_EQ(campaign_digest(campaign), campaign_digest(parsed(plain.text())));
 }
