@@ -46,12 +46,13 @@ function(swarmsmith_program name)
     swarmsmith_exact_arithmetic)
 endfunction()
 
-# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end SOURCES ... USES ...)
+# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] SOURCES ... USES ...)
 #
-# One test program a folder; each of its tests is a ctest of its own, so that they run in parallel (not under a
-# sanitizer).
+# One test program a folder; each of its tests is a ctest of its own, so that they run in parallel. WHOLE, and all under
+# a sanitizer: one ctest for the program, because to start it takes longer than most of its tests. A program that loads
+# OpenCV's imgcodecs or videoio takes 0.2 to 0.3 s of processor.
 function(swarmsmith_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;USES")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -69,11 +70,48 @@ function(swarmsmith_test name)
     SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   if(SWARMSMITH_SANITIZE)
     target_compile_definitions(${target} PRIVATE SWARMSMITH_SANITIZED)
-    # All of a program at once: to start it takes longer than most of its tests.
+  endif()
+  if(SWARMSMITH_SANITIZE OR arg_WHOLE)
     add_test(NAME ${name} COMMAND ${target})
-    set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT 3600)
+    set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT 3600 COST 100)
     return()
   endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${limit})
+endfunction()
+
+# swarmsmith_script_test(ROOM.FILE TIMEOUT s [LABEL label] [LONG] [PROCESSORS n] [ORDINARY test...]
+#                        [ENVIRONMENT name=value...])
+#
+# FILE_test.py of this folder, with the real programs. LONG: only by `./dev test --long`. ORDINARY: these of its classes
+# and tests run each time, and all of them as ROOM.FILE_wide, which is long. COST: ctest begins with the longest, and the
+# short ones fill the cores at the end.
+function(swarmsmith_script_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "TIMEOUT;LABEL;PROCESSORS" "ORDINARY;ENVIRONMENT")
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  math(EXPR limit "${arg_TIMEOUT} * ${SWARMSMITH_PATIENCE}")
+  string(REGEX REPLACE "^.*\\." "" file ${name})
+  if(NOT arg_LABEL)
+    set(arg_LABEL end_to_end)
+  endif()
+  if(NOT arg_PROCESSORS)
+    set(arg_PROCESSORS 1)
+  endif()
+  set(runs ${name})
+  if(arg_ORDINARY)
+    list(APPEND runs ${name}_wide)
+  endif()
+  foreach(run IN LISTS runs)
+    set(words ${arg_ORDINARY})
+    set(label ${arg_LABEL})
+    if(arg_LONG OR NOT run STREQUAL name)
+      set(words)
+      list(APPEND label long)
+    endif()
+    add_test(NAME ${run}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/${file}_test.py -v ${words})
+    set_tests_properties(${run} PROPERTIES LABELS "${label}" TIMEOUT ${limit} COST ${arg_TIMEOUT}
+      PROCESSORS ${arg_PROCESSORS} SKIP_REGULAR_EXPRESSION "OK \\(skipped="
+      ENVIRONMENT "SWARMSMITH_BIN=${CMAKE_BINARY_DIR}/bin;PYTHONDONTWRITEBYTECODE=1;SWARMSMITH_PATIENCE=${SWARMSMITH_PATIENCE};SWARMSMITH_SOURCE=${PROJECT_SOURCE_DIR};${arg_ENVIRONMENT}")
+  endforeach()
 endfunction()

@@ -96,5 +96,4 @@ class Python(Snippets):
 
 
 if __name__ == "__main__":
-    language = {"r": "R", "python": "Python"}[sys.argv.pop()]
-    unittest.main(argv=[*sys.argv, language])
+    unittest.main()

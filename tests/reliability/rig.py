@@ -30,14 +30,15 @@ MARK = "SWARMSMITH_TEST_MARK"
 
 
 def wait_for(condition, what, seconds=60, pause=0.02):
-    """Polls until `condition()` is true and returns it; an AssertionError names what never came."""
+    """Polls until `condition()` is true and returns it; an AssertionError names what never came: `what`, or what
+    it returns then."""
     limit = time.monotonic() + seconds * PATIENCE
     while True:
         value = condition()
         if value:
             return value
         if time.monotonic() > limit:
-            raise AssertionError(f"waited {seconds} s in vain: {what}")
+            raise AssertionError(f"waited {seconds} s in vain: {what() if callable(what) else what}")
         time.sleep(pause)
 
 
@@ -98,6 +99,14 @@ class Program:
 
     def alive(self):
         return self.process.poll() is None
+
+    def state(self):
+        """What the kernel tells of it: running, sleeping, and in what."""
+        folder = pathlib.Path(f"/proc/{self.pid}")
+        with contextlib.suppress(OSError):
+            state = (folder / "stat").read_text().rpartition(")")[2].split()[0]
+            return f"{state}, in {(folder / 'wchan').read_text()}"
+        return "gone"
 
     def send(self, what):
         if self.alive():
@@ -188,7 +197,8 @@ class FaultTest(unittest.TestCase):
         it = self.start("serve", SWARMSMITH, "serve", self.file, "--store", self.store, "--json",
                         "--bind", bind, *arguments, env=env, prefix=prefix, kind=Coordinator)
         if wait:
-            wait_for(lambda: it.address() or not it.alive(), "a coordinator that listens")
+            wait_for(lambda: it.address() or not it.alive(),
+                     lambda: f"a coordinator that listens; {it.state()}:\n{it.tail()}")
             self.assertTrue(it.alive(), it.tail())
         return it
 
