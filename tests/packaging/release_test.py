@@ -160,10 +160,17 @@ class Release(unittest.TestCase):
         self.assertEqual(self.git("log", "-1", "--format=%s"), "Break it")
         self.assertEqual(self.git("tag"), "v0.1.0")
         self.assertEqual(self.git("status", "--porcelain"), "")
-        (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format("\n- It works.\n"))
-        self.commit("Mend it")
-        done = self.release("0.2.0")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        # The same command begins anew, whatever became of the folder of the run that failed.
+        work = self.clone / "build/release/work"
+        for number, spoil in enumerate((lambda: None, lambda: shutil.rmtree(work), lambda: (work / ".git").unlink()), 2):
+            (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format("\n- It breaks.\n"))
+            self.commit("Break it")
+            self.assertNotEqual(self.release(f"0.{number}.0").returncode, 0)
+            spoil()
+            (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format("\n- It works.\n"))
+            self.commit("Mend it")
+            done = self.release(f"0.{number}.0")
+            self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Changelog(unittest.TestCase):
