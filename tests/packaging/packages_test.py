@@ -154,7 +154,7 @@ def older(packages, folder):
                                   flags=re.M))
         name = path.name.split("_")[0]
         (tree / "usr/share/doc" / name / "gone").write_text("x\n")
-        run("dpkg-deb", "--root-owner-group", "-b", tree, folder / re.sub("_.*_", "_0.0.1_", path.name))
+        run("dpkg-deb", "--root-owner-group", "-Znone", "-b", tree, folder / re.sub("_.*_", "_0.0.1_", path.name))
         shutil.rmtree(tree)
 
 
