@@ -1,5 +1,6 @@
 """Reference pages have all that the programs know, and nothing else: docs/campaign-file.md with methods.md and
-profiles.md the keys of campaign files, docs/http-api.md the paths and parameters of the dashboard."""
+profiles.md the keys of campaign files, docs/http-api.md the paths and parameters of the dashboard, docs/storage.md the
+schema and its views."""
 import collections
 import os
 import pathlib
@@ -336,6 +337,29 @@ class Http(unittest.TestCase):
         self.assertGreater(len(in_paths), 8)
         self.assertLessEqual(in_paths, asked | {"design", "by", "purpose", "per"})
         self.assertLessEqual(asked, in_paths | names_in(self.text))
+
+
+class Storage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.text = (SOURCE / "docs/storage.md").read_text()
+
+    def test_the_schema_is_the_present_one(self):
+        version = re.search(r"kSchemaVersion = (\d+);", (SOURCE / "storage/internal/schema.h").read_text())[1]
+        self.assertEqual(re.search(r"`PRAGMA user_version`, now (\d+)", self.text)[1], version)
+        self.assertEqual(re.search(r"^\| schema \| brought \|\n.*\n\| (\d+) \|", self.text, re.M)[1], version)
+
+    def test_every_column_of_every_view_is_on_the_page(self):
+        listed = re.search(r"kColumns\{(.*?)^\};", (SOURCE / "tests/storage/views_test.cpp").read_text(), re.S | re.M)[1]
+        sections = re.split(r"^###+ ", re.search(r"^## Views\n(.*?)^## ", self.text, re.S | re.M)[1], flags=re.M)
+        missing = {}
+        views = re.findall(r'\{"(v_\w+)",([^}]*)\}', listed)
+        self.assertGreater(len(views), 30)
+        for view, columns in views:
+            told = " ".join(section for section in sections if re.search(rf"\b{view}\b", section))
+            lacks = [column for column in re.findall(r"\w+", columns) if not re.search(rf"\b{column}\b", told)]
+            missing.update({view: lacks} if lacks else {})
+        self.assertEqual(missing, {})
 
 
 if __name__ == "__main__":
