@@ -46,6 +46,24 @@ function(swarmsmith_program name)
     swarmsmith_exact_arithmetic)
 endfunction()
 
+# swarmsmith_precompile(TARGET): what nearly all tests include is compiled once for all test programs. Not for ccache, which
+# could keep nothing then, and not for the compilers of the gates.
+function(swarmsmith_precompile target)
+  if(SWARMSMITH_SANITIZE OR CMAKE_CXX_COMPILER_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  set(common swarmsmith_test_headers)
+  if(NOT TARGET ${common})
+    file(WRITE ${PROJECT_BINARY_DIR}/${common}.cpp "")
+    add_library(${common} OBJECT ${PROJECT_BINARY_DIR}/${common}.cpp)
+    target_link_libraries(${common} PRIVATE GTest::gmock swarmsmith_warnings swarmsmith_exact_arithmetic)
+    target_compile_options(${common} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_precompile_headers(${common} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <filesystem>
+      <fstream> <functional> <map> <optional> <set> <string> <vector>)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${common})
+endfunction()
+
 # swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] SOURCES ... USES ...)
 #
 # One test program a folder; each of its tests is a ctest of its own, so that they run in parallel. WHOLE, and all under
@@ -64,6 +82,7 @@ function(swarmsmith_test name)
     swarmsmith_warnings swarmsmith_exact_arithmetic)
   # The code under test is optimised; its tests compile in two thirds of the time.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  swarmsmith_precompile(${target})
   target_compile_definitions(${target} PRIVATE
     SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
     SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"

@@ -1,5 +1,5 @@
 """units.py FILE...: which sources of a target are compiled in which unit, a line FILE=UNIT each: at most
-eight in one, and never two with the same name in an unnamed namespace. A file with all names of an enumeration
+sixteen in one, and never two with the same name in an unnamed namespace. A file with all names of an enumeration
 (`using enum`) is alone."""
 import re
 import sys
@@ -11,7 +11,7 @@ NAME = re.compile(
     r"(?!namespace|using|template|struct|class|enum|static_assert|return|public|private|[A-Z_]+\()\w[^(={;\n]*?[ &*>])(?P<name>\w+)"
     r"(?=[({=\[;]|$| [={:]| final)", re.MULTILINE)
 
-FILES_IN_A_UNIT = 8
+FILES_IN_A_UNIT = 16
 FULL = [None] * FILES_IN_A_UNIT
 
 units = []

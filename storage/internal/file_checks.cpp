@@ -20,7 +20,7 @@ constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 constexpr std::string_view kWayOut =
     "take it from a backup, or let `swarmsmith recover` make a new store of what can be read";
 
-std::uint64_t big_endian(std::string_view header, std::size_t at, std::size_t bytes) {
+std::uint64_t number_at(std::string_view header, std::size_t at, std::size_t bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < bytes; ++i) {
     value = value << 8U | static_cast<unsigned char>(header[at + i]);
@@ -61,9 +61,9 @@ Expected<void> check_database_file(const sqlite::Connection& connection,
   if (has_pending_log(connection.file())) return {};
   // https://www.sqlite.org/fileformat2.html#the_database_header: 1 stands for 65536, and the page
   // count holds when both change counters agree.
-  const std::uint64_t page = big_endian(header, 16, 2) == 1 ? 65536 : big_endian(header, 16, 2);
-  const std::uint64_t pages = big_endian(header, 28, 4);
-  const bool count_holds = big_endian(header, 24, 4) == big_endian(header, 92, 4);
+  const std::uint64_t page = number_at(header, 16, 2) == 1 ? 65536 : number_at(header, 16, 2);
+  const std::uint64_t pages = number_at(header, 28, 4);
+  const bool count_holds = number_at(header, 24, 4) == number_at(header, 92, 4);
   if (count_holds && size < page * pages) return truncated(path, size, page * pages);
   return {};
 }

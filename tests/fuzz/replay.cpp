@@ -54,7 +54,7 @@ std::string changed(std::string text, swarmsmith::Rng& rng) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  constexpr int kChanges = 20;
+  constexpr int kChanges = 8;
   swarmsmith::Rng rng(1);
   int inputs = 0;
   for (int i = 1; i < count; ++i) {

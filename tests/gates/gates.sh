@@ -56,8 +56,8 @@ gate_tidy() {
   echo "$(wc -l <<<"$units") units" >&3
 }
 
-# Tests wait for processes much of their time: half as many again as there are cores.
-test_jobs() { echo $((jobs + (jobs + 1) / 2)); }
+# Tests wait for processes and clocks half of their time: twice as many as there are cores.
+test_jobs() { echo $((2 * jobs)); }
 
 # ctest_gate FOLDER [CTEST-ARGUMENT...]
 ctest_gate() {

@@ -145,11 +145,13 @@ HandPoint read_hand_point(TableReader& table) {
 }
 
 RobotNote read_robot_note(TableReader& table) {
-  static const std::vector<std::string> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
+  static const std::vector<std::string> names = {std::string(name_of(Verdict::Valid)),
+                                                 std::string(name_of(Verdict::Degraded)),
+                                                 std::string(name_of(Verdict::Invalid))};
   RobotNote note;
   note.robot = need_text(table, "name", "rvr1");
   note.log = table.text("log").value_or("");
-  if (const auto verdict = table.choice("verdict", kVerdicts)) {
+  if (const auto verdict = table.choice("verdict", names)) {
     note.verdict = verdict_from_name(*verdict);
   }
   note.reasons = table.texts("reasons").value_or(std::vector<std::string>());
