@@ -308,6 +308,8 @@ def build(bin_folder, site):
             raise SystemExit(done.stdout + done.stderr)
         make_search_work_from_disk(work / "site")
         name_first_page(work / "site")
+        for site_map in (work / "site").glob("sitemap.xml*"):  # for servers, and with the time of the build in it
+            site_map.unlink()
         shutil.rmtree(site, ignore_errors=True)
         shutil.copytree(work / "site", site)
 
