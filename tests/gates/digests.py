@@ -8,8 +8,9 @@ digests.py tidy UNIT          a unit's name, and the digest of its text after th
 digests.py programs NAME...   a line NAME DIGEST for each of these programs of build-asan: of the same texts and commands
                               of all units that they are made of
 digests.py tests BUILD TREE [CTEST-ARGUMENT...]
-                              a line DIGEST NAME for each test: that of its program and of tests/golden; TREE for
-                              what reads other files of the repository, or starts other programs of it
+                              a line DIGEST NAME for each test, the longest first: that of its program and of
+                              tests/golden; TREE for what reads other files of the repository, or starts other programs
+                              of it
 
 Neither comments nor the place of the clone change a digest.
 """
@@ -102,13 +103,17 @@ def programs_digests(programs):
             for program, parts in read.items()}
 
 
+def cost_of(test):
+    return next((one["value"] for one in test.get("properties", ()) if one["name"] == "COST"), 0)
+
+
 def test_lines(tree, arguments):
     tests = json.loads(output_of("ctest", "--test-dir", BUILD, "--show-only=json-v1", *arguments))["tests"]
     program_of = {test["name"]: os.path.basename(test["command"][0]) for test in tests
                   if "command" in test and os.path.dirname(test["command"][0]) == str(BUILD.absolute() / "bin")}
     digests = programs_digests(sorted(set(program_of.values())))
     golden = output_of("git", "ls-files", "-s", "tests/golden")
-    for test in tests:
+    for test in sorted(tests, key=cost_of, reverse=True):
         digest, has_paths = digests.get(program_of.get(test["name"]), ("", True))
         yield f"{tree if has_paths else digest_of(digest, golden, *test['command'])} {test['name']}"
 
