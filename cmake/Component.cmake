@@ -64,7 +64,7 @@ function(swarmsmith_precompile target)
   target_precompile_headers(${target} REUSE_FROM ${common})
 endfunction()
 
-# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] SOURCES ... USES ...)
+# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] [TIMEOUT s] SOURCES ... USES ...)
 #
 # One test program a folder; each of its tests is a ctest of its own, so that they run in parallel. WHOLE, and all under
 # a sanitizer: one ctest for the program, because to start it takes longer than most of its tests. A program that loads

@@ -16,7 +16,8 @@ namespace {
 constexpr Duration kShortLife = std::chrono::seconds(30);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
 constexpr int kRefused = 7;      // swarmsmith-worker: another build
-constexpr int kNoProgram = 127;  // the shell of that host
+constexpr int kCannotRun = 126;  // the shell of that host
+constexpr int kNoProgram = 127;  // the same
 constexpr int kSshFailed = 255;  // ssh itself
 
 bool is_sent_to(const SshWorkersOptions& options, const SshHost& host) {
@@ -50,6 +51,11 @@ std::string reason(int status, const std::string& said, bool sent) {
       return sent ? "bundle and coordinator are different builds (`./dev bundle` makes it anew)"
                   : "the worker there and the coordinator are different builds; it is not started "
                     "again";
+    case kCannotRun:
+      if (!sent) break;
+      return "the worker cannot be run there; if its folder is mounted noexec, set XDG_CACHE_HOME "
+             "there" +
+             words;
     case kNoProgram:
       if (sent) break;
       return "there is no such program there (`program=PATH` in the host file names it)" + words;
@@ -147,31 +153,32 @@ void SshWorkers::on_sent(Worker& worker, bool well, TimePoint now) {
   }
 }
 
-void SshWorkers::on_lacking(Worker& worker, TimePoint now) {
-  const std::string& said = worker.ssh.last_line();
-  const std::string architecture = said.substr(said.rfind(' ') + 1);
-  const auto bundle =
-      std::ranges::find(options_.bundles, architecture, &WorkerBundle::architecture);
-  if (bundle == options_.bundles.end()) {
-    worker.trouble = "it is of kind " + architecture + ", and there is no bundle for that in " +
-                     options_.bundles.front().archive.parent_path().string() + " (`./dev bundle`)";
-    worker.refused = true;
-  } else if (std::exchange(worker.sent, false)) {
-    worker.trouble = "the worker was sent there, and is not to be found: " + said;
+void SshWorkers::on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoint now) {
+  if (std::exchange(worker.sent, false)) {
+    worker.trouble = "the worker was sent there, and is not to be found: " + worker.ssh.last_line();
     worker.start_at = now + worker.backoff.next();
-  } else {
-    worker.trouble = "the worker is sent there";
-    worker.start_at = now;
-    const bool wait = !sent_.contains(&*bundle) && is_sent_now(&*bundle);
-    (wait ? worker.after : worker.sends) = &*bundle;
+    return;
   }
+  worker.trouble = "the worker is sent there";
+  worker.start_at = now;
+  const bool wait = !sent_.contains(&bundle) && is_sent_now(&bundle);
+  (wait ? worker.after : worker.sends) = &bundle;
 }
 
 void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   const bool ships = is_sent_to(options_, worker.host);
   if (worker.sends != nullptr) return on_sent(worker, code == 0, now);
-  if (ships && code == kNotInCache) return on_lacking(worker, now);
+  const int place = code - kNotInCache;
+  if (ships && place >= 0 && place < std::ssize(options_.bundles))
+    return on_lacking(worker, options_.bundles[static_cast<std::size_t>(place)], now);
+  if (ships && code == kNoBundle) {
+    worker.trouble = "there is no bundle for its architecture in " +
+                     options_.bundles.front().archive.parent_path().string() +
+                     " (`./dev bundle`): " + worker.ssh.last_line();
+    worker.refused = true;
+    return;
+  }
   worker.trouble = reason(status, worker.ssh.last_line(), ships);
   worker.refused = code == kRefused;
   if (now - worker.started >= kShortLife) worker.backoff.reset();

@@ -70,7 +70,7 @@ class SshWorkers final : public Launcher {
   void launch(Worker& worker, TimePoint now);
   void on_ended(Worker& worker, int status, TimePoint now);
   void on_sent(Worker& worker, bool well, TimePoint now);
-  void on_lacking(Worker& worker, TimePoint now);
+  void on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoint now);
   bool is_sent_now(const WorkerBundle* bundle) const;
 
   SshWorkersOptions options_;

@@ -20,16 +20,23 @@ constexpr const char* kPlaces[] = {"../bundle", "../share/swarmsmith"};
 
 constexpr std::string_view kCache = "${XDG_CACHE_HOME:-$HOME/.cache}/swarmsmith";
 
+/// Whether the folder $1 has all of its files as they were packed.
+constexpr std::string_view kIsWhole =
+    R"(whole() { (cd "$1" && sha256sum -c SHA256SUMS) >/dev/null 2>&1; }; )";
+
 /// $1: folder in the cache; $2: folder in the archive, which is the input. A folder that another
-/// one has put there meanwhile takes this one in.
+/// one has put there meanwhile takes this one in. Files are as old as their installation: caches
+/// are emptied by age. What a killed installation left goes after a day.
 constexpr std::string_view kInstall =
     R"(fail() { echo "$1" | head -n 1 >&2; exit 1; }; clean() { rm -rf "$t"; }; )"
     R"(e=$(mkdir -p "$c" 2>&1) || fail "$e"; cd "$c" || exit 1; )"
-    R"(if ! test -x "$1/swarmsmith-worker"; then )"
+    R"(if ! whole "$1"; then )"
+    R"(find . -maxdepth 1 -name "new.*" -mtime +0 -exec rm -rf {} + 2>/dev/null; )"
     R"(t=$(mktemp -d "$PWD/new.XXXXXX") || exit 1; )"
     R"(trap clean EXIT; trap "exit 1" HUP INT TERM; )"
-    R"(e=$(tar -xof - -C "$t" 2>&1) || fail "$e"; )"
-    R"((cd "$t/$2" && sha256sum -c SHA256SUMS) >/dev/null 2>&1 || fail "not all of it arrived"; )"
+    R"(e=$(tar -xomf - -C "$t" 2>&1) || fail "$e"; )"
+    R"(whole "$t/$2" || fail "not all of it arrived"; )"
+    R"(test ! -e "$1" || whole "$1" || rm -rf "$1"; )"
     R"(e=$(mv "$t/$2" "$1" 2>&1) || fail "$e"; rm -rf "$1/$2"; fi; pwd)";
 
 std::string line(std::string_view text) {
@@ -83,12 +90,16 @@ Expected<std::vector<WorkerBundle>> find_bundles() {
 std::vector<std::string> start_words(const std::vector<WorkerBundle>& bundles,
                                      const fs::path& cache,
                                      const std::vector<std::string>& arguments) {
-  std::string script = "c=$1; shift; c=${c:-" + std::string(kCache) + "}; case $(uname -m) in ";
-  for (const WorkerBundle& bundle : bundles)
-    script += bundle.architecture + ") w=$c/" + bundle.folder + "/swarmsmith-worker;; ";
-  script += R"(*) w=;; esac; if test -x "$w"; then exec "$w" "$@"; fi; )";
-  script += R"sh(echo "$c on $(uname -n) has no worker for $(uname -m)" >&2; exit )sh" +
-            std::to_string(kNotInCache);
+  std::string script = std::string(kIsWhole) + "c=$1; shift; c=${c:-" + std::string(kCache) +
+                       "}; case $(uname -m) in ";
+  int missing = kNotInCache;
+  for (const WorkerBundle& bundle : bundles) {
+    script += bundle.architecture + ") f=" + bundle.folder + " e=" + std::to_string(missing) + ";; ";
+    ++missing;
+  }
+  script += "*) f= e=" + std::to_string(kNoBundle) + ";; esac; ";
+  script += R"(if test -n "$f" && whole "$c/$f"; then exec "$c/$f/swarmsmith-worker" "$@"; fi; )"
+            R"sh(echo "$c on $(uname -n) has no worker for $(uname -m)" >&2; exit $e)sh";
   std::vector<std::string> words{"sh", "-c", script, "sh", cache.string()};
   std::ranges::copy(arguments, std::back_inserter(words));
   return words;
@@ -97,8 +108,9 @@ std::vector<std::string> start_words(const std::vector<WorkerBundle>& bundles,
 std::string send_line(const WorkerBundle& bundle, const std::vector<std::string>& way) {
   const std::string name = bundle.archive.stem().stem().string();
   const std::string install =
-      shell_line({"sh", "-c", "c=" + std::string(kCache) + "; " + std::string(kInstall), "sh",
-                  bundle.folder, name});
+      shell_line({"sh", "-c",
+                  std::string(kIsWhole) + "c=" + std::string(kCache) + "; " + std::string(kInstall),
+                  "sh", bundle.folder, name});
   std::vector<std::string> words = way;
   if (!way.empty()) words.push_back("exec " + install);
   return shell_line({"xz", "-dc", bundle.archive.string()}) + " | " +

@@ -24,20 +24,22 @@ struct WorkerBundle {
 /// there is none, an archive is damaged, or xz is missing.
 Expected<std::vector<WorkerBundle>> find_bundles();
 
-/// Exit code of `start_words`: the cache has no bundle for that host.
-constexpr int kNotInCache = 91;
+/// Exit codes of `start_words`: no bundle is for that host's architecture; the one that is, by its
+/// place among them, is not in the cache, or not whole.
+constexpr int kNoBundle = 90;
+constexpr int kNotInCache = 91;  ///< and the place
 
 /// The words that start the worker of the bundle that a host needs, from its cache
 /// (~/.cache/swarmsmith, or in XDG_CACHE_HOME), or from `cache`. If it is not there they write one
-/// line, which ends with the host's architecture, and end with kNotInCache.
+/// line with the host's architecture, and end with one of the codes above.
 std::vector<std::string> start_words(const std::vector<WorkerBundle>& bundles,
                                      const std::filesystem::path& cache,
                                      const std::vector<std::string>& arguments);
 
-/// A line for /bin/sh that sends a bundle to `install_words`, which `way` (such as ssh and a host)
+/// A line for /bin/sh that sends a bundle to what installs it, which `way` (such as ssh and a host)
 /// takes to where they run; empty: here. Installed is what has arrived as a whole, or nothing: its
-/// files are checked, and then appear at once. So others may do the same at the same time. Writes
-/// the path of the cache, or one line why not.
+/// files are checked, and then appear at once, in place of those of a bundle that is not whole. So
+/// others may do the same at the same time. Writes the path of the cache, or one line why not.
 std::string send_line(const WorkerBundle& bundle, const std::vector<std::string>& way);
 
 /// Does so on this host, if it is not there yet. Returns the cache.

@@ -148,7 +148,7 @@ gate_clang() { hashes_gate clang; }
 sanitizer_gate() {
   configure "build-$1" --preset "$1"
   cmake --build "build-$1" -j "$jobs"
-  tests_gate "$1" "build-$1" -LE 'long|slow'
+  tests_gate "$1" "build-$1" -LE long
 }
 gate_asan() { sanitizer_gate asan; }
 gate_tsan() { sanitizer_gate tsan; }

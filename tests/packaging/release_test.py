@@ -137,7 +137,7 @@ class Release(unittest.TestCase):
         self.git("tag", "-d", "v0.1.0")
         self.assert_refused(self.release("0.1.0"), "CHANGELOG.md has a section of 0.1.0 already")
         (self.clone / "notes.txt").write_text("x")
-        self.assert_refused(self.release("0.2.0"), "changes in none; commit them, or begin in a fresh clone: ?? notes.txt")
+        self.assert_refused(self.release("0.2.0"), "there are uncommitted changes; commit them, or start in a fresh clone: ?? notes.txt")
         (self.clone / "notes.txt").unlink()
         (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format(""))
         self.assert_refused(self.release("0.2.0"), "M CHANGELOG.md")
@@ -152,6 +152,35 @@ class Release(unittest.TestCase):
         (self.clone / "CMakeLists.txt").write_text("project(swarmsmith VERSION 0.2.0 LANGUAGES CXX)\n")
         self.commit("Version by hand")
         self.assert_refused(self.release(), "this commit is no release: CHANGELOG.md has no section of 0.2.0")
+
+    def assert_finished_by_what_it_says(self, said):
+        done = self.release("0.2.0")
+        self.assert_refused(done, said)
+        self.assertIn("swarmsmith_0.2.0_amd64.deb", self.made("0.2.0"))
+        (self.folder / ".gitconfig").write_text("[user]\nname = Anna\nemail = anna@example.org\n")
+        subprocess.run(["bash", "-ec", done.stderr.split("finish by: ")[1]], cwd=self.clone, env=self.environment, check=True,
+                       capture_output=True)
+        self.assertEqual(self.git("rev-parse", "main"), self.git("rev-parse", "v0.2.0^{commit}"))
+        self.assertEqual(self.git("log", "-1", "--format=%s", "main"), "Swarmsmith 0.2.0")
+
+    def test_goes_to_its_own_branch_alone(self):
+        (self.clone / "dev").write_text(DEV + "[ $1 != bundle ] || git -C ../../.. switch -q -c other\n")
+        self.commit("Another branch meanwhile")
+        self.assert_finished_by_what_it_says("main is no longer checked out")
+        self.assertEqual(self.git("log", "-1", "--format=%s", "other"), "Another branch meanwhile")
+
+    def test_says_how_to_finish_when_git_makes_no_tag(self):
+        (self.folder / ".gitconfig").write_text("[user]\nname = Anna\nemail = anna@example.org\n"
+                                                "[tag]\ngpgSign = true\n[gpg]\nprogram = false\n")
+        self.assert_finished_by_what_it_says("git made no tag")
+
+    def test_keeps_other_worktrees(self):
+        other = self.folder / "other"
+        self.git("worktree", "add", "-q", "-b", "other", str(other))
+        other.rename(self.folder / "away")  # as a disk that is not there
+        self.assertEqual(self.release("0.2.0").returncode, 0)
+        (self.folder / "away").rename(other)
+        self.assertEqual(self.git("branch", "--show-current", where=other), "other")
 
     def test_that_fails_leaves_the_branch_as_it_was(self):
         (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format("\n- It breaks.\n"))

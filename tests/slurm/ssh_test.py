@@ -164,7 +164,7 @@ exec xz "$@"
         cache = self.ssh.cache / "swarmsmith"
         process = self.run_by_ssh("--ship")
         wait_for(lambda: half.exists() and list(cache.glob("new.*/*/lib/libc.so.6")), "half a bundle", 30)
-        sending, = [pid for pid in processes("SHA256SUMS") if shutil.which("ssh") == os.readlink(f"/proc/{pid}/exe")]
+        sending, = [pid for pid in processes("mktemp") if shutil.which("ssh") == os.readlink(f"/proc/{pid}/exe")]
         send(sending, signal.SIGKILL)
         go_on.write_text("\n")
         wait_for(lambda: "the worker cannot be sent there" in self.said.read_text(), "a word about that")

@@ -176,6 +176,33 @@ TEST_F(Bundles, WhatIsDamagedOrFindsNoRoomIsNotThere) {
   EXPECT_THAT(cached(), IsEmpty());
 }
 
+TEST_F(Bundles, ACacheOfWhichPartsAreGoneIsFilledAgain) {
+  pack("#!/bin/sh\n");
+  const WorkerBundle bundle = the_bundle();
+  const fs::path place = cache / bundle.folder;
+  const std::string host = (folder / "host").string();
+  write("bin/uname", "#!/bin/sh\necho x86_64\n");
+  for (const char* gone : {"swarmsmith-worker", "lib/libbig.so", "lib", "SHA256SUMS", ""}) {
+    ASSERT_EQ(send(bundle).code, 0) << gone;
+    expect_installed(bundle);
+    fs::remove_all(place / gone);
+    EXPECT_EQ(run({host, shell_line(start_words({bundle}, {}, {}))}).code, kNotInCache) << gone;
+  }
+  EXPECT_EQ(send(bundle).code, 0);
+  // As old as its installation, not as its build: caches are emptied by age.
+  const auto age = fs::file_time_type::clock::now() - fs::last_write_time(place / "SHA256SUMS");
+  EXPECT_LT(age, std::chrono::hours(1));
+}
+
+TEST_F(Bundles, WhatAKilledInstallationLeftGoesLater) {
+  pack("#!/bin/sh\n");
+  fs::create_directories(cache / "new.Ab12/x");
+  fs::create_directories(cache / "new.Cd34/x");
+  shell("touch -d '2 days ago' '" + (cache / "new.Ab12").string() + "'");
+  EXPECT_EQ(send(the_bundle()).code, 0);
+  EXPECT_THAT(cached(), testing::UnorderedElementsAre(the_bundle().folder, "new.Cd34"));
+}
+
 TEST_F(Bundles, SomebodyElseMayInstallItMeanwhile) {
   pack("#!/bin/sh\n");
   const WorkerBundle bundle = the_bundle();
@@ -198,13 +225,15 @@ TEST_F(Bundles, AHostStartsWhatItNeeds) {
   for (const WorkerBundle& bundle : *bundles) {
     write("bin/uname", "#!/bin/sh\necho " + bundle.architecture + "\n");
     const Said lacking = start();
-    EXPECT_EQ(lacking.code, kNotInCache);
+    EXPECT_EQ(lacking.code, kNotInCache + (&bundle - bundles->data()));
     EXPECT_THAT(lacking.errors, EndsWith(" has no worker for " + bundle.architecture + "\n"));
     ASSERT_EQ(send(bundle).code, 0);
     EXPECT_EQ(start().output, bundle.architecture + " 2: --key it's 1\n");
   }
   write("bin/uname", "#!/bin/sh\necho riscv64\n");
-  EXPECT_THAT(start().errors, EndsWith(" has no worker for riscv64\n"));
+  const Said other = start();
+  EXPECT_EQ(other.code, kNoBundle);
+  EXPECT_THAT(other.errors, EndsWith(" has no worker for riscv64\n"));
   // From a cache that another host has filled.
   fs::remove(folder / "bin/uname");
   write("bin/uname", "#!/bin/sh\necho x86_64\n");
@@ -223,7 +252,7 @@ class ShippedBySsh : public Bundles {
   SshWorkers start(std::vector<SshHost> hosts, const std::string& script = "") {
     write("ssh",
           "#!/bin/sh\nfor word; do host=$last; last=$word; done\n"
-          "case $last in *SHA256SUMS*) sends=1;; *) sends=;; esac\n" +
+          "case $last in *mktemp*) sends=1;; *) sends=;; esac\n" +
               script + "test -n \"$sends\" && echo $host >>" + (folder / "log").string() +
               "\nexec " + (folder / "host").string() + " \"$last\"\n");
     auto bundles = find_bundles();
@@ -287,19 +316,37 @@ TEST_F(ShippedBySsh, AnotherTryIsMadeWhenSendingFails) {
   expect_installed(the_bundle());
 }
 
+TEST_F(ShippedBySsh, SshMayHaveTheLastWord) {
+  // With options such as -v.
+  SshWorkers workers =
+      start({{"a"}}, (folder / "host").string() +
+                         " \"$last\"; code=$?; echo debug1: Exit status $code >&2; exit $code\n");
+  wait_for_started(workers, 1);
+  expect_installed(the_bundle());
+}
+
+TEST_F(ShippedBySsh, AFolderThatRunsNoProgramsIsNamed) {
+  ASSERT_EQ(send(the_bundle()).code, 0);
+  fs::permissions(cache / the_bundle().folder / "swarmsmith-worker", fs::perms(0644));
+  SshWorkers workers = start({{"a"}});
+  wait_for(workers, [&](const std::string&) {
+    return workers.status().note.starts_with("a: the worker cannot be run there; if its folder is ");
+  });
+  EXPECT_EQ(log(), "") << "and it is not sent for that";
+}
+
 TEST_F(ShippedBySsh, AHostOfAnUnknownKindIsRefused) {
   write("bin/uname", "#!/bin/sh\necho riscv64\n");
   write("mine", "#!/bin/sh\nexec cat\n");
   SshWorkers workers = start({{"a"}, {.name = "b", .program = folder / "mine"}});
   wait_for(workers, [&](const std::string&) {
     return workers.status().note.starts_with(
-        "a: it is of kind riscv64, and there is no bundle for that in " +
-        (folder / "bundles").string());
+        "a: there is no bundle for its architecture in " + (folder / "bundles").string());
   });
   EXPECT_EQ(workers.status().running, 1) << "a program of its own needs no bundle";
   SshWorkers alone = start({{"a"}});
   wait_for(alone, [](const std::string& trouble) {
-    return trouble.starts_with("ssh: a: it is of kind riscv64");
+    return trouble.starts_with("ssh: a: there is no bundle for its architecture in ");
   });
   EXPECT_EQ(log(), "");
 }
@@ -310,6 +357,7 @@ TEST_F(ShippedBySsh, WhatVanishesIsNotSentInALoop) {
     return workers.status().note.starts_with(
         "a: the worker was sent there, and is not to be found");
   });
+  EXPECT_EQ(log(), "a\n");
 }
 
 }  // namespace
