@@ -246,8 +246,10 @@ class BareDebian(unittest.TestCase):
         text = (SOURCE / "docs/cluster.md").read_text()
         coordinator, worker = (block.text.replace("enable --now", "enable") for block in command_blocks.blocks_of(text)
                                if "packages_test.py" in block.reason)
-        self.root.shell(f"cd /root; cp /{EXAMPLES}/color_selection.toml thesis.toml; {coordinator}\n"
-                        f"cp /etc/swarmsmith/keys/worker.key .; {worker.replace('10.0.0.7', '127.0.0.1')}")
+        # The worker's host first: nothing of the other one is there yet, its key neither.
+        self.root.shell(f"cd /root; touch worker.key; {worker.replace('10.0.0.7', '127.0.0.1')}\n"
+                        f"cp /{EXAMPLES}/color_selection.toml thesis.toml; {coordinator}\n"
+                        "install -o swarmsmith -m 600 /etc/swarmsmith/keys/worker.key /etc/swarmsmith/worker.key")
         services = [f"/etc/systemd/system/swarmsmith-{name}.service" for name in ("coordinator", "worker")]
         self.assertNotIn("swarmsmith", self.root.call("systemd-analyze", "verify", *services))
         starts = [re.search(r"^ExecStart=(.*)$", (self.root.folder / unit[1:]).read_text(), re.M)[1] for unit in services]
