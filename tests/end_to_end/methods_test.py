@@ -6,6 +6,7 @@ generations, too.
 import random
 import signal
 import subprocess
+import time
 import unittest
 
 from programs import ProgramTest, call, children_of, send
@@ -64,12 +65,13 @@ class MethodTest(ProgramTest):
 class OneAnswer(MethodTest):
     rng = random.Random(2026)
 
-    def interrupt(self, store):
-        """Kills a worker at some moment, and then the coordinator; False if the end came first."""
+    def interrupt(self, store, seconds):
+        """Kills a worker at some moment, and then the coordinator; False if the end came first. One worker alone takes so
+        many seconds for the campaign."""
         process = self.start_campaign(store, "--workers", "2")
         for victim in ("worker", "coordinator"):
             try:
-                process.wait(timeout=self.rng.uniform(0.1, 0.4))
+                process.wait(timeout=seconds * self.rng.uniform(0.05, 0.2))
                 return False
             except subprocess.TimeoutExpired:
                 pass
@@ -83,9 +85,11 @@ class OneAnswer(MethodTest):
 
     def one_answer(self, name, keys):
         self.write(name, keys)
+        began = time.monotonic()
         digest = self.answer(self.folder / f"{name}.one.db", "--workers", "1")
+        seconds = time.monotonic() - began
         killed = self.folder / f"{name}.killed.db"
-        self.assertIn(True, [self.interrupt(killed) for _ in range(3)])
+        self.assertIn(True, [self.interrupt(killed, seconds) for _ in range(3)])
         self.assertEqual(self.answer(killed, "--workers", "3"), digest)
 
 
