@@ -50,10 +50,11 @@ class Snippets(ProgramTest):
                                   text=True, timeout=120)
             self.assertEqual(done.returncode, 0, f"{block}\n{done.stdout}{done.stderr}")
             self.assertEqual(done.stderr, "", block)
-            for mission in ("aggregation", "color_selection"):
-                self.assertIn(mission, done.stdout, block)
             printed.append(done.stdout)
         self.assertEqual(self.store.read_bytes(), before)
+        for text in printed[:2]:  # what follows is about real runs
+            self.assertIn("aggregation", text)
+            self.assertIn("color_selection", text)
         return printed
 
 
@@ -91,7 +92,7 @@ class Python(Snippets):
         scores = [row["score"] for row in self.query(
             self.store, "SELECT score FROM v_design_scores WHERE mission = 'aggregation' "
                         "ORDER BY score")]
-        row = next(line for line in printed[-1].splitlines() if line.startswith("aggregation"))
+        row = next(line for line in printed[1].splitlines() if line.startswith("aggregation"))
         self.assertEqual(float(row.split()[-3]), scores[len(scores) // 2])
 
 

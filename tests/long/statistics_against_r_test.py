@@ -26,6 +26,11 @@ name = "aggregation"
 duration = "20 s"
   [mission.instances]
   test = { count = 5 }
+[[mission]]
+name = "color_selection"
+duration = "20 s"
+  [mission.instances]
+  test = { count = 5 }
 [[method]]
 name = "two"
 flavour = "watermelon"
@@ -42,12 +47,12 @@ profile = "rvr"
 
 R_TESTS = """
 scores <- read.csv("scores.csv")
-means <- aggregate(score ~ design + method, scores, mean)
-one <- means$score[means$method == "one"]
-two <- means$score[means$method == "two"]
+means <- aggregate(score ~ design + method + mission, scores, mean)
+here <- means[means$mission == "aggregation", ]
+one <- here$score[here$method == "one"]
+two <- here$score[here$method == "two"]
 test <- suppressWarnings(wilcox.test(one, two))
-blocks <- cbind(one, two)
-friedman <- friedman.test(blocks)
+friedman <- friedman.test(tapply(means$score, list(means$mission, means$method), mean))
 cat(sprintf("%.15g\\n", c(test$statistic, test$p.value, mean(one) - mean(two), mean(outer(one, two, ">")) +
   mean(outer(one, two, "==")) / 2, sd(one), quantile(two, 0.25), friedman$statistic, friedman$p.value)), sep = "")
 """
@@ -86,7 +91,7 @@ class StatisticsAgainstR(unittest.TestCase):
         (self.folder / "c.toml").write_text(CAMPAIGN)
         program = BIN / "swarmsmith"
         run(program, "run", "c.toml", "--workers", "1", "-q", cwd=self.folder)
-        scores = run(program, "query", "c.db", "SELECT design, method, score FROM v_design_scores", "--csv",
+        scores = run(program, "query", "c.db", "SELECT design, mission, method, score FROM v_design_scores", "--csv",
                      cwd=self.folder)
         (self.folder / "scores.csv").write_text(scores)
         theirs = [float(line) for line in run("Rscript", "-e", R_TESTS, cwd=self.folder).split()]
@@ -95,8 +100,8 @@ class StatisticsAgainstR(unittest.TestCase):
             text = run(program, "compare", "c.db", "--by", "method", "--csv", "--table", name, cwd=self.folder)
             return list(csv.DictReader(io.StringIO(text)))
 
-        pair, = table("pairs")
-        groups = {group["method"]: group for group in table("groups")}
+        pair, = (pair for pair in table("pairs") if pair["mission"] == "aggregation")
+        groups = {group["method"]: group for group in table("groups") if group["mission"] == "aggregation"}
         ranks = table("ranks")
         self.assertEqual((pair["first"], pair["second"], pair["n_first"]), ("one", "two", "4"))
         ours = [pair["statistic"], pair["p"], pair["mean_difference"], pair["a12"], groups["one"]["sd"],
