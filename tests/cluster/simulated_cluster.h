@@ -208,6 +208,7 @@ class SimulatedCluster {
   void hang_up(std::size_t index);
   void cut_strangers_off();
   bool is_stranger(PeerId peer) const { return connections_.at(peer).worker == kNobody; }
+  void note_leases_of_strangers(const std::string& frame);
   void to_stranger(PeerId peer, const std::string& frame);
   Peer stranger_at(PeerId connection) const;
   Peer worker_at(PeerId connection) const;

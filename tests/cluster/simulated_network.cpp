@@ -85,6 +85,7 @@ void SimulatedCluster::to_coordinator(int index, std::string frame) {
 
 SendStatus SimulatedCluster::to_worker(PeerId peer, const std::string& frame) {
   const Connection& connection = connections_.at(peer);
+  if (connection.worker == kNobody) note_leases_of_strangers(frame);
   if (!connection.open) return SendStatus::Gone;
   if (connection.worker == kNobody) {
     to_stranger(peer, frame);

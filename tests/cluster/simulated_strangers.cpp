@@ -92,12 +92,17 @@ void SimulatedCluster::cut_strangers_off() {
   }
 }
 
-void SimulatedCluster::to_stranger(PeerId peer, const std::string& frame) {
+/// Also of what never arrives, since its connection is closed: the lease is its principal's until
+/// the coordinator knows that, and another stranger of the same one may answer it by a guess.
+void SimulatedCluster::note_leases_of_strangers(const std::string& frame) {
   google::protobuf::Arena arena;
   if (const auto message = decode_to_worker(frame, arena); message && (*message)->has_tasks()) {
     for (const pb::Task& task : (*message)->tasks().tasks())
       leased_to_strangers_.insert(*pack(task.key()));
   }
+}
+
+void SimulatedCluster::to_stranger(PeerId peer, const std::string& frame) {
   at(now_ + between(microseconds(30), microseconds(300)), [this, peer, frame] {
     const std::size_t index = connections_.at(peer).stranger;
     if (strangers_[index].connection != peer) return;
