@@ -49,7 +49,7 @@ class Preempted(SlurmTest):
         self.assertIsNone(process.poll(), "the campaign was too short for this test")
         second = wait_for(lambda: set(self.running()) - set(first), "others", 90, 0.5)
         self.assertTrue(second)
-        self.finish(process)
+        self.finish(process, 600)  # jobs live a quarter of the time: a busy machine needs many
         rows = self.query(self.store, "select state, count(*) as n from worker group by state")
         self.assertNotIn("lost", {row["state"] for row in rows}, rows)
 
