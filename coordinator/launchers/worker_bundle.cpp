@@ -94,7 +94,8 @@ std::vector<std::string> start_words(const std::vector<WorkerBundle>& bundles,
                        "}; case $(uname -m) in ";
   int missing = kNotInCache;
   for (const WorkerBundle& bundle : bundles) {
-    script += bundle.architecture + ") f=" + bundle.folder + " e=" + std::to_string(missing) + ";; ";
+    script +=
+        bundle.architecture + ") f=" + bundle.folder + " e=" + std::to_string(missing) + ";; ";
     ++missing;
   }
   script += "*) f= e=" + std::to_string(kNoBundle) + ";; esac; ";

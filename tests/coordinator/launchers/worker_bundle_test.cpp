@@ -330,7 +330,8 @@ TEST_F(ShippedBySsh, AFolderThatRunsNoProgramsIsNamed) {
   fs::permissions(cache / the_bundle().folder / "swarmsmith-worker", fs::perms(0644));
   SshWorkers workers = start({{"a"}});
   wait_for(workers, [&](const std::string&) {
-    return workers.status().note.starts_with("a: the worker cannot be run there; if its folder is ");
+    return workers.status().note.starts_with(
+        "a: the worker cannot be run there; if its folder is ");
   });
   EXPECT_EQ(log(), "") << "and it is not sent for that";
 }
@@ -340,8 +341,8 @@ TEST_F(ShippedBySsh, AHostOfAnUnknownKindIsRefused) {
   write("mine", "#!/bin/sh\nexec cat\n");
   SshWorkers workers = start({{"a"}, {.name = "b", .program = folder / "mine"}});
   wait_for(workers, [&](const std::string&) {
-    return workers.status().note.starts_with(
-        "a: there is no bundle for its architecture in " + (folder / "bundles").string());
+    return workers.status().note.starts_with("a: there is no bundle for its architecture in " +
+                                             (folder / "bundles").string());
   });
   EXPECT_EQ(workers.status().running, 1) << "a program of its own needs no bundle";
   SshWorkers alone = start({{"a"}});
