@@ -189,7 +189,9 @@ class BareDebian(unittest.TestCase):
         self.root.install(*(f"/root/{folder}/{path.name}" for path in sorted((self.root.folder / "root" / folder).iterdir())))
 
     def remove(self):
-        self.root.shell(f"apt-get purge -q -y {' '.join(NAMES)}; apt-get autoremove -q -y --purge")
+        """With what came for them, also where something that was there before would like to have it."""
+        self.root.shell(f"apt-get purge -q -y {' '.join(NAMES)}; apt-get autoremove -q -y --purge "
+                        "-o APT::AutoRemove::RecommendsImportant=false -o APT::AutoRemove::SuggestsImportant=false")
 
     def first_result(self):
         """From a bare system to the first designed machine in a minute; fetching packages is the network's time."""
