@@ -77,6 +77,7 @@ TEST(ZmqEnds, WhoComesLateHearsTheLastState) {
   ASSERT_TRUE(node.has_value());
   node->end->send(StateMessage{{}, "{\"n\":1}"});
   node->end->send(StateMessage{{}, "{\"n\":2}"});
+  node->end->flush(std::chrono::seconds(10));  // who comes before then hears both
   auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
   EXPECT_EQ(next_of<StateMessage>(**operating)->text, "{\"n\":2}");
 }
