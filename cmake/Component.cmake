@@ -20,6 +20,44 @@ function(swarmsmith_share_units target)
   endif()
 endfunction()
 
+# swarmsmith_precompile(TARGET code|text|test): what nearly all of them include is compiled once for all libraries and
+# programs, for those that use fmt, and for all test programs. As ./dev builds; not for ccache, which could keep nothing
+# then, and not for the compilers of the gates. GCC takes what is precompiled for our code, in which its optimiser warns:
+# of version 12, that is bug 105651 (see Warnings.cmake).
+function(swarmsmith_precompile target kind)
+  if(NOT CMAKE_UNITY_BUILD OR SWARMSMITH_SANITIZE OR CMAKE_CXX_COMPILER_LAUNCHER OR
+     NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    return()
+  endif()
+  set(common swarmsmith_${kind}_headers)
+  if(NOT TARGET ${common})
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${common}.cpp CONTENT "// Headers alone.\n")
+    add_library(${common} OBJECT ${PROJECT_BINARY_DIR}/${common}.cpp)
+    target_link_libraries(${common} PRIVATE tl::expected swarmsmith_warnings swarmsmith_exact_arithmetic)
+    set(headers <algorithm> <cmath> <functional> <map> <optional> <set> <string> <tl/expected.hpp> <vector>)
+    if(kind STREQUAL "text")
+      list(APPEND headers <fmt/format.h>)
+      target_link_libraries(${common} PRIVATE fmt::fmt)
+    elseif(kind STREQUAL "test")
+      list(APPEND headers <filesystem> <fstream> <gmock/gmock.h> <gtest/gtest.h>)
+      target_link_libraries(${common} PRIVATE GTest::gmock)
+      target_compile_options(${common} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
+    target_precompile_headers(${common} PRIVATE ${headers})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${common})
+  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+endfunction()
+
+# swarmsmith_precompile_code(TARGET LIBRARY...): with those of fmt where it is among the libraries.
+function(swarmsmith_precompile_code target)
+  if("fmt::fmt" IN_LIST ARGN)
+    swarmsmith_precompile(${target} text)
+  else()
+    swarmsmith_precompile(${target} code)
+  endif()
+endfunction()
+
 # swarmsmith_component(NAME SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
 #
 # One folder, one static library swarmsmith_NAME. HEADERS are the folder's public surface; each is
@@ -34,6 +72,7 @@ function(swarmsmith_component name)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC}
     PRIVATE ${arg_PRIVATE} swarmsmith_warnings swarmsmith_exact_arithmetic)
+  swarmsmith_precompile_code(${target} ${arg_PUBLIC} ${arg_PRIVATE})
   set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
@@ -44,24 +83,7 @@ function(swarmsmith_program name)
   swarmsmith_share_units(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_PRIVATE} swarmsmith_warnings
     swarmsmith_exact_arithmetic)
-endfunction()
-
-# swarmsmith_precompile(TARGET): what nearly all tests include is compiled once for all test programs. Not for ccache, which
-# could keep nothing then, and not for the compilers of the gates.
-function(swarmsmith_precompile target)
-  if(SWARMSMITH_SANITIZE OR CMAKE_CXX_COMPILER_LAUNCHER OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    return()
-  endif()
-  set(common swarmsmith_test_headers)
-  if(NOT TARGET ${common})
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${common}.cpp CONTENT "// Headers alone.\n")
-    add_library(${common} OBJECT ${PROJECT_BINARY_DIR}/${common}.cpp)
-    target_link_libraries(${common} PRIVATE GTest::gmock swarmsmith_warnings swarmsmith_exact_arithmetic)
-    target_compile_options(${common} PRIVATE $<$<CONFIG:Release>:-O1>)
-    target_precompile_headers(${common} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <algorithm> <cmath> <filesystem>
-      <fstream> <functional> <map> <optional> <set> <string> <vector>)
-  endif()
-  target_precompile_headers(${target} REUSE_FROM ${common})
+  swarmsmith_precompile_code(${name} ${arg_PRIVATE})
 endfunction()
 
 # swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] [TIMEOUT s] SOURCES ... USES ...)
@@ -82,7 +104,7 @@ function(swarmsmith_test name)
     swarmsmith_warnings swarmsmith_exact_arithmetic)
   # The code under test is optimised; its tests compile in two thirds of the time.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  swarmsmith_precompile(${target})
+  swarmsmith_precompile(${target} test)
   target_compile_definitions(${target} PRIVATE
     SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
     SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"

@@ -39,12 +39,18 @@ std::string seen_and_missing(const PlaceQuestion& question) {
 }
 
 bool are_in_line(const std::vector<SeenTag>& seen) {
-  Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(seen.size()));
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    places.col(static_cast<Eigen::Index>(i)) << seen[i].tag.pose.x, seen[i].tag.pose.y;
-  const Eigen::Matrix2Xd off = places.colwise() - places.rowwise().mean();
+  // Sums, not one large matrix: Eigen's product without a fixed size takes ten seconds to compile.
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const SeenTag& tag : seen)
+    middle += Eigen::Vector2d(tag.tag.pose.x, tag.tag.pose.y);
+  middle /= static_cast<double>(seen.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const SeenTag& tag : seen) {
+    const Eigen::Vector2d off = Eigen::Vector2d(tag.tag.pose.x, tag.tag.pose.y) - middle;
+    spread += off * off.transpose();
+  }
   // Spreads along the two principal axes, squared.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(off * off.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
   return !(axes.eigenvalues()(0) > kThin * kThin * axes.eigenvalues()(1));
 }
 
