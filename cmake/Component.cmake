@@ -2,13 +2,7 @@
 # does), which ones are in one.
 function(swarmsmith_share_units target)
   if(CMAKE_UNITY_BUILD)
-    if(NOT SWARMSMITH_PYTHON)  # the interpreter itself: what stands in front of it takes 0.2 s a call
-      find_package(Python3 REQUIRED COMPONENTS Interpreter)
-      execute_process(COMMAND ${Python3_EXECUTABLE} -c "import sys; print(sys.executable)"
-        OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-      set(SWARMSMITH_PYTHON ${python} CACHE INTERNAL "")
-    endif()
-    execute_process(COMMAND ${SWARMSMITH_PYTHON} ${PROJECT_SOURCE_DIR}/cmake/units.py ${ARGN}
+    execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/units.py ${ARGN}
       WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE units
       OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
     string(REPLACE "\n" ";" units "${units}")
@@ -129,7 +123,6 @@ endfunction()
 # short ones fill the cores at the end.
 function(swarmsmith_script_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "TIMEOUT;LABEL;PROCESSORS" "ORDINARY;ENVIRONMENT")
-  find_package(Python3 REQUIRED COMPONENTS Interpreter)
   math(EXPR limit "${arg_TIMEOUT} * ${SWARMSMITH_PATIENCE}")
   string(REGEX REPLACE "^.*\\." "" file ${name})
   if(NOT arg_LABEL)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Tunes a Python function with irace: a support vector machine where scikit-learn is installed, else a formula.
 
     PYTHONPATH=analysis/python python3 examples/tuner.py

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """man_pages.py BIN FOLDER: writes man pages of the programs in BIN, a page a program and a page a command:
 swarmsmith.1, swarmsmith-run.1, ..., swarmsmith-track-calibrate-camera.1."""
 import os

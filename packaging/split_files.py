@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """split_files.py MAN COMPLETION DEBIAN: puts man pages and completion into the folders of the packages: what begins with
 the name of a program that has a package of its own into that one, the rest into swarmsmith's."""
 import pathlib

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """write.py FOLDER: writes completion for each program and shell where shells look for it below a prefix such as /usr:
 share/bash-completion/completions/PROGRAM, share/zsh/vendor-completions/_PROGRAM,
 share/fish/vendor_completions.d/PROGRAM.fish."""

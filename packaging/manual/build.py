@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """build.py BIN SITE: writes the manual as pages of HTML, for a browser and from a disk: the pages of docs/ in the order
 of docs/README.md, and pages made of what the programs in BIN and the store's schema declare. Needs mkdocs and its theme
 material; nothing is fetched from anywhere."""

@@ -4,6 +4,7 @@ import pathlib
 import random
 import shutil
 import signal
+import sys
 import time
 import unittest
 
@@ -108,7 +109,7 @@ class Programs(FaultTest):
                         self.programs)
         (self.programs / "target-runner").rename(self.programs / "example-runner")
         runner = self.programs / "target-runner"
-        runner.write_text(RUNNER.replace("{python}", shutil.which("python3")))
+        runner.write_text(RUNNER.replace("{python}", sys.executable))
         runner.chmod(0o755)
         self.file = self.programs / "campaign.toml"
         self.file.write_text(self.file.read_text().replace("max_experiments = 400",

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The closed loop of tracking: a simulated run is filmed by a virtual camera, the camera, the arena
 and the robots are calibrated from clips of the same laboratory, the run is tracked and scored, and
 all that is compared with what is true.
