@@ -43,9 +43,12 @@ def copy_of_sources(folder):
     return tree
 
 
-def make_packages(folder, umask=0o022, **environment):
-    """Packages of the programs in BIN, made in `folder`; where they are."""
+def make_packages(folder, umask=0o022, changed_at=None, **environment):
+    """Packages of the programs in BIN, made in `folder` of files that were changed at a time; where they are."""
     tree = copy_of_sources(folder)
+    if changed_at is not None:
+        for path in tree.rglob("*"):
+            os.utime(path, (changed_at, changed_at), follow_symlinks=False)
     (folder / "built").mkdir()
     (folder / "built/bin").symlink_to(BIN)
     environment = {**os.environ, "SOURCE_DATE_EPOCH": "1750000000", **environment}
@@ -64,13 +67,14 @@ def made():
 @unittest.skipIf(MISSING, f"not there: {', '.join(MISSING)}; ./dev package installs them")
 class Packages(unittest.TestCase):
     def test_are_the_same_bytes_for_everybody(self):
-        """Another folder, user's mask, home, language, time zone and number of processors. Their programs are compiled
-        once here; that no path of theirs is in them is asked below."""
+        """Another folder, user's mask, home, language, time zone, number of processors, and files from before the release.
+        Their programs are compiled once here; that no path of theirs is in them is asked below."""
         with tempfile.TemporaryDirectory(prefix="other-") as name:
             home = pathlib.Path(name) / "home"
             home.mkdir()
-            again = make_packages(pathlib.Path(name), umask=0o077, HOME=str(home), USER="nobody", LC_ALL="C", LANG="de_DE",
-                                  TZ="Asia/Tokyo", DEB_BUILD_OPTIONS="parallel=7", XZ_DEFAULTS="-T0", TAR_OPTIONS="--sort=none")
+            again = make_packages(pathlib.Path(name), umask=0o077, changed_at=10**9, HOME=str(home), USER="nobody",
+                                  LC_ALL="C", LANG="de_DE", TZ="Asia/Tokyo", DEB_BUILD_OPTIONS="parallel=7", XZ_DEFAULTS="-T0",
+                                  TAR_OPTIONS="--sort=none")
             names = sorted(path.name for path in made().iterdir())
             self.assertEqual(len(names), len(NAMES), names)
             self.assertEqual(names, sorted(path.name for path in again.iterdir()))
