@@ -37,7 +37,7 @@ std::string section(const char* title, const std::string& text) {
 }  // namespace
 
 TargetRunner::TargetRunner(Target target, RunnerOptions options, const Interrupt& interrupt)
-    : target_(std::move(target)), options_(options), interrupt_(&interrupt) {}
+    : target_(std::move(target)), options_(std::move(options)), interrupt_(&interrupt) {}
 
 TargetFailure TargetRunner::failure(const Command& command, const ProcessEnd* end,
                                     std::string reason) const {

@@ -70,7 +70,7 @@ class Store {
   /// Corrupt (no SQLite file, truncated, damaged), Newer (schema of a later version), BadInput (a
   /// network file system, no such folder, not writable, a second name), Unavailable (the disk
   /// refuses).
-  static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& path,
+  static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& named,
                                                const CampaignRow& campaign,
                                                const std::vector<DesignRow>& designs,
                                                const StoreOptions& options = {});
@@ -130,7 +130,7 @@ class StoreReader {
   /// Errors: NotFound, Corrupt, Newer, BadInput (a second name), Unavailable (a folder in which
   /// SQLite cannot make its -shm file, while a log waits there). A store of an older schema is read
   /// unchanged; a query for something it lacks fails with the way to a newer one.
-  static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& path);
+  static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& named);
   virtual ~StoreReader() = default;
 
   /// The campaigns by number; for a reader from `alone` only its own.

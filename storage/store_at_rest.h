@@ -37,7 +37,7 @@ class StoreAtRest {
   /// Opens the store of any campaign, and migrates it; `designs`, from the campaign's file, give
   /// the flavours, which stores before schema 4 lack. A new store has no campaign; it is deleted
   /// again if nothing is added. Errors as of Store::open; NotFound with `Refuse`.
-  static Expected<std::unique_ptr<StoreAtRest>> open(const std::filesystem::path& path,
+  static Expected<std::unique_ptr<StoreAtRest>> open(const std::filesystem::path& named,
                                                      IfMissing if_missing,
                                                      const std::vector<DesignRow>& designs = {});
   virtual ~StoreAtRest() = default;

@@ -3,6 +3,7 @@
 #include <sched.h>
 #include <unistd.h>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <climits>
 #include <cstdlib>
@@ -27,9 +28,9 @@ int number_in(std::string_view text) {
 /// Several nodes of Slurm may be one host, so its name for the node comes first.
 std::string host_of_this_process() {
   if (std::string node = environment("SLURMD_NODENAME"); !node.empty()) return node;
-  std::string host(HOST_NAME_MAX + 1, '\0');
-  if (gethostname(host.data(), host.size()) != 0) return "unknown";
-  return host.c_str();
+  std::array<char, HOST_NAME_MAX + 2> host{};  // whose last one stays zero
+  if (gethostname(host.data(), host.size() - 1) != 0) return "unknown";
+  return host.data();
 }
 
 /// As squeue lists it, "12" or "12_3" for an element of an array; "12_3 restart 1" after Slurm has

@@ -90,6 +90,7 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
 Run declare_ls(Options& options) {
   auto arguments = std::make_shared<LsArguments>();
   std::vector<std::string> kinds;
+  kinds.reserve(std::size(kKinds));
   for (const Kind& kind : kKinds)
     kinds.emplace_back(kind.name);
   options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);

@@ -327,7 +327,7 @@ class Dashboard final : public HttpSite {
     return nullptr;
   }
 
-  SiteAnswer page(const SiteRequest& request) {
+  static SiteAnswer page(const SiteRequest& request) {
     const PageFile* file = find_page(request.path);
     if (file != nullptr) {
       KeptAnswer kept{.type = std::string(file->type),
@@ -444,7 +444,8 @@ class Dashboard final : public HttpSite {
     for (const auto& [name, value] : request.parameters) {
       // What is handed on would end there.
       if (value.find('\0') != std::string::npos)
-        return made("", young, [&] { return bad_input("may not hold a zero byte", name); });
+        return made("", young,
+                    [&name = name] { return bad_input("may not hold a zero byte", name); });
     }
     const std::string_view first = next_part(path);
     if (!request.path.starts_with(kApi)) return made("", young, [] { return no_such_path(); });

@@ -354,7 +354,7 @@ Expected<Answer> parameters_answer(const Question& question) {
     const auto parameters = nlohmann::ordered_json::parse(rows->cells[i][4].text, nullptr, false);
     if (!parameters.is_object()) continue;
     for (const auto& [name, value] : parameters.items()) {
-      if (!names.empty() && names.count(name) == 0) continue;
+      if (!names.empty() && !names.contains(name)) continue;
       auto& column = values[name];
       if (column.empty()) {
         order.push_back(name);
@@ -375,8 +375,8 @@ Expected<Answer> parameters_answer(const Question& question) {
                          .add("runs", column_of(*rows, 3))
                          .add("elite", json_list(rows->cells,
                                                  [&](const std::vector<Cell>& cells) {
-                                                   return sample->elites.count(
-                                                              integer_of(cells[0])) > 0;
+                                                   return sample->elites.contains(
+                                                       integer_of(cells[0]));
                                                  }))
                          .add("parameters", parameters));
 }

@@ -26,7 +26,7 @@ std::optional<Configuration> configuration_of(const ParameterSpace& space,
     }
     const auto* text = std::get_if<std::string>(&value);
     for (std::size_t i = 0; text != nullptr && i < space.value_count(*index); ++i) {
-      const double position = static_cast<double>(i);
+      const auto position = static_cast<double>(i);
       if (space.scalar(*index, position).text == *text) configuration.set(*index, position);
     }
   }

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <iterator>
-#include <ranges>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -152,8 +152,9 @@ JsonObject row_as_json(const Rows& rows, std::size_t row) {
 }
 
 JsonPiece rows_as_json(const Rows& rows) {
-  return json_list(std::views::iota(std::size_t{0}, rows.cells.size()),
-                   [&](std::size_t row) { return row_as_json(rows, row); });
+  std::vector<std::size_t> numbers(rows.cells.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return json_list(numbers, [&](std::size_t row) { return row_as_json(rows, row); });
 }
 
 namespace {

@@ -356,7 +356,7 @@ bool has_stop(const Method& method) {
 
 }  // namespace
 
-search::Neighbourhood machine_neighbourhood(std::shared_ptr<const MachineSpace> space,
+search::Neighbourhood machine_neighbourhood(const std::shared_ptr<const MachineSpace>& space,
                                             const Method& method) {
   Rng rng(1);
   Machine start{{{Stop{}, {}}}};
@@ -371,7 +371,7 @@ search::Neighbourhood machine_neighbourhood(std::shared_ptr<const MachineSpace> 
   return {std::move(configuration), perturb};
 }
 
-search::Neighbourhood tree_neighbourhood(std::shared_ptr<const TreeSpace> space,
+search::Neighbourhood tree_neighbourhood(const std::shared_ptr<const TreeSpace>& space,
                                          const Method& method) {
   Rng rng(1);
   Tree start{{TreeModules(*space, rng).subtree()}};

@@ -13,12 +13,12 @@ namespace swarmsmith {
 /// that can act (docs/methods.md): the start state; a state added or removed; a state's behaviour,
 /// or a parameter of it; a transition added or removed; where a transition begins or ends; its
 /// condition, or a parameter of it. It starts at one state that stops.
-search::Neighbourhood machine_neighbourhood(std::shared_ptr<const MachineSpace> space,
+search::Neighbourhood machine_neighbourhood(const std::shared_ptr<const MachineSpace>& space,
                                             const Method& method);
 
 /// The same of trees, one of seven: a subtree added or removed, two swapped, an action or a
 /// parameter of it, a condition or a parameter of it. It starts at one subtree that stops.
-search::Neighbourhood tree_neighbourhood(std::shared_ptr<const TreeSpace> space,
+search::Neighbourhood tree_neighbourhood(const std::shared_ptr<const TreeSpace>& space,
                                          const Method& method);
 
 }  // namespace swarmsmith

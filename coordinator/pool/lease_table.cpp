@@ -193,7 +193,7 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front)
   if (record.second) {
     if (lease == &*record.lease) {
       // As the youngest of all: the copy has had its time only since it was made.
-      record.lease = std::move(record.second);
+      record.lease = record.second;
       by_age_.splice(by_age_.end(), by_age_, record.place);
     }
     record.second.reset();

@@ -35,7 +35,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
   // What is lost with strangers, again and again, does not keep others from their turn.
-  const bool at_front = loss == Loss::Left || trust_->is_proven(*entry.principal);
+  const bool at_front = loss == Loss::Left || entry.principal->is_proven();
   workers_->disconnect(entry);
   book_->leases.loads().set_capacity(entry.number, 0, 0);
   trust_->go_astray(*entry.principal, keys.size(), now);
@@ -80,7 +80,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
 /// Whether the loss says something of a task that only this worker had, and that may have run.
 LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Loss loss) {
   SWARMSMITH_ASSERT(record.lease && !record.second, "only the only holder's loss says something");
-  if (!trust_->is_proven(*entry.principal)) {
+  if (!entry.principal->is_proven()) {
     ++record.strays;
     return Blame::Nobody;
   }

@@ -46,6 +46,8 @@ struct Principal {
   std::map<PackedKey, Waiting> waiting;
   std::vector<std::int64_t> unchecked;  ///< outcomes of it that nobody made again, by campaign
 
+  bool is_proven() const { return local || taken > 0; }
+
   /// Nothing of it was ever taken, or it is believed no more.
   bool is_stranger() const { return !local && (taken == 0 || quarantined); }
 

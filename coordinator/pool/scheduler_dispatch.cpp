@@ -147,14 +147,14 @@ void Scheduler::dispatch_alone(TimePoint now) {
   const bool only_proven = trust_->proven_present() > 0;
   std::size_t reserved = 0;
   for (auto& [number, entry] : workers_->all()) {
-    if (only_proven && !trust_->is_proven(*entry.principal)) entry.reserved = false;
+    if (only_proven && !entry.principal->is_proven()) entry.reserved = false;
     if (entry.connected && entry.reserved) ++reserved;
   }
   const std::size_t limit = std::max<std::size_t>(1, workers_->trusted() / 2);
   for (auto& [number, entry] : workers_->all()) {
     if (!book_->leases.has_alone()) return;
     if (!entry.usable() || book_->leases.loads().of(number).credit == 0) continue;
-    if (only_proven && !trust_->is_proven(*entry.principal)) continue;
+    if (only_proven && !entry.principal->is_proven()) continue;
     if (!entry.reserved && reserved >= limit) continue;
     if (!entry.reserved) ++reserved;
     entry.reserved = true;

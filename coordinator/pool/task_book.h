@@ -23,7 +23,7 @@ struct Principal;
 /// recorded, and leaves to them when.
 class TaskBook {
  public:
-  explicit TaskBook(SchedulerOptions options);
+  explicit TaskBook(SchedulerOptions all);
 
   const SchedulerOptions options;
   LeaseTable leases;

@@ -69,10 +69,6 @@ bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
   return signer_.is_ours(result.signature, result.key, result.attempt, entry.principal->name);
 }
 
-bool Trust::is_proven(const Principal& principal) const {
-  return principal.local || principal.taken > 0;
-}
-
 bool Trust::is_on_trial(const Principal& principal, std::uint32_t campaign) const {
   const bool audits =
       !book_->options.evaluates_programs && book_->options.campaigns[campaign].audit_every > 0;
@@ -183,7 +179,7 @@ void Trust::update_room(Principal& principal) {
 }
 
 void Trust::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
-  if (leases == 0 || is_proven(principal)) return;
+  if (leases == 0 || principal.is_proven()) return;
   // Who is alone does not wait: there is nobody whose turn it takes.
   principal.astray += static_cast<std::int64_t>(leases);
   if (principal.astray < kMostAstray || proven_present() == 0) return;
@@ -198,7 +194,7 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   const Principal& principal = *entry.principal;
   std::size_t most = entry.credit;
   if (principal.claims >= Principal::kMostClaims) most = 0;
-  const bool is_new = !book_->options.evaluates_programs && !is_proven(principal);
+  const bool is_new = !book_->options.evaluates_programs && !principal.is_proven();
   if (is_new) most = std::min(most, book_->now < principal.waits_until ? 0 : kRoomOnTrial);
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
   book_->leases.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
@@ -299,7 +295,7 @@ void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, T
 /// Principals that have proved themselves and are there.
 std::size_t Trust::proven_present() const {
   return static_cast<std::size_t>(std::ranges::count_if(principals_.all(), [&](const auto& each) {
-    return is_proven(each.second) && std::ranges::any_of(each.second.workers, [&](auto number) {
+    return each.second.is_proven() && std::ranges::any_of(each.second.workers, [&](auto number) {
              const auto at = workers_->all().find(number);
              return at != workers_->all().end() && at->second.usable();
            });

@@ -64,7 +64,6 @@ class Trust {
   void set_credit(WorkerEntry& entry, std::uint32_t credit);
   /// Leases that a stranger's workers had ended without a result.
   void go_astray(Principal& principal, std::size_t leases, TimePoint now);
-  bool is_proven(const Principal& principal) const;
   /// Principals that have proved themselves and are there.
   std::size_t proven_present() const;
   /// Principals of which nothing is known any more.

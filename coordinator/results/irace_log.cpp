@@ -179,7 +179,7 @@ void read_runs(Reader reader, const Known& known, IraceLog& log) {
                .time = reader.number(row, "time").value_or(0),
                .bound = reader.number(row, "bound").value_or(0)};
     if (run.iteration < 1) reader.complain(row, "iterations count from 1");
-    log.runs.push_back(std::move(run));
+    log.runs.push_back(run);
   }
 }
 

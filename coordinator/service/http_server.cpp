@@ -220,7 +220,7 @@ class Pages final : public HttpServer {
     SiteAnswer answer = site.answer(asked);
     response.status = answer.status;
     for (const auto& [name, value] : answer.headers)
-      response.set_header(name.c_str(), value);
+      response.set_header(name, value);
     if (!answer.body.empty()) response.set_content(answer.body, answer.type);
     return Handled::Handled;
   }

@@ -120,6 +120,6 @@ std::string head_json(const LiveStatus& status);
 /// The array `fleet` alone.
 std::string fleet_json(const LiveStatus& status);
 /// `to_json` back, without histograms. Errors: no such object.
-Expected<LiveStatus> live_status_of(const std::string& json);
+Expected<LiveStatus> live_status_of(const std::string& text);
 
 }  // namespace swarmsmith

@@ -75,7 +75,7 @@ class ProgressModel {
 
  private:
   void add(DesignProgress& progress, const Row& row);
-  void add_state(DesignProgress& progress, const DesignStateRow& row);
+  static void add_state(DesignProgress& progress, const DesignStateRow& row);
   void add_command(DesignProgress& progress, const CommandRow& row);
 
   std::map<DesignId, DesignProgress> designs_;

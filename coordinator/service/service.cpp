@@ -32,6 +32,7 @@ constexpr int kFramesAtOnce = 256;
 
 std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& campaigns) {
   std::vector<TelemetryCampaign> all;
+  all.reserve(campaigns.size());
   for (const ServiceCampaign& campaign : campaigns)
     all.push_back({.name = campaign.name,
                    .designs = campaign.designs,

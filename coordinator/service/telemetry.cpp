@@ -48,8 +48,8 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
   }
 }
 
-void Telemetry::on_rows(std::size_t index, std::span<const Row> rows, TimePoint now) {
-  Campaign& campaign = campaigns_[index];
+void Telemetry::on_rows(std::size_t campaign_index, std::span<const Row> rows, TimePoint now) {
+  Campaign& campaign = campaigns_[campaign_index];
   for (const Row& row : rows) {
     campaign.progress.add(row);
     const auto* step = std::get_if<RaceStepRow>(&row);
@@ -64,8 +64,8 @@ void Telemetry::on_appended(std::size_t campaign, std::uint64_t ticket, TimePoin
   campaigns_[campaign].uncommitted.emplace_back(ticket, now);
 }
 
-void Telemetry::on_committed(std::size_t index, std::uint64_t ticket, TimePoint now) {
-  Campaign& campaign = campaigns_[index];
+void Telemetry::on_committed(std::size_t campaign_index, std::uint64_t ticket, TimePoint now) {
+  Campaign& campaign = campaigns_[campaign_index];
   while (!campaign.uncommitted.empty() && campaign.uncommitted.front().first <= ticket) {
     campaign.status.commit_time.observe(now - campaign.uncommitted.front().second);
     campaign.uncommitted.pop_front();

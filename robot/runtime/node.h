@@ -114,7 +114,7 @@ class RobotNode {
   const PerFeed<bool>& needed() const { return needed_; }
 
  private:
-  void begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& now);
+  void begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& start);
   void obey(const Order& order, const Now& now);
   void arm(const Order& order, const Now& now);
   void end(Phase phase);

@@ -18,12 +18,14 @@ std::optional<std::size_t> nearest(double place, double turn, std::size_t values
   std::optional<std::size_t> found;
   double least = kFarthest;
   place -= std::floor((place + kFarthest) / turn) * turn;  // the first turn that can reach a value
-  for (; place <= last + kFarthest; place += turn) {
+  while (place <= last + kFarthest) {
     const double index = std::fmin(std::fmax(std::floor(place + 0.5), 0), last);
     const double distance = std::fabs(place - index);
-    if (distance >= least) continue;
-    least = distance;
-    found = static_cast<std::size_t>(index);
+    if (distance < least) {
+      least = distance;
+      found = static_cast<std::size_t>(index);
+    }
+    place += turn;
   }
   return found;
 }

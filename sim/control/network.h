@@ -59,7 +59,7 @@ std::string print_network(const Network& network, const Flavour& flavour);
 /// The inputs of one cycle, in order; the first `input_count` of them.
 inline constexpr std::size_t kMostInputs = 15;
 using InputValues = std::array<double, kMostInputs>;
-InputValues network_inputs(NetworkInputs inputs, Senses& senses, const Flavour& flavour);
+InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& flavour);
 
 /// A running network. It asks all its sensors in each cycle.
 class NetworkControl {

@@ -143,7 +143,7 @@ Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour) {
     const Token& block_end = size == fields.size() ? end : fields[size].name;
     auto subtree = read_subtree(i, fields.first(size), block_end, flavour);
     if (!subtree) return Unexpected(subtree.error());
-    tree.subtrees.push_back(std::move(*subtree));
+    tree.subtrees.push_back(*subtree);
     fields = fields.subspan(size);
   }
   if (fields.empty()) return tree;

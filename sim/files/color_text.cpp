@@ -14,6 +14,7 @@ std::string color_key(Rgb color) {
 
 std::string no_such_color(const std::string& text) {
   std::vector<std::string> names;
+  names.reserve(std::size(kNamedColors));
   for (const NamedColor& named : kNamedColors)
     names.emplace_back(named.name);
   return "there is no colour \"" + text + "\"" + did_you_mean(text, names) +

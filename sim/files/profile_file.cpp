@@ -57,6 +57,7 @@ ProfileOrErrors read_profile_file(const std::filesystem::path& file) {
 
 std::vector<std::string> profile_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kFiles));
   for (const auto& [name, text] : kFiles)
     names.emplace_back(name);
   return names;

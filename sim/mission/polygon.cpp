@@ -169,6 +169,7 @@ Point direction_of(int k, int n) {
 
 std::vector<Point> regular_polygon(int sides, double inradius_m) {
   std::vector<Line> lines;
+  lines.reserve(static_cast<std::size_t>(sides));
   for (int k = 0; k < sides; ++k)
     lines.push_back({direction_of(k, sides), inradius_m});
   return corners_between(lines);

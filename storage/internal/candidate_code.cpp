@@ -48,7 +48,8 @@ std::optional<std::size_t> end_of_word(std::string_view text, std::size_t at) {
 
 /// The members of an object without blanks, arrays or inner objects; none when it is not so.
 std::optional<std::vector<Member>> members_of(std::string_view text) {
-  if (text.size() < 2 || text.front() != '{' || text.find('\0') != text.npos) return std::nullopt;
+  if (text.size() < 2 || text.front() != '{' || text.find('\0') != std::string_view::npos)
+    return std::nullopt;
   std::vector<Member> members;
   std::size_t at = 1;
   while (at < text.size() && text[at] == '"') {
@@ -171,7 +172,7 @@ void PhraseBook::load(const sqlite::Connection& connection) {
 void PhraseBook::add(std::int64_t number, Phrase phrase) {
   // A phrase that a number ends says which parameter is open: nothing else need be stored of it.
   if (phrase.parameters && phrase.parameters->ends_with("\":")) {
-    const std::string_view before(phrase.parameters->data(), phrase.parameters->size() - 2);
+    const std::string before = phrase.parameters->substr(0, phrase.parameters->size() - 2);
     open_.emplace(before.substr(before.rfind('"') + 1));
   }
   numbers_.emplace(key_of(phrase), number);

@@ -91,10 +91,10 @@ Expected<PageImage> PageImage::read(const std::filesystem::path& file) {
 }
 
 void PageImage::read_header() {
-  constexpr std::string_view kMagic{"SQLite format 3\0", 16};
+  constexpr std::string_view kBegin{"SQLite format 3\0", 16};
   const bool begins =
       bytes_.size() >= kHeader &&
-      std::equal(kMagic.begin(), kMagic.end(), bytes_.begin(),
+      std::equal(kBegin.begin(), kBegin.end(), bytes_.begin(),
                  [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
   const std::uint64_t said = begins ? big_endian(bytes_, 16, 2) : 0;
   const std::uint64_t size = said == 1 ? 65536 : said;

@@ -54,7 +54,7 @@ int only_reading(void*, int action, const char* first, const char* second, const
 /// Of a value that a statement makes or reads. The longest that stores have is the text of a
 /// campaign with its pictures, 24 MB at most.
 constexpr int kMostValueBytes = 32 << 20;
-constexpr std::int64_t kMostRowBytes = 2 * kMostValueBytes;
+constexpr std::int64_t kMostRowBytes = std::int64_t{2} * kMostValueBytes;
 
 struct Limit {
   int which;

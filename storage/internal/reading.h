@@ -9,7 +9,7 @@
 namespace swarmsmith {
 
 /// A folder in which this user cannot make files.
-bool cannot_make_files(const std::filesystem::path& store);
+bool cannot_make_files(const std::filesystem::path& path);
 
 /// A connection that only reads, also where no file can be made beside the store. Corrupt when the
 /// file is no database or is cut off. Throws SqliteError.

@@ -29,7 +29,7 @@ struct TableShape {
   /// Whether it can be a record of this table.
   bool fits(const StoredRecord& record) const;
   /// INSERT OR IGNORE of so many columns.
-  std::string insertion(std::size_t columns) const;
+  std::string insertion(std::size_t count) const;
 };
 
 /// Of all tables of a database of ours, and of the one index that has all of a table: that of the

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "base/output_file.h"
 #include "base/text/json.h"
@@ -96,6 +97,8 @@ std::string solution_json(const CameraSolution& solution, const std::vector<Boar
         .add("rms_px", solution.views[i].rms_px)
         .add("dropped", solution.views[i].dropped);
   };
+  std::vector<std::size_t> numbers(views.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   return JsonObject()
              .add("file", file)
              .add("width", model.size.width)
@@ -113,7 +116,7 @@ std::string solution_json(const CameraSolution& solution, const std::vector<Boar
              .add("ninths", solution.ninths)
              .add("views_used", calibration.views)
              .add("views_dropped", calibration.views_dropped)
-             .add("views", json_list(std::views::iota(std::size_t{0}, views.size()), view_json))
+             .add("views", json_list(numbers, view_json))
              .text() +
          "\n";
 }

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/text/json.h"
 #include "console/terminal.h"
@@ -41,7 +43,7 @@ struct Words {
 /// as `calibrate camera` makes of a video.
 class BoardWatch {
  public:
-  explicit BoardWatch(Board board) : board_(board) {}
+  explicit BoardWatch(Board board) : board_(std::move(board)) {}
 
   LiveState::BoardProgress look_at(const GrayImage& image, double time_s) {
     // A board takes longer to find than robots, and nobody moves it faster.
@@ -218,9 +220,8 @@ ExitCode answer(Watched& watched, Output& output) {
                << "\n";
   } else {
     output.out << watched.frames << " frames, " << watched.dropped << " dropped; delay "
-               << static_cast<int>(median_ms + 0.5) << " ms, 95 % within "
-               << static_cast<int>(late_ms + 0.5) << " ms, at most "
-               << static_cast<int>(most_ms + 0.5) << " ms\n";
+               << std::lround(median_ms) << " ms, 95 % within " << std::lround(late_ms)
+               << " ms, at most " << std::lround(most_ms) << " ms\n";
   }
   return ExitCode::Done;
 }

@@ -11,6 +11,7 @@ namespace {
 template <class Setup>
 std::vector<std::string> names_of(const std::vector<Setup>& setups) {
   std::vector<std::string> names;
+  names.reserve(setups.size());
   for (const Setup& setup : setups)
     names.push_back(setup.name);
   return names;

@@ -16,11 +16,12 @@ TagPattern pattern_of(apriltag_family_t& family, int id) {
   // The quiet zone is the outermost ring of the image, save where a family has bits there.
   const int ring = family.reversed_border ? 1 : 0;
   TagPattern pattern{.cells = image->width + 2 * ring, .border_cells = family.width_at_border};
-  pattern.black.assign(static_cast<std::size_t>(pattern.cells * pattern.cells), false);
+  const int cells = pattern.cells * pattern.cells;
+  pattern.black.assign(static_cast<std::size_t>(cells), false);
   for (int row = 0; row < image->height; ++row) {
     for (int column = 0; column < image->width; ++column) {
-      const auto at = static_cast<std::size_t>((row + ring) * pattern.cells + column + ring);
-      pattern.black[at] = image->buf[row * image->stride + column] == 0;
+      const int at = (row + ring) * pattern.cells + column + ring;
+      pattern.black[static_cast<std::size_t>(at)] = image->buf[row * image->stride + column] == 0;
     }
   }
   return pattern;

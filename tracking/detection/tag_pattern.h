@@ -16,7 +16,8 @@ struct TagPattern {
   std::vector<bool> black;  ///< row by row from the upper left corner
 
   bool is_black(int row, int column) const {
-    return black[static_cast<std::size_t>(row * cells + column)];
+    const int at = row * cells + column;
+    return black[static_cast<std::size_t>(at)];
   }
 };
 

@@ -69,7 +69,7 @@ bool TagSearch::accepts(const Detection& detection) const {
   return detection.hamming <= most && detection.margin >= options_.least_margin;
 }
 
-bool TagSearch::is_small(const Followed& tag) const {
+bool TagSearch::is_small(const Followed& tag) {
   return tag.edge_px < kLeastEdgeForHalfPx;
 }
 

@@ -47,7 +47,7 @@ class TagSearch {
   };
 
   bool accepts(const Detection& detection) const;
-  bool is_small(const Followed& tag) const;
+  static bool is_small(const Followed& tag);
   bool full_is_due(double time_s) const;
   void search_whole(const GrayImage& image, double time_s, std::vector<Detection>& seen);
   void search_windows(const GrayImage& image, double time_s, std::vector<Detection>& seen);

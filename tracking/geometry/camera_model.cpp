@@ -80,9 +80,11 @@ bool is_monotonic(const CameraModel& camera) {
   const double wanted = std::hypot(far_u, far_v);
   constexpr double kStep = 0.001;
   constexpr double kMost = 10;
-  for (double r = 0; r < kMost; r += kStep) {
+  double r = 0;
+  while (r < kMost) {
     if (slope(camera, r) <= 0) return false;
     if (distorted(camera, r) >= wanted) return true;
+    r += kStep;
   }
   return false;
 }

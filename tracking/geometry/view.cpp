@@ -16,11 +16,11 @@ Point3 CameraPlace::centre() const {
   return {-back.x, -back.y, -back.z};
 }
 
-Point3 CameraPlace::seen_from_camera(const Point3& p) const {
+Point3 CameraPlace::seen_from_camera(const Point3& world) const {
   const auto& r = rotation;
-  return {r[0] * p.x + r[1] * p.y + r[2] * p.z + translation.x,
-          r[3] * p.x + r[4] * p.y + r[5] * p.z + translation.y,
-          r[6] * p.x + r[7] * p.y + r[8] * p.z + translation.z};
+  return {r[0] * world.x + r[1] * world.y + r[2] * world.z + translation.x,
+          r[3] * world.x + r[4] * world.y + r[5] * world.z + translation.y,
+          r[6] * world.x + r[7] * world.y + r[8] * world.z + translation.z};
 }
 
 std::vector<Point> on_plane(const View& view, std::span<const ImagePoint> points, double height_m) {

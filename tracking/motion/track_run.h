@@ -56,6 +56,6 @@ struct TrackOptions {
 /// E_CALIB_SIZE, or a rig without the cameras' calibrations; what makes a run invalid is an issue.
 /// Does not depend on the order of the sightings.
 Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,
-                               const TrackOptions& options);
+                               const TrackOptions& asked);
 
 }  // namespace swarmsmith

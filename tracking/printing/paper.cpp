@@ -29,6 +29,7 @@ Expected<Paper> paper_from_name(std::string_view name) {
 
 std::vector<std::string> paper_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kPapers));
   for (const KnownPaper& paper : kPapers)
     names.emplace_back(paper.name);
   return names;

@@ -95,6 +95,7 @@ std::string timeline(const TrackedRun& run, const std::vector<Issue>& issues, do
   const PlotArea area{kMargin + names + 2, kMargin, width_mm - 2 * kMargin - names - 6,
                       rows + issue_rows + 1};
   std::vector<LegendEntry> entries;
+  entries.reserve(std::size(kKinds) + 1);
   for (const KindStyle& kind : kKinds)
     entries.push_back({std::string(kind.color), std::string(kind.name)});
   entries.push_back({std::string(kDropped), "sample dropped"});

@@ -41,7 +41,7 @@ class Judge {
     }
     judge_length(known);
     judge_clock(known);
-    findings_.latencies.push_back(judge_motion(known));
+    findings_.latencies.emplace_back(judge_motion(known));
   }
 
  private:

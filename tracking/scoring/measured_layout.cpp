@@ -34,6 +34,7 @@ std::array<double, 3> median_of(const std::vector<std::array<double, 3>>& ratios
   std::array<double, 3> medians{};
   for (std::size_t channel = 0; channel < medians.size(); ++channel) {
     std::vector<double> values;
+    values.reserve(ratios.size());
     for (const auto& ratio : ratios)
       values.push_back(ratio.at(channel));
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

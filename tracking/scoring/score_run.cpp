@@ -50,8 +50,8 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
     const bool is_inside = nearest->here != 0;
     const double sigma_m = robot.sigmas.back().sigma_m;
     const bool is_close = nearest->distance_m < kSigmas * sigma_m;
-    scored.borders.push_back(BorderDistance{is_inside ? nearest->distance_m : -nearest->distance_m,
-                                            nearest->name, is_close, sigma_m});
+    scored.borders.emplace_back(BorderDistance{
+        is_inside ? nearest->distance_m : -nearest->distance_m, nearest->name, is_close, sigma_m});
     if (!is_close) continue;
     scored.issues.push_back(
         {IssueCode::TooCloseToCall,

@@ -94,9 +94,11 @@ std::vector<std::string> search_names() {
 /// The architecture and the search, by preset or one by one.
 void read_pair(TableReader& table, Method& method, bool is_file) {
   std::vector<std::string> presets;
+  presets.reserve(std::size(kPresets));
   for (const Preset& preset : kPresets)
     presets.emplace_back(preset.name);
   std::vector<std::string> architectures;
+  architectures.reserve(std::size(kArchitectures));
   for (const Architecture architecture : kArchitectures)
     architectures.emplace_back(name_of(architecture));
   if (const auto name = table.choice("method", presets)) {

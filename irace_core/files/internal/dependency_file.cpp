@@ -69,6 +69,7 @@ Expected<void> apply_line(LineReader line, const std::string& file,
 Expected<void> apply_dependency_file(const IraceText& source, std::vector<Parameter>& parameters,
                                      std::vector<Error>& warnings) {
   std::vector<std::string> names;
+  names.reserve(parameters.size());
   for (const Parameter& parameter : parameters)
     names.push_back(parameter.name);
   std::size_t number = 0;

@@ -82,6 +82,7 @@ std::string why_unreachable(const std::string& node, const std::string& topic) {
 }
 
 void read_lists(XmlRpc::XmlRpcValue& lists, std::map<std::string, std::vector<std::string>>& into) {
+  // The list's begin() is only for structs.  NOLINTNEXTLINE(modernize-loop-convert)
   for (int i = 0; i < lists.size(); ++i) {
     std::vector<std::string>& nodes = into[static_cast<std::string>(lists[i][0])];
     for (int k = 0; k < lists[i][1].size(); ++k)

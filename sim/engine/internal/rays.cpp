@@ -113,7 +113,7 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
   static_assert(kLines[2].ahead == 0 && kLines[0].ahead == 1 && kLines[3].back == 2 &&
                 kLines[1].back == 3 && kLines[2].back == 4 && kLines[0].back == 5 &&
                 kLines[3].ahead == 6 && kLines[1].ahead == 7);
-  store_two(Two{ahead[1][0], ahead[0][0]}, &distances[0]);
+  store_two(Two{ahead[1][0], ahead[0][0]}, distances.data());
   store_two(Two{back[1][1], back[0][1]}, &distances[2]);
   store_two(Two{back[1][0], back[0][0]}, &distances[4]);
   store_two(Two{ahead[1][1], ahead[0][1]}, &distances[6]);

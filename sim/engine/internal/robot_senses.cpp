@@ -14,8 +14,8 @@ namespace {
 
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
   // As a whole number first: on black and on white floors nobody could guess the way of a branch.
-  const auto rounded = static_cast<int>(value + noise + 0.5);
-  return static_cast<std::uint8_t>(std::clamp(rounded, 0, 255));
+  const double raised = value + noise + 0.5;
+  return static_cast<std::uint8_t>(std::clamp(static_cast<int>(raised), 0, 255));
 }
 
 /// Whether this robot has trouble for the whole run, and so how often it misses a neighbour.

@@ -34,6 +34,7 @@ std::vector<std::pair<std::string, Rgb>> read_color_keys(TableReader& table) {
     }
   }
   std::vector<std::pair<std::string, Rgb>> keys;
+  keys.reserve(by_name.size());
   for (auto& [name, key] : by_name)
     keys.push_back(std::move(key));
   return keys;

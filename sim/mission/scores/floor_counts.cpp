@@ -5,8 +5,8 @@
 
 namespace swarmsmith {
 
-FloorCounts::FloorCounts(std::vector<Rgb> colors, When at, const Arena& arena)
-    : colors_(std::move(colors)), at_(at), arena_(arena), sums_(colors_.size()) {}
+FloorCounts::FloorCounts(std::vector<Rgb> colors, When at, Arena arena)
+    : colors_(std::move(colors)), at_(at), arena_(std::move(arena)), sums_(colors_.size()) {}
 
 void FloorCounts::observe(std::span<const Point> points) {
   if (at_ == When::End) {

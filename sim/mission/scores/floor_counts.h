@@ -14,7 +14,7 @@ namespace swarmsmith {
 class FloorCounts {
  public:
   /// `arena` with the patches of this run; copied.
-  FloorCounts(std::vector<Rgb> colors, When at, const Arena& arena);
+  FloorCounts(std::vector<Rgb> colors, When at, Arena arena);
 
   void observe(std::span<const Point> points);
   /// One a colour, in their order.

@@ -1,5 +1,7 @@
 #include "sim/mission/scores/foraging.h"
 
+#include <utility>
+
 namespace swarmsmith {
 
 std::optional<ScoreFault> Foraging::fault() const {
@@ -7,8 +9,8 @@ std::optional<ScoreFault> Foraging::fault() const {
   return ScoreFault{"source", "is the nest's colour: nothing could be brought anywhere"};
 }
 
-ForagingScorer::ForagingScorer(const Foraging& rule, const Arena& arena)
-    : rule_(rule), arena_(arena) {}
+ForagingScorer::ForagingScorer(const Foraging& rule, Arena arena)
+    : rule_(rule), arena_(std::move(arena)) {}
 
 void ForagingScorer::observe(const Positions& seen) {
   if (carries_.size() < seen.robots.size()) carries_.resize(seen.robots.size());

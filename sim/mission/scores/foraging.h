@@ -33,7 +33,7 @@ struct Foraging {
 
 class ForagingScorer {
  public:
-  ForagingScorer(const Foraging& rule, const Arena& arena);
+  ForagingScorer(const Foraging& rule, Arena arena);
 
   /// A robot keeps its place in `seen.robots` for a whole run.
   void observe(const Positions& seen);

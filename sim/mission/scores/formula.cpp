@@ -95,8 +95,8 @@ std::optional<ScoreFault> Formula::fault() const {
                         (would_do ? "; with of = \"" + std::string(other) + "\" it could be" : "")};
 }
 
-FormulaScorer::FormulaScorer(const Formula& rule, const Arena& arena)
-    : rule_(rule), arena_(arena), formula_(rule.value, names_for(rule.of)) {
+FormulaScorer::FormulaScorer(const Formula& rule, Arena arena)
+    : rule_(rule), arena_(std::move(arena)), formula_(rule.value, names_for(rule.of)) {
   needs_floor_ = std::ranges::any_of(
       kNamedColors, [&](const NamedColor& color) { return formula_.uses(color.name); });
 }

@@ -52,7 +52,7 @@ struct Formula {
 
 class FormulaScorer {
  public:
-  FormulaScorer(const Formula& rule, const Arena& arena);
+  FormulaScorer(const Formula& rule, Arena arena);
 
   /// A robot or object keeps its place in `seen` for a whole run.
   void observe(const Positions& seen);

@@ -76,7 +76,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
                       {},
                       {}});
   }
-  const double all = static_cast<double>(frames.within + dropped);
+  const auto all = static_cast<double>(frames.within + dropped);
   if (all > 0 && static_cast<double>(dropped) > limits.dropped_share * all) {
     issues.push_back({IssueCode::FramesDropped,
                       fmt::format("camera {} dropped {} of {:.0f} frames ({:.1f} %, limit {:.0f} "
