@@ -220,7 +220,8 @@ class Results(ProgramTest):
         while not (store.exists() and self.evaluations(store) > 50):
             self.assertLess(time.monotonic(), deadline, "the campaign does not get on")
             time.sleep(0.02)
-        # The one writer is the campaign.
+        # The one writer is the campaign; stopped, it does not end meanwhile.
+        process.send_signal(signal.SIGSTOP)
         if process.poll() is None:
             self.refused(3, "import when the campaign has ended", "import",
                          ARGOS / "argos-thesis-designs.csv", "--flavour", "watermelon-argos3",
