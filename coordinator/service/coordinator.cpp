@@ -506,8 +506,8 @@ void Coordinator::put_news(TimePoint now, bool now_or_never) {
     pool_rows_.put(std::move(row));
 }
 
-void Coordinator::append(std::uint32_t campaign_index) {
-  Campaign& campaign = campaigns_[campaign_index];
+void Coordinator::append(std::uint32_t index) {
+  Campaign& campaign = campaigns_[index];
   std::vector<Row> rows = campaign.source->take_rows();
   note_if_all_is_paused(campaign);
   rows.insert(rows.end(), std::make_move_iterator(campaign.own_rows.begin()),
@@ -523,15 +523,15 @@ void Coordinator::append(std::uint32_t campaign_index) {
   Unit unit{.replies = std::move(replies)};
   for (const Row& row : rows) {
     if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-      unit.keys.push_back(pack(evaluation->key, campaign_index));
+      unit.keys.push_back(pack(evaluation->key, index));
     }
   }
   campaign.unappended.push_back(std::move(unit));
-  actions_.emplace_back(AppendRows{campaign_index, std::move(rows), pool_rows_.rows().size()});
+  actions_.emplace_back(AppendRows{index, std::move(rows), pool_rows_.rows().size()});
 }
 
-void Coordinator::on_appended(std::uint32_t campaign_index, std::uint64_t ticket) {
-  Campaign& campaign = campaigns_[campaign_index];
+void Coordinator::on_appended(std::uint32_t index, std::uint64_t ticket) {
+  Campaign& campaign = campaigns_[index];
   SWARMSMITH_ASSERT(!campaign.unappended.empty(), "a ticket belongs to rows that were given out");
   SWARMSMITH_ASSERT(campaign.appended.empty() || campaign.appended.back().ticket < ticket,
                     "tickets count up");
@@ -540,8 +540,8 @@ void Coordinator::on_appended(std::uint32_t campaign_index, std::uint64_t ticket
   campaign.unappended.pop_front();
 }
 
-void Coordinator::on_committed(std::uint32_t campaign_index, std::uint64_t ticket) {
-  std::deque<Unit>& appended = campaigns_[campaign_index].appended;
+void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
+  std::deque<Unit>& appended = campaigns_[index].appended;
   std::map<WorkerNumber, std::vector<PackedKey>> keys;
   while (!appended.empty() && appended.front().ticket <= ticket) {
     for (const PackedKey key : appended.front().keys) {

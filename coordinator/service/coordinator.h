@@ -95,8 +95,8 @@ class Coordinator {
   void on_tick(TimePoint now);
   /// What came of `AskReferee`.
   void on_ruling(const Ruling& ruling, TimePoint now) { scheduler_.on_ruling(ruling, now); }
-  void on_appended(std::uint32_t campaign_index, std::uint64_t ticket);
-  void on_committed(std::uint32_t campaign_index, std::uint64_t ticket);
+  void on_appended(std::uint32_t index, std::uint64_t ticket);
+  void on_committed(std::uint32_t index, std::uint64_t ticket);
   /// No leases from now on, or again: the disks do not keep up, or all is to stop.
   void hold(Holding holding) {
     holding_ = holding;
@@ -198,7 +198,7 @@ class Coordinator {
   void repeat(const OutcomeRepeated& action);
   void put_event(Noted& noted, TimePoint now);
   void put_news(TimePoint now, bool now_or_never = false);
-  void append(std::uint32_t campaign_index);
+  void append(std::uint32_t index);
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
 
   CoordinatorOptions options_;

@@ -48,8 +48,8 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
   }
 }
 
-void Telemetry::on_rows(std::size_t campaign_index, std::span<const Row> rows, TimePoint now) {
-  Campaign& campaign = campaigns_[campaign_index];
+void Telemetry::on_rows(std::size_t index, std::span<const Row> rows, TimePoint now) {
+  Campaign& campaign = campaigns_[index];
   for (const Row& row : rows) {
     campaign.progress.add(row);
     const auto* step = std::get_if<RaceStepRow>(&row);
@@ -60,24 +60,24 @@ void Telemetry::on_rows(std::size_t campaign_index, std::span<const Row> rows, T
   }
 }
 
-void Telemetry::on_appended(std::size_t campaign, std::uint64_t ticket, TimePoint now) {
-  campaigns_[campaign].uncommitted.emplace_back(ticket, now);
+void Telemetry::on_appended(std::size_t index, std::uint64_t ticket, TimePoint now) {
+  campaigns_[index].uncommitted.emplace_back(ticket, now);
 }
 
-void Telemetry::on_committed(std::size_t campaign_index, std::uint64_t ticket, TimePoint now) {
-  Campaign& campaign = campaigns_[campaign_index];
+void Telemetry::on_committed(std::size_t index, std::uint64_t ticket, TimePoint now) {
+  Campaign& campaign = campaigns_[index];
   while (!campaign.uncommitted.empty() && campaign.uncommitted.front().first <= ticket) {
     campaign.status.commit_time.observe(now - campaign.uncommitted.front().second);
     campaign.uncommitted.pop_front();
   }
 }
 
-void Telemetry::set_wal_bytes(std::size_t campaign, std::int64_t bytes) {
-  campaigns_[campaign].status.wal_bytes = bytes;
+void Telemetry::set_wal_bytes(std::size_t index, std::int64_t bytes) {
+  campaigns_[index].status.wal_bytes = bytes;
 }
 
-void Telemetry::set_trouble(std::size_t campaign, const std::string& trouble) {
-  campaigns_[campaign].status.trouble = trouble;
+void Telemetry::set_trouble(std::size_t index, const std::string& trouble) {
+  campaigns_[index].status.trouble = trouble;
 }
 
 std::size_t Telemetry::queued_units() const {

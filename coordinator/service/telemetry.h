@@ -49,13 +49,13 @@ class Telemetry {
 
   void on_frame_in(std::size_t bytes) { bytes_in_ += static_cast<std::int64_t>(bytes); }
   void on_frame_out(std::size_t bytes) { bytes_out_ += static_cast<std::int64_t>(bytes); }
-  void on_rows(std::size_t campaign_index, std::span<const Row> rows, TimePoint now);
+  void on_rows(std::size_t index, std::span<const Row> rows, TimePoint now);
   /// A unit of rows got its ticket from the writer.
-  void on_appended(std::size_t campaign, std::uint64_t ticket, TimePoint now);
-  void on_committed(std::size_t campaign_index, std::uint64_t ticket, TimePoint now);
-  void set_wal_bytes(std::size_t campaign, std::int64_t bytes);
+  void on_appended(std::size_t index, std::uint64_t ticket, TimePoint now);
+  void on_committed(std::size_t index, std::uint64_t ticket, TimePoint now);
+  void set_wal_bytes(std::size_t index, std::int64_t bytes);
   /// Empty: well again.
-  void set_trouble(std::size_t campaign, const std::string& trouble);
+  void set_trouble(std::size_t index, const std::string& trouble);
 
   /// Units of rows that no writer has committed.
   std::size_t queued_units() const;

@@ -42,18 +42,18 @@ RollCall::RollCall(const std::vector<std::string>& robots, std::string id)
     robots_.push_back({.name = name, .state = {}, .heard = {}});
 }
 
-void RollCall::hear(std::size_t at, const NodeState& state, const Now& now) {
-  RolledRobot& robot = robots_[at];
-  robot.state = state;
-  robot.heard = now.clock;
-  if (answered_[at] || state.order != fmt::format("{}-echo{}", id_, round_)) return;
-  answered_[at] = true;
+void RollCall::hear(std::size_t robot, const NodeState& state, const Now& now) {
+  RolledRobot& rolled = robots_[robot];
+  rolled.state = state;
+  rolled.heard = now.clock;
+  if (answered_[robot] || state.order != fmt::format("{}-echo{}", id_, round_)) return;
+  answered_[robot] = true;
   const double took_s = std::chrono::duration<double>(now.clock - sent_.clock).count();
-  if (robot.echoes == 0 || took_s < robot.echo_s) {
-    robot.echo_s = took_s;
-    robot.offset_s = state.unix_s - (sent_.unix_s + took_s / 2);
+  if (rolled.echoes == 0 || took_s < rolled.echo_s) {
+    rolled.echo_s = took_s;
+    rolled.offset_s = state.unix_s - (sent_.unix_s + took_s / 2);
   }
-  ++robot.echoes;
+  ++rolled.echoes;
 }
 
 std::optional<Order> RollCall::tick(const Now& now) {

@@ -31,7 +31,8 @@ class RollCall {
   /// `id`: begins the ids of orders; no two operators' are equal.
   RollCall(const std::vector<std::string>& robots, std::string id);
 
-  void hear(std::size_t at, const NodeState& state, const Now& now);
+  /// `robot`: its place among those of the constructor.
+  void hear(std::size_t robot, const NodeState& state, const Now& now);
   /// The echo to be sent now, if one is.
   std::optional<Order> tick(const Now& now);
   /// Each robot has answered all echoes.
