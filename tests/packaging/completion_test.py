@@ -61,12 +61,12 @@ class CompletionTest(unittest.TestCase):
             raise AssertionError(f"{words}\n{done.stdout}{done.stderr}")
         return done.stdout
 
-
-class Offers(CompletionTest):
     def offered(self, *words, program="swarmsmith", **environment):
         """Words that may come next, without what they mean."""
         return [line.split("\t")[0] for line in self.said(program, "--complete", *words, **environment).splitlines()]
 
+
+class EveryOffer(CompletionTest):
     def test_every_command_and_option_of_the_help(self):
         tried = 0
         for program in programs.built(BIN):
@@ -85,6 +85,8 @@ class Offers(CompletionTest):
                 tried += len(options)
         self.assertGreater(tried, 300)
 
+
+class Offers(CompletionTest):
     def test_what_is_given_already_is_not_offered_again(self):
         self.assertIn("--budget", self.offered("run", "--"))
         self.assertNotIn("--budget", self.offered("run", "--budget", "10", "--"))

@@ -34,7 +34,7 @@ def commands_in(help_text):
     return re.findall(r"^  ([a-z]+(?: [a-z]+)*)  ", listed, re.M)
 
 
-class ManPages(unittest.TestCase):
+class Written(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="swarmsmith-man-")
@@ -42,6 +42,8 @@ class ManPages(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         man_pages.write_pages(BIN, cls.folder)
 
+
+class EveryPage(Written):
     def shown(self, name):
         """A page as `man` shows it, in one line."""
         if not shutil.which("man"):
@@ -73,6 +75,8 @@ class ManPages(unittest.TestCase):
                     tried += 1
         self.assertGreater(tried, 300)
 
+
+class ManPages(Written):
     @unittest.skipUnless(shutil.which("mandoc"), "mandoc is not there")
     def test_mandoc_has_nothing_to_say(self):
         # Lines longer than 80 bytes are left as they are.
