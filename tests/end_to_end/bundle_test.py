@@ -54,7 +54,8 @@ def serve(test, store, *words):
 
 
 @unittest.skipIf(why_not(), why_not() or "")
-class Bundle(ProgramTest):
+class Bundled(ProgramTest):
+    """Tests with a bundle of this build, unpacked."""
     budget = 1500
 
     @classmethod
@@ -65,23 +66,16 @@ class Bundle(ProgramTest):
         cls.archive = pack(cls.place)
         cls.bundle = unpacked(cls.archive, cls.place)
 
-    def version(self, *words, **keywords):
-        done = subprocess.run(words, capture_output=True, text=True, timeout=60 * PATIENCE, **keywords)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return done.stdout.strip()
-
-    def test_in_an_empty_root_over_curve_by_name(self):
-        if why := why_no_root():
-            self.skipTest(why)
+    def takes_part_in(self, root):
+        """A campaign over CURVE, whose one worker runs in `root` and finds its coordinator by name."""
         keys = self.folder / "keys"
         self.assertEqual(call("keygen", keys).returncode, 0)
-        root = self.folder / "root"
         shutil.copytree(self.bundle, root / "bundle")
         shutil.copy(keys / "worker.key", root)
-        (root / "etc").mkdir()
+        (root / "etc").mkdir(exist_ok=True)
         (root / "etc/hosts").write_text("127.0.0.1 coordinator.example\n")
         (root / "etc/ld.so.preload").write_text("/of/another/libc.so\n")
-        store = self.folder / "empty.db"
+        store = self.folder / "there.db"
         coordinator, port = serve(self, store, "--keys", keys)
         worker = robots.Process(self, in_root(
             root, "/bundle/swarmsmith-worker", "--connect", f"tcp://coordinator.example:{port}", "--key", "/worker.key",
@@ -94,13 +88,27 @@ class Bundle(ProgramTest):
         self.assertEqual(coordinator.end(), 0, coordinator.said() + worker.said())
         self.assertEqual(worker.end(), 0, worker.said())
         self.assertNotIn("ld.so", worker.said())
-        self.assertEqual(sorted(entry.name for entry in root.iterdir()), ["bundle", "etc", "worker.key"])
         local = self.folder / "local.db"
         done = self.run_campaign(local, "--workers", "2")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.digest(store), self.digest(local))
         rows = self.query(store, "SELECT client, done > 500 AS worked FROM worker")
         self.assertEqual(rows, [{"client": "worker", "worked": 1}])
+
+
+class Bundle(Bundled):
+    def version(self, *words, **keywords):
+        done = subprocess.run(words, capture_output=True, text=True, timeout=60 * PATIENCE, **keywords)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout.strip()
+
+    def test_in_an_empty_root_over_curve_by_name(self):
+        if why := why_no_root():
+            self.skipTest(why)
+        root = self.folder / "root"
+        root.mkdir()
+        self.takes_part_in(root)
+        self.assertEqual(sorted(entry.name for entry in root.iterdir()), ["bundle", "etc", "worker.key"])
 
     def test_from_wherever_it_is_called(self):
         version = self.version(BIN / "swarmsmith-worker", "--version")
@@ -148,6 +156,22 @@ class Bundle(ProgramTest):
         self.addCleanup(os.umask, old)
         again = pack(elsewhere, TMPDIR=str(elsewhere), LC_ALL="C.UTF-8", TZ="Asia/Tokyo", XZ_OPT="-9")
         self.assertEqual(again.read_bytes(), self.archive.read_bytes())
+
+
+class OlderDebian(Bundled):
+    def test_takes_part_over_curve_by_name(self):
+        if os.geteuid() != 0 or not shutil.which("debootstrap"):
+            self.skipTest("a Debian 11 is made by root with debootstrap")
+        root = self.folder / "root"
+        done = subprocess.run(["debootstrap", "--variant=minbase", "bullseye", root], capture_output=True, text=True)
+        if done.returncode != 0:
+            self.skipTest(f"debootstrap could not make a root; is there a network? {done.stdout[-300:]}{done.stderr}")
+        libc = subprocess.run(in_root(root, "ldd", "--version"), capture_output=True, text=True, check=True).stdout
+        self.assertIn("2.31", libc.split("\n")[0])
+        # A program of this system does not start there.
+        shutil.copy(BIN / "swarmsmith-worker", root)
+        self.assertNotEqual(subprocess.run(in_root(root, "/swarmsmith-worker", "--version"), capture_output=True).returncode, 0)
+        self.takes_part_in(root)
 
 
 if __name__ == "__main__":
