@@ -17,11 +17,17 @@ endfunction()
 # swarmsmith_precompile(TARGET code|text|test): what nearly all of them include is compiled once for all libraries and
 # programs, for those that use fmt, and for all test programs. As ./dev builds; not for ccache, which could keep nothing
 # then, and not for the compilers of the gates. GCC takes what is precompiled for our code, in which its optimiser warns:
-# of version 12, that is bug 105651 (see Warnings.cmake).
+# of version 12, that is bug 105651 (see Warnings.cmake). Test programs are compiled by clang then, which does not optimise
+# them and takes less than half of GCC's time.
 function(swarmsmith_precompile target kind)
   if(NOT CMAKE_UNITY_BUILD OR SWARMSMITH_SANITIZE OR CMAKE_CXX_COMPILER_LAUNCHER OR
      NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
+  endif()
+  if(kind STREQUAL "test")
+    find_program(SWARMSMITH_CLANG clang++ REQUIRED)
+    set(launcher ${PROJECT_SOURCE_DIR}/cmake/by_clang)
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${launcher})
   endif()
   set(common swarmsmith_${kind}_headers)
   if(NOT TARGET ${common})
@@ -35,7 +41,7 @@ function(swarmsmith_precompile target kind)
     elseif(kind STREQUAL "test")
       list(APPEND headers <filesystem> <fstream> <gmock/gmock.h> <gtest/gtest.h>)
       target_link_libraries(${common} PRIVATE GTest::gmock)
-      target_compile_options(${common} PRIVATE $<$<CONFIG:Release>:-O1>)
+      set_target_properties(${common} PROPERTIES CXX_COMPILER_LAUNCHER "${launcher}")
     endif()
     target_precompile_headers(${common} PRIVATE ${headers})
   endif()
@@ -80,13 +86,14 @@ function(swarmsmith_program name)
   swarmsmith_precompile_code(${name} ${arg_PRIVATE})
 endfunction()
 
-# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] [TIMEOUT s] SOURCES ... USES ...)
+# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] [OPTIMISED] [TIMEOUT s] SOURCES ... USES ...)
 #
 # One test program a folder; each of its tests is a ctest of its own, so that they run in parallel. WHOLE, and all under
 # a sanitizer: one ctest for the program, because to start it takes longer than most of its tests. A program that loads
-# OpenCV's imgcodecs or videoio takes 0.2 to 0.3 s of processor.
+# OpenCV's imgcodecs or videoio takes 0.2 to 0.3 s of processor. OPTIMISED: its own code and the inline functions that it
+# calls are what it spends its time in.
 function(swarmsmith_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE" "LABEL;TIMEOUT" "SOURCES;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE;OPTIMISED" "LABEL;TIMEOUT" "SOURCES;USES")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -98,7 +105,9 @@ function(swarmsmith_test name)
     swarmsmith_warnings swarmsmith_exact_arithmetic)
   # The code under test is optimised; its tests compile in two thirds of the time.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  swarmsmith_precompile(${target} test)
+  if(NOT arg_OPTIMISED)
+    swarmsmith_precompile(${target} test)
+  endif()
   target_compile_definitions(${target} PRIVATE
     SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
     SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
