@@ -1,11 +1,8 @@
 """People pause, resume, cancel and extend designs of a campaign that runs, or that is at rest."""
-import contextlib
 import signal
-import sqlite3
-import time
 import unittest
 
-from programs import PATIENCE, ProgramTest, call, children_of, send
+from programs import ProgramTest, call, children_of, designs_of, send, used
 
 
 class Commands(ProgramTest):
@@ -46,13 +43,6 @@ class Commands(ProgramTest):
             for worker in workers:
                 send(worker, signal.SIGCONT)
 
-    def until(self, condition, what, timeout=60):
-        deadline = time.monotonic() + timeout * PATIENCE
-        while not condition():
-            if time.monotonic() > deadline:
-                self.fail(what)
-            time.sleep(0.02)
-
     def until_coordinated_by(self, process):
         """Until this program has said where it is, not one that was killed before it."""
         file = self.folder / "campaign.db.coordinator"
@@ -60,17 +50,10 @@ class Commands(ProgramTest):
                    "no coordinator")
 
     def designs(self):
-        """State and experiments of each design; nothing while the store is not there yet."""
-        # Not by the program, which takes so long to start under load that the race is over then.
-        try:
-            with contextlib.closing(sqlite3.connect(f"file:{self.store}?mode=ro", uri=True)) as db:
-                rows = db.execute("SELECT design, state, used, reason FROM v_designs").fetchall()
-        except sqlite3.OperationalError:
-            return {}
-        return {row[0]: dict(zip(("design", "state", "used", "reason"), row)) for row in rows}
+        return designs_of(self.store)
 
     def used(self, design):
-        return self.designs().get(design, {"used": 0})["used"]
+        return used(self.store, design)
 
     def begin(self, least=100):
         """Runs the campaign until both of its designs have come some way."""

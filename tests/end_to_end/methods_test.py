@@ -5,11 +5,9 @@ generations, too.
 """
 import random
 import signal
-import subprocess
-import time
 import unittest
 
-from programs import ProgramTest, call, children_of, send
+from programs import ProgramTest, call, children_of, send, used
 
 METHODS = {
     "random": "",
@@ -65,17 +63,17 @@ class MethodTest(ProgramTest):
 class OneAnswer(MethodTest):
     rng = random.Random(2026)
 
-    def interrupt(self, store, seconds):
-        """Kills a worker at some moment, and then the coordinator; False if the end came first. One worker alone takes so
-        many seconds for the campaign."""
+    def interrupt(self, store, whole):
+        """Kills a worker at some moment, and then the coordinator; False if the end came first, after the whole number of
+        experiments."""
         process = self.start_campaign(store, "--workers", "2")
         for victim in ("worker", "coordinator"):
-            try:
-                process.wait(timeout=seconds * self.rng.uniform(0.05, 0.2))
-                return False
-            except subprocess.TimeoutExpired:
-                pass
+            before = used(store)
+            moment = before + self.rng.uniform(0, 0.2) * (whole - before)
+            self.until(lambda: used(store) >= moment or process.poll() is not None, "no progress")
             workers = children_of(process.pid)
+            if process.poll() is not None:
+                return False
             if victim == "coordinator":
                 send(process.pid, signal.SIGKILL)
                 process.wait()
@@ -85,11 +83,13 @@ class OneAnswer(MethodTest):
 
     def one_answer(self, name, keys):
         self.write(name, keys)
-        began = time.monotonic()
-        digest = self.answer(self.folder / f"{name}.one.db", "--workers", "1")
-        seconds = time.monotonic() - began
-        killed = self.folder / f"{name}.killed.db"
-        self.assertIn(True, [self.interrupt(killed, seconds) for _ in range(3)])
+        one = self.folder / f"{name}.one.db"
+        digest = self.answer(one, "--workers", "1")
+        stores = [self.folder / f"{name}.killed{number}.db" for number in range(10)]
+        killed = next((store for store in stores if self.interrupt(store, used(one))), None)
+        self.assertTrue(killed, "all campaigns were over before they were killed")
+        for _ in range(2):
+            self.interrupt(killed, used(one))
         self.assertEqual(self.answer(killed, "--workers", "3"), digest)
 
 

@@ -1,10 +1,13 @@
 """Starting the real programs from tests. Each test has a temporary folder of its own."""
+import contextlib
 import json
 import os
 import pathlib
 import signal
+import sqlite3
 import subprocess
 import tempfile
+import time
 import unittest
 
 BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
@@ -72,6 +75,21 @@ def send(pid, what):
         pass
 
 
+def designs_of(store):
+    """State and experiments of each design; nothing while the store is not there yet. Not by the program, which takes so
+    long to start under load that the campaign is over then."""
+    try:
+        with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as db:
+            rows = db.execute("SELECT design, state, used, reason FROM v_designs").fetchall()
+    except sqlite3.OperationalError:
+        return {}
+    return {row[0]: dict(zip(("design", "state", "used", "reason"), row)) for row in rows}
+
+
+def used(store, design=1):
+    return designs_of(store).get(design, {"used": 0})["used"]
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder, a campaign file in it, and the checks that they share."""
 
@@ -101,6 +119,13 @@ class ProgramTest(unittest.TestCase):
         if process.poll() is None:
             send(-process.pid, signal.SIGKILL)
         process.wait()
+
+    def until(self, condition, what, timeout=60):
+        deadline = time.monotonic() + timeout * PATIENCE
+        while not condition():
+            if time.monotonic() > deadline:
+                self.fail(what)
+            time.sleep(0.02)
 
     def digest(self, store):
         done = call("digest", store)

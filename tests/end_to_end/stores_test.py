@@ -5,10 +5,9 @@ import pathlib
 import random
 import shutil
 import sqlite3
-import time
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, used
 
 PAGE = 8192
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
@@ -71,18 +70,12 @@ class Backup(Stores):
     def test_a_copy_that_is_made_while_a_campaign_runs_goes_on_to_the_same_answer(self):
         store, copy = self.folder / "running.db", self.folder / "copy.db"
         process = self.start_campaign(store, "--workers", "2")
-        deadline = time.monotonic() + 120
-        while not (store.exists() and call("status", store).returncode == 0 and
-                   self.query(store, "SELECT used FROM v_designs")[0]["used"] > 500):
-            self.assertLess(time.monotonic(), deadline)
-            self.assertIsNone(process.poll())
-            time.sleep(0.05)
+        self.until(lambda: used(store) > 500, "no progress", 120)
         made = self.answer("backup", store, copy)
-        self.assertIsNone(process.poll(), "the campaign was over before it was copied")
         self.assertEqual(self.digest(copy), made["digest"])
         self.assert_clean(copy)
         self.assertEqual(process.wait(timeout=200), 0)
-        self.assertNotEqual(self.digest(store), made["digest"])
+        self.assertNotEqual(self.digest(store), made["digest"], "the campaign was over before it was copied")
         self.assertEqual(self.run_campaign(copy, "--workers", "2").returncode, 0)
         self.assertEqual(self.digest(copy), self.digest(store))
 
