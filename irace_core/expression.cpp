@@ -12,7 +12,7 @@ namespace swarmsmith {
 Scalar Scalar::integer(double value) {
   constexpr double kLargest = 2147483647;  // R has no larger integer: beyond it, NA
   if (!(std::fabs(value) <= kLargest)) return missing_of(Type::Integer);
-  return {Type::Integer, false, value, {}};
+  return {Type::Integer, false, value + 0.0, {}};  // R's have no negative zero
 }
 
 Scalar Scalar::real(double value) {

@@ -105,7 +105,8 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
   }
   if (is_sign && function == "-") {
     const auto* number = std::get_if<r::Number>(&call.arguments.front().value.what);
-    if (number == nullptr) return Expression::call(Operation::Negate, std::move(*operands));
+    const bool is_signed = number != nullptr && !(number->is_integer && number->value == 0);
+    if (!is_signed) return Expression::call(Operation::Negate, std::move(*operands));
     return Expression::constant(number->is_integer ? Scalar::integer(-number->value)
                                                    : Scalar::real(-number->value));
   }

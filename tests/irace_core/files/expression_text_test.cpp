@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/irace_core/files/random_expressions.h"
 #include "tests/support/small_stack.h"
 
@@ -43,6 +45,18 @@ TEST(ExpressionText, PrintsWithTheFewestParentheses) {
             "c(1, 2.5, 100000, 1e-07, 3L, \"x\", NA)");
   EXPECT_EQ(reprinted("`1x` + `_y` + `if`"), "`1x` + `_y` + `if`");
   EXPECT_EQ(reprinted("round(a, digits = 2)"), "round(a, 2)");
+}
+
+// R's integers have no negative zero.
+TEST(ExpressionText, KeepsEachSignOfAnIntegerZero) {
+  EXPECT_EQ(reprinted("-0L"), "-0L");
+  EXPECT_EQ(reprinted("a - ---0L"), "a - ---0L");
+  EXPECT_EQ(*read("1 / -0L").expression->to_number({}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(*read("1 / (0L * -5L)").expression->to_number({}),
+            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(*read("1 / as.integer(-0.5)").expression->to_number({}),
+            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(*read("1 / -0").expression->to_number({}), -std::numeric_limits<double>::infinity());
 }
 
 TEST(ExpressionText, ReadsWhatOlderAutoMoDeFilesSay) {
