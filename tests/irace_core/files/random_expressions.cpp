@@ -1,6 +1,7 @@
 #include "tests/irace_core/files/random_expressions.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace swarmsmith::testing {
@@ -19,7 +20,7 @@ Expression RandomExpressions::number() {
                                                5e-324,
                                                std::numeric_limits<double>::infinity()};
   const int kind = below(3);
-  if (kind == 0) return Expression::integer(static_cast<std::int32_t>(below(200)) - 100);
+  if (kind == 0) return Expression::integer(static_cast<std::int32_t>(below(20)) - 10);
   if (kind == 1) return Expression::number(kNumbers.at(static_cast<std::size_t>(below(10))));
   return Expression::number(rng_->uniform(-1000, 1000));
 }
@@ -59,9 +60,15 @@ Expression RandomExpressions::any(int depth) {
   std::vector<Expression> operands;
   for (int i = 0; i < count; ++i)
     operands.push_back(any(depth - 1));
-  // Minus before a plain number reads back as a negative constant; ranges of constants may be long.
+  // Minus before a plain number reads back as a negative constant, but R has no negative 0L; ranges
+  // of constants may be long.
   const auto is_constant = [](const Expression& one) { return one.operation() == Constant; };
-  if (operation == Negate && is_constant(operands[0])) return operands[0];
+  if (operation == Negate && is_constant(operands[0])) {
+    const Scalar value = operands[0].evaluate({})[0];
+    const bool is_number = value.type == Scalar::Type::Real ||
+                           (value.type == Scalar::Type::Integer && value.number != 0);
+    if (is_number && !value.missing && !std::signbit(value.number)) return operands[0];
+  }
   if (operation == Range && is_constant(operands[0]) && is_constant(operands[1])) {
     return Expression::call(Add, std::move(operands));
   }
