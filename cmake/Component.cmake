@@ -104,7 +104,7 @@ function(swarmsmith_test name)
   swarmsmith_share_units(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
     swarmsmith_warnings swarmsmith_exact_arithmetic)
-  # The code under test is optimised; its tests compile in two thirds of the time.
+  # The code under test is optimised; by GCC, its tests compile in two thirds of the time.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(NOT arg_OPTIMISED)
     swarmsmith_precompile(${target} test)

@@ -105,6 +105,7 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
   }
   if (is_sign && function == "-") {
     const auto* number = std::get_if<r::Number>(&call.arguments.front().value.what);
+    // R has no negative 0L: its sign stays an operation, or it would be lost when it is printed.
     const bool is_signed = number != nullptr && !(number->is_integer && number->value == 0);
     if (!is_signed) return Expression::call(Operation::Negate, std::move(*operands));
     return Expression::constant(number->is_integer ? Scalar::integer(-number->value)
