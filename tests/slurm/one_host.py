@@ -5,9 +5,11 @@ the test. When it is killed itself, a guard, which waits for that, ends all that
 `-N`, a port each and %n in their paths; plugins that want cgroups are left out; `config_overrides`
 lets a node have more CPUs than the machine.
 """
+import contextlib
 import ctypes
 import os
 import pathlib
+import random
 import shutil
 import signal
 import socket
@@ -71,15 +73,17 @@ def why_not():
 
 
 def free_ports(count):
-    """Ports that nobody has right now."""
-    holders = [socket.socket() for _ in range(count)]
-    try:
-        for holder in holders:
-            holder.bind(("127.0.0.1", 0))
-        return [holder.getsockname()[1] for holder in holders]
-    finally:
-        for holder in holders:
-            holder.close()
+    """Ports that nobody has right now, and that the system gives to nobody who asks for any port: tests beside
+    this one make connections all the time, and a daemon needs a while until it has its port."""
+    first_of_any = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
+    ports = set()
+    for port in random.sample(range(first_of_any // 2, first_of_any), 1000):
+        with contextlib.suppress(OSError), socket.socket() as holder:
+            holder.bind(("127.0.0.1", port))
+            ports.add(port)
+        if len(ports) == count:
+            return sorted(ports)
+    raise AssertionError(f"no {count} free ports below {first_of_any}")
 
 
 def wait_for(condition, what, limit_s=60, pause_s=0.1):

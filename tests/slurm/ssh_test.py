@@ -13,13 +13,19 @@ import bundle_test
 import one_host_ssh
 
 
-def processes(word, parent=None):
+def program_of(pid):
+    return pathlib.Path(os.readlink(f"/proc/{pid}/exe"))
+
+
+def processes(word, parent=None, program=None):
     """Ids of processes with this word on their command line."""
     found = []
     for entry in pathlib.Path("/proc").iterdir():
         try:
             words = (entry / "cmdline").read_bytes().split(b"\0")
             status = (entry / "stat").read_text().rsplit(")", 1)[1].split()
+            if program is not None and program_of(entry.name) != pathlib.Path(program):
+                continue
         except (OSError, IndexError):
             continue
         if status[0] != "Z" and any(word.encode() in w for w in words):
@@ -48,7 +54,8 @@ class Ssh(ProgramTest):
         self.environment = {**os.environ, "SWARMSMITH_WORKER": str(self.worker),
                             "SWARMSMITH_KEYS": str(keys)}
 
-    def campaign(self, hosts, budget=1500):
+    def campaign(self, hosts, budget=1_000_000):
+        """Without a budget, one that is interrupted long before its end, on any machine."""
         self.hosts.write_text(hosts)
         self.file.write_text(campaigns.CAMPAIGN.format(
             repetitions=1, budget=budget, duration_s=240,
@@ -69,7 +76,7 @@ class Ssh(ProgramTest):
         found = []
         for pid in processes(str(self.worker)):
             with contextlib.suppress(FileNotFoundError):  # it ended meanwhile
-                if os.path.basename(os.readlink(f"/proc/{pid}/exe")) == "swarmsmith-worker":
+                if program_of(pid).name == "swarmsmith-worker":
                     found.append(pid)
         return found
 
@@ -164,12 +171,12 @@ exec xz "$@"
         cache = self.ssh.cache / "swarmsmith"
         process = self.run_by_ssh("--ship")
         wait_for(lambda: half.exists() and list(cache.glob("new.*/*/lib/libc.so.6")), "half a bundle", 30)
-        sending, = [pid for pid in processes("mktemp") if shutil.which("ssh") == os.readlink(f"/proc/{pid}/exe")]
+        sending, = processes("mktemp", program=shutil.which("ssh"))
         send(sending, signal.SIGKILL)
         go_on.write_text("\n")
         wait_for(lambda: "the worker cannot be sent there" in self.said.read_text(), "a word about that")
         worker, = wait_for(self.sent, "a worker", 30)
-        self.assertEqual([os.readlink(f"/proc/{worker}/exe")], [str(path / "ld.so") for path in cache.iterdir()])
+        self.assertEqual([program_of(worker)], [path / "ld.so" for path in cache.iterdir()])
         self.assertEqual([path.name.rsplit("-", 1)[0] for path in cache.iterdir()], [archive.name.removesuffix(".tar.xz")])
         self.interrupt(process)
         # What is there is not sent again.
@@ -186,11 +193,12 @@ exec xz "$@"
         wait_for(lambda: not self.sent(), "the end of all workers", 30)
 
     def sent(self):
-        """Workers of a bundle."""
+        """Workers of a bundle, by its loader: before that, the same process is the bundle's launcher."""
         found = []
         for pid in processes(str(self.ssh.cache / "swarmsmith")):
             with contextlib.suppress(FileNotFoundError):  # it ended meanwhile
-                if pathlib.Path(f"/proc/{pid}/comm").read_text() == "swarmsmith-work\n":
+                if (pathlib.Path(f"/proc/{pid}/comm").read_text() == "swarmsmith-work\n"
+                        and program_of(pid).name == "ld.so"):
                     found.append(pid)
         return found
 
