@@ -72,7 +72,6 @@ class Liars(Visited):
         which have proved themselves: an audit finds it, and the campaign says that it cannot be
         believed."""
         peer, welcome = self.enter()
-        peer.socket.settimeout(1)
         rng = random.Random(4)
         told = 0
         sequence = 2
@@ -84,7 +83,7 @@ class Liars(Visited):
                 with contextlib.suppress(OSError):
                     self.say(peer, sequence, heartbeat={"credit": 8})
             try:
-                heard = message("ToWorker", peer.receive() or bytes(8))
+                heard = message("ToWorker", peer.receive(1) or bytes(8))
             except OSError:
                 continue
             results = [{"key": task["key"], "attempt": task.get("attempt", 0), "wall_us": 300,

@@ -6,7 +6,7 @@ import time
 
 from network import Proxy
 from programs import call
-from rig import FaultTest, events, rows, stored
+from rig import FaultTest, events, rows, stored, wait_for
 from wire import COMMAND, Frames, frame, message
 
 
@@ -54,10 +54,14 @@ class Visited(FaultTest):
         return [body for flags, body in frames.feed(bytes(self.proxy.recorded[0, direction]))
                 if flags is not None and not flags & COMMAND]
 
+    def frame_with(self, what):
+        """The first frame of the worker that is heard that has this; the other one may have done all so far."""
+        return wait_for(lambda: next((body for body in self.heard() if what in message("ToCoordinator", body)), None),
+                        f"a frame with {what} of the worker that is heard", 30)
+
     def hello(self, **changes):
         """What an honest worker says first, from another one."""
-        honest = next(message("ToCoordinator", body) for body in self.heard()
-                      if "hello" in message("ToCoordinator", body))
+        honest = message("ToCoordinator", self.frame_with("hello"))
         hello = {**honest["hello"], "worker_id": os.urandom(16), "host": "stranger", "pid": 1,
                  **changes}
         hello.pop("holds", None)

@@ -8,6 +8,7 @@ import pathlib
 import re
 import socket
 import struct
+import time
 
 SCHEMA = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "proto" / "wire.proto"
 HEADER = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "proto" / "wire.h"
@@ -67,20 +68,22 @@ class Frames:
 
 
 class Peer:
-    """A DEALER that is not ours. Everything ends after `timeout` seconds."""
+    """A DEALER that is not ours. Everything ends after `timeout` seconds, also while pings come."""
 
     def __init__(self, address, timeout=10, greet=True):
         host, port = address.rsplit(":", 1)
         self.socket = socket.create_connection((host, int(port)), timeout)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.timeout = timeout
         self.frames = Frames()
         self.waiting = []
         self.is_ready = False
         if greet:
             self.socket.sendall(GREETING + ready())
             # Whoever speaks before both are ready is cut off.
+            limit = time.monotonic() + timeout
             while not self.is_ready:
-                self.read()
+                self.read(limit)
 
     def __enter__(self):
         return self
@@ -94,16 +97,24 @@ class Peer:
     def send(self, body, flags=0):
         self.socket.sendall(packed(body, flags))
 
-    def receive(self):
+    def receive(self, seconds=None):
         """The next message; b"" when the other side has closed. Answers pings."""
+        limit = time.monotonic() + (self.timeout if seconds is None else seconds)
         while not self.waiting:
-            if not self.read():
+            if not self.read(limit):
                 return b""
         return self.waiting.pop(0)
 
-    def read(self):
-        """Takes what comes; False when the other side has closed."""
-        some = self.socket.recv(65536)
+    def read(self, limit):
+        """Takes what comes until then; False when the other side has closed."""
+        left = limit - time.monotonic()
+        if left <= 0:
+            raise TimeoutError
+        self.socket.settimeout(left)
+        try:
+            some = self.socket.recv(65536)
+        finally:
+            self.socket.settimeout(self.timeout)
         for flags, body in self.frames.feed(some):
             if flags is None:
                 continue
@@ -119,9 +130,9 @@ class Peer:
 
     def is_closed(self, seconds=10):
         """Whether the other side closes the connection within this time."""
-        self.socket.settimeout(seconds)
+        limit = time.monotonic() + seconds
         try:
-            while self.receive():
+            while self.receive(limit - time.monotonic()):
                 pass
             return True
         except TimeoutError:

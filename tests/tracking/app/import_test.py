@@ -91,7 +91,13 @@ class Import(unittest.TestCase):
             self.assert_can_be_done_again(store)
 
     def test_killed_as_soon_as_the_store_is_written(self):
-        for number in range(6):
+        self.kill_when_written(0, 3)
+
+    def test_killed_while_the_store_is_written(self):
+        self.kill_when_written(1, 2, 4, 5)
+
+    def kill_when_written(self, *moments):
+        for number in moments:
             store = LAB.folder / f"written{number}.db"
             log = pathlib.Path(f"{store}-wal")
             process = subprocess.Popen([str(TRACK), *words_for(store)], stdout=subprocess.DEVNULL,
