@@ -269,9 +269,9 @@ class FaultTest(unittest.TestCase):
         self.assert_clean(store)
         self.assertEqual(self.digest(store), self.expected())
 
-    def ask(self, command, *words):
+    def command(self, name, *words):
         """Something of the coordinator, as a person does."""
-        done = call(command, self.store, *words)
+        done = call(name, self.store, *words)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def finish(self, coordinator, workers=(), seconds=180):

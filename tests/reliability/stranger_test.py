@@ -17,14 +17,14 @@ class Malformed(Visited):
     def test_frames(self):
         self.frame_with("results")
         # From here on the campaign must not end under its visitors.
-        self.ask("pause")
+        self.command("pause")
         self.frames_that_are_none()
         self.two_frames_are_not_one()
         self.too_long()
         self.a_peer_is_refused_after_ten()
         self.wrong_major_version()
         self.wrong_build_and_self_test()
-        self.ask("resume")
+        self.command("resume")
         numbers = self.finish_undisturbed()
         self.assertEqual((numbers["rejected"], numbers["conflicts"]), (0, 0))
 
