@@ -8,7 +8,7 @@ import time
 import unittest
 
 from beside import Beside, Onlookers
-from rig import (BIN, LONG, PATIENCE, SWARMSMITH, FaultTest, calls_in, children_of, events, rows, send,
+from rig import (BIN, LONG, SWARMSMITH, FaultTest, calls_in, children_of, events, rows, send,
                  stored, wait_for)
 
 PRELOAD = str(BIN / "faulty_calls.so")
