@@ -7,7 +7,7 @@ import shutil
 import signal
 import unittest
 
-from programs import ProgramTest, SWARMSMITH, call, send
+from programs import ProgramTest, SWARMSMITH, call, send, used
 
 EXAMPLE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "examples" / "target"
 
@@ -147,12 +147,12 @@ class Target(ProgramTest):
         store = self.folder / "killed.db"
         rng = random.Random(3)
         for _ in range(6):
+            moment = used(store) + rng.randrange(1, 50)  # of 400
             process = self.start_campaign(store, "--workers", "2")
-            try:
-                process.wait(timeout=rng.uniform(0.2, 0.8))
-            except Exception:
-                send(process.pid, signal.SIGKILL)
-                process.wait()
+            self.until(lambda: used(store) >= moment or process.poll() is not None, "no progress")
+            self.assertIsNone(process.poll(), "it ended before it could be killed")
+            send(process.pid, signal.SIGKILL)
+            process.wait()
         done = self.run_campaign(store, "--workers", "2")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_clean(store)

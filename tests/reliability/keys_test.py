@@ -7,7 +7,7 @@ from wire import Peer
 
 
 class Keys(FaultTest):
-    budget = 20000
+    budget = 4000
 
     def setUp(self):
         super().setUp()
@@ -40,6 +40,8 @@ class Keys(FaultTest):
         address = self.serving.address()
         honest = self.worker(address, "--key", self.keys / "worker.key")
         self.wait_stored(200)
+        # It must not end while they knock.
+        self.command("pause", "--key", self.keys / "operator.key")
         kept_out = [self.worker(address, "--key", unlisted),
                     self.worker(address, "--key", self.keys / "late.key"),
                     self.worker(address, "--key", self.folder / "others" / "worker.key"),
@@ -54,6 +56,7 @@ class Keys(FaultTest):
         self.count("stranger without encryption")
         for worker in kept_out:
             worker.kill()
+        self.command("resume", "--key", self.keys / "operator.key")
         numbers = self.finish(self.serving, [honest])
         self.assertEqual(rows(self.store, "select pid from worker"), [(honest.pid,)])
         self.assertEqual(numbers["lost_workers"] if "lost_workers" in numbers else 0, 0)

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from beside import Beside, Onlookers
-from rig import (BIN, LONG, PATIENCE, SWARMSMITH, FaultTest, calls_in, children_of, events, rows, send,
+from rig import (BIN, LONG, SWARMSMITH, FaultTest, calls_in, children_of, events, rows, send,
                  stored, wait_for)
 
 PRELOAD = str(BIN / "faulty_calls.so")
@@ -16,6 +16,16 @@ PRELOAD = str(BIN / "faulty_calls.so")
 
 class Kill(Beside):
     budget = 20000 if LONG else 3000
+    kills = 60 if LONG else 8
+
+    def moments(self, rng):
+        """At most so many moments of the campaign, each after some of its results; none is near its end."""
+        step = self.budget // (self.kills + 3)
+        before = 0
+        while before < self.budget - 3 * step:
+            self.wait_stored(before + rng.randrange(1, 2 * step))
+            yield
+            before = max(before + step, stored(self.store))
 
     def test_workers_at_random(self):
         """Each dead one is replaced at once, as a batch system would."""
@@ -23,14 +33,11 @@ class Kill(Beside):
         workers = [self.worker(serve.address()) for _ in range(3)]
         rng = random.Random(1)
         killed = 0
-        while serve.alive():
-            try:
-                serve.process.wait(timeout=PATIENCE * rng.uniform(0.05, 0.3 if LONG else 0.6))
-            except subprocess.TimeoutExpired:
-                one = rng.randrange(len(workers))
-                workers[one].kill()
-                workers[one] = self.worker(serve.address())
-                killed += 1
+        for _ in self.moments(rng):
+            one = rng.randrange(len(workers))
+            workers[one].kill()
+            workers[one] = self.worker(serve.address())
+            killed += 1
         self.count("worker killed", killed)
         self.assertEqual(serve.wait(), 0, serve.tail())
         self.assertEqual(events(self.store, "evaluation rejected"), [], "a task was blamed")
@@ -41,14 +48,11 @@ class Kill(Beside):
         run = self.run_local("--workers", "2")
         rng = random.Random(7)
         killed = 0
-        while run.alive():
-            try:
-                run.process.wait(timeout=PATIENCE * rng.uniform(0.3, 1.5))
-            except subprocess.TimeoutExpired:
-                workers = children_of(run.pid)
-                if workers:
-                    send(rng.choice(workers), signal.SIGKILL)
-                    killed += 1
+        for _ in self.moments(rng):
+            workers = children_of(run.pid)
+            if workers:
+                send(rng.choice(workers), signal.SIGKILL)
+                killed += 1
         self.count("local worker killed", killed)
         self.assert_killed(killed, self.finish(run))
 
@@ -81,10 +85,8 @@ class Kill(Beside):
         proxy = self.overhear(address)
         workers = [self.worker(proxy.address) for _ in range(2)]
         rng = random.Random(2)
-        step = self.budget // (25 if LONG else 8)
         before = 0
-        while before < self.budget - 3 * step:
-            self.wait_stored(before + rng.randrange(1, step))
+        for _ in self.moments(rng):
             serve.kill()
             self.count("coordinator killed")
             self.assert_promises_are_kept()

@@ -269,6 +269,11 @@ class FaultTest(unittest.TestCase):
         self.assert_clean(store)
         self.assertEqual(self.digest(store), self.expected())
 
+    def command(self, name, *words):
+        """Something of the coordinator, as a person does."""
+        done = call(name, self.store, *words)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def finish(self, coordinator, workers=(), seconds=180):
         """The campaign ends by itself, its workers go home, and the answer is the usual one."""
         self.assertEqual(coordinator.wait(seconds), 0, coordinator.tail())

@@ -5,7 +5,6 @@ import socket
 import time
 
 from network import Proxy
-from programs import call
 from rig import FaultTest, events, rows, stored, wait_for
 from wire import COMMAND, Frames, frame, message
 
@@ -66,11 +65,6 @@ class Visited(FaultTest):
                  **changes}
         hello.pop("holds", None)
         return frame("ToCoordinator", {"sequence": 1, "incarnation": 1, "hello": hello})
-
-    def ask(self, command):
-        """Something of the coordinator, as a person does."""
-        done = call(command, self.store)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def malformed(self):
         return self.coordinator.progress().get("malformed", 0)
