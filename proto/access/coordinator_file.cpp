@@ -20,10 +20,11 @@ std::string line(const char* key, const std::string& value) {
 
 void read_endpoint(TableReader& root, CoordinatorFile& coordinator) {
   if (!root.has("endpoint")) root.complain("endpoint", "the file needs an `endpoint`");
-  coordinator.endpoint = root.text("endpoint").value_or("");
-  const auto address = address_of(coordinator.endpoint);
-  if (!coordinator.endpoint.empty() &&
-      (!address || is_wildcard(*address) || address->port == "*")) {
+  const auto endpoint = root.text("endpoint");
+  if (!endpoint) return;
+  coordinator.endpoint = *endpoint;
+  const auto address = address_of(*endpoint);
+  if (!address || is_wildcard(*address) || address->port == "*") {
     root.complain("endpoint", "`endpoint` must be the address to connect to: \"tcp://HOST:PORT\"");
   }
 }

@@ -40,6 +40,9 @@ TEST(CoordinatorFiles, ReadBackAsTheyArePrinted) {
 TEST(CoordinatorFiles, SayWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint_about("endpoint"), HasSubstr("c.db.coordinator:1:"));
   EXPECT_THAT(complaint_about("format = 1\n"), HasSubstr("needs an `endpoint`"));
+  EXPECT_THAT(complaint_about("format = 1\nendpoint = \"\"\n"),
+              HasSubstr("c.db.coordinator:2:12: `endpoint` must be the address to connect to"));
+  EXPECT_THAT(complaint_about("format = 1\nendpoint = 5\n"), HasSubstr("c.db.coordinator:2:12:"));
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"login1:5555\"\n"),
               HasSubstr("c.db.coordinator:2:12: `endpoint` must be the address to connect to"));
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://0.0.0.0:5555\"\n"),
