@@ -435,7 +435,7 @@ TEST(BagFile, FlippedBytesGiveFramesOrASentence) {
     const std::string bytes = bytes_of(folder / "run.bag");
     std::size_t shown = 0;
     int refused = 0;
-    constexpr int kTries = 100;
+    constexpr int kTries = 300;
     for (int i = 0; i < kTries; ++i) {
       std::string hurt = bytes;
       for (std::uint64_t n = 1 + rng.below(4); n > 0; --n) {
