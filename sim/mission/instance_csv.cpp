@@ -19,6 +19,8 @@ namespace {
 
 /// Centres in files are rounded; a place is meant when they differ by less.
 constexpr double kSamePlace_m = 1e-3;
+/// As in mission files: of many more turns, a number's last digits are not the angle's any more.
+constexpr double kMostHeading_rad = 1000;
 
 /// A row's cells, its header and its line number: enough to read a cell or say what is wrong.
 struct Row {
@@ -168,6 +170,8 @@ Expected<StartsBySeed> parse_starts_csv(std::string_view text) {
       if (!value) return Unexpected(value.error());
       *targets[i] = *value;
     }
+    if (std::fabs(pose.theta) > kMostHeading_rad)
+      return row.wrong(4, "an angle in radians, from -1000 to 1000");
     pose.theta = wrap_angle(pose.theta);
     poses.push_back(pose);
   }

@@ -83,6 +83,13 @@ TEST(Math, AnglesWrapIntoTheHalfOpenInterval) {
   EXPECT_EQ(wrap_angle(-kPi), kPi);
   EXPECT_NEAR(wrap_angle(7), 7 - 2 * kPi, 1e-15);
   EXPECT_NEAR(wrap_angle(-100), -100 + 32 * kPi, 1e-13);
+  for (int turns = -159; turns < 159; ++turns) {
+    double angle = (2 * turns + 1) * kPi - 1e-12;
+    for (const double end = angle + 2e-12; angle <= end; angle = std::nextafter(angle, INFINITY)) {
+      ASSERT_GT(wrap_angle(angle), -kPi) << turns;
+      ASSERT_LE(wrap_angle(angle), kPi) << turns;
+    }
+  }
 }
 
 TEST(Math, PowerAgreesWithTheLibrary) {

@@ -47,6 +47,8 @@ TEST(StartsCsv, ErrorsNameTheLine) {
   EXPECT_EQ(starts_error(header + "1,0,0.1m,0,0\n"), "2: column x wants a number, not `0.1m`");
   EXPECT_EQ(starts_error(header + "1,0,0,inf,0\n"), "2: column y wants a finite number, not `inf`");
   EXPECT_EQ(starts_error(header + "1,0,0,0, 0\n"), "2: column theta wants a number, not ` 0`");
+  EXPECT_EQ(starts_error(header + "1,0,0,0,1000.5\n"),
+            "2: column theta wants an angle in radians, from -1000 to 1000, not `1000.5`");
 }
 
 TEST(StartsCsv, TakesColumnsInAnyOrderAndLeavesOthersOut) {
