@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "tests/cluster/simulated_cluster.h"
+#include "tests/support/long_runs.h"
 
 namespace swarmsmith::cluster {
 namespace {
@@ -13,9 +14,7 @@ constexpr std::uint64_t kShards = 8;
 constexpr std::uint64_t kSchedulesOfAShard = 500;
 
 std::uint64_t schedules_of_a_shard() {
-  const char* wanted = std::getenv("SWARMSMITH_LONG");
-  const bool is_long = wanted != nullptr && std::string_view(wanted) == "1";
-  return is_long ? 10 * kSchedulesOfAShard : kSchedulesOfAShard;
+  return times(kSchedulesOfAShard, 10 * kSchedulesOfAShard);
 }
 
 class Schedules : public ::testing::TestWithParam<std::uint64_t> {};

@@ -132,7 +132,7 @@ gate_test() {
 gate_long() {
   build_all
   [ -n "$(missing_of "${aarch64_packages[@]}")" ] || build_aarch64
-  SWARMSMITH_LONG=1 tests_gate long build -L 'long|cluster'
+  SWARMSMITH_LONG=1 tests_gate long build -L 'long|wide'
 }
 
 # The same bits without optimisation, and from another compiler.

@@ -12,6 +12,7 @@
 #include "base/rng.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/faulty_disk.h"
+#include "tests/support/long_runs.h"
 
 namespace swarmsmith {
 namespace {
@@ -72,6 +73,9 @@ class Told {
   bool well_again_ = true;
 };
 
+/// From one change of the disk that fails to the next.
+const std::int64_t kStep = times<std::int64_t>(4, 1);
+
 struct CrashTest : testing::Test {
   SyntheticCampaign campaign =
       synthetic_campaign({.designs = 1, .iterations = 1, .candidates = 6, .steps = 5});
@@ -81,7 +85,7 @@ struct CrashTest : testing::Test {
 TEST_F(CrashTest, AnyChangeOfTheDiskMayFailAndNothingIsLost) {
   for (const int code : {SQLITE_FULL, SQLITE_IOERR_WRITE, SQLITE_IOERR_FSYNC}) {
     bool failed = true;
-    for (std::int64_t n = 1; failed; ++n) {
+    for (std::int64_t n = 1; failed; n += kStep) {
       const TemporaryFolder folder;
       FaultyDisk disk;
       Told told;
@@ -107,7 +111,7 @@ TEST_F(CrashTest, AnyChangeOfTheDiskMayFailAndNothingIsLost) {
 
 TEST_F(CrashTest, AFailureAtTheBirthOfAStoreLeavesOneThatOpens) {
   bool failed = true;
-  for (std::int64_t n = 1; failed; ++n) {
+  for (std::int64_t n = 1; failed; n += kStep) {
     const TemporaryFolder folder;
     FaultyDisk disk;
     disk.fail_at(n, SQLITE_FULL, 1000);
@@ -126,7 +130,7 @@ TEST_F(CrashTest, AFailureAtTheBirthOfAStoreLeavesOneThatOpens) {
 TEST_F(CrashTest, APowerCutAtAnyMomentLosesNothingThatWasAcknowledged) {
   const auto batches = marked(campaign.batches);
   bool was_cut = true;
-  for (std::int64_t n = 1; was_cut; ++n) {
+  for (std::int64_t n = 1; was_cut; n += kStep) {
     const TemporaryFolder folder;
     const auto path = folder / "s.db";
     FaultyDisk disk;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/analysis/machines/machines_to_draw.h"
+#include "tests/support/long_runs.h"
 
 namespace swarmsmith {
 namespace {
@@ -164,7 +165,7 @@ TEST(MachineLayout, OfTheReferenceMachinesIsReadable) {
 
 TEST(MachineLayout, OfRandomMachinesIsReadable) {
   Rng rng = Rng(1).split("machines to draw");
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < times(40, 160); ++i) {
     const Machine machine = random_machine(rng, 1 + i % 4);
     expect_readable(machine, watermelon_argos3(), i % 8 < 4 ? kPage : kColumn,
                     print_machine(machine, watermelon_argos3()));

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tests/coordinator/design/target_campaigns.h"
+#include "tests/support/long_runs.h"
 
 namespace swarmsmith {
 namespace {
@@ -13,7 +14,8 @@ namespace {
 TEST(RandomTargetDesign, GoesOnAsIfNothingHadHappened) {
   Rng rng(4711);
   std::map<DesignState, int> ends;
-  for (int round = 0; round < 120; ++round) {
+  const int rounds = times(40, 120);
+  for (int round = 0; round < rounds; ++round) {
     const TargetChoices options = random_options(rng);
     SCOPED_TRACE("round " + std::to_string(round) + "\n" + options.race + options.simulator);
     const Campaign campaign = campaign_with(options.race, options.simulator, options.test);
@@ -42,7 +44,7 @@ TEST(RandomTargetDesign, GoesOnAsIfNothingHadHappened) {
     ++ends[last.state];
     if (HasFailure()) return;
   }
-  EXPECT_GT(ends[DesignState::Finished], 80);
+  EXPECT_GT(ends[DesignState::Finished], rounds * 2 / 3);
 }
 
 }  // namespace

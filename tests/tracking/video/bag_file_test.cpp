@@ -8,6 +8,7 @@
 
 #include "base/output_file.h"
 #include "base/rng.h"
+#include "tests/support/long_runs.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
 #include "tests/tracking/video/written_bag.h"
@@ -435,8 +436,7 @@ TEST(BagFile, FlippedBytesGiveFramesOrASentence) {
     const std::string bytes = bytes_of(folder / "run.bag");
     std::size_t shown = 0;
     int refused = 0;
-    constexpr int kTries = 300;
-    for (int i = 0; i < kTries; ++i) {
+    for (int i = 0; i < times(100, 300); ++i) {
       std::string hurt = bytes;
       for (std::uint64_t n = 1 + rng.below(4); n > 0; --n) {
         // Half of them in what is small: the index at the end, headers.
