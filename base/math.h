@@ -39,8 +39,8 @@ double pow(double base, double exponent);
 double normal_cdf(double x);
 double normal_quantile(double p);
 
-/// The angle minus the multiple of 2 pi that brings it into (-pi, pi]; of one within 1000 rad, as
-/// files and messages may have.
+/// The angle minus the multiple of 2 pi that brings it into (-pi, pi]. Beyond 1000 rad, rounding
+/// may leave it outside.
 double wrap_angle(double angle_rad);
 
 /// Length of (x, y).

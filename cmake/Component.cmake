@@ -93,7 +93,7 @@ endfunction()
 # a sanitizer: one ctest for the program, because to start it takes longer than most of its tests. A program that loads
 # OpenCV's imgcodecs or videoio takes 0.2 to 0.3 s of processor. OPTIMISED: its own code and the inline functions that it
 # calls are what it spends its time in. WIDE: `./dev test --long` runs it too, and does more then
-# (tests/support/long_runs.h); its label is unit-wide, say. Golden tests, which are the longest of their kind, begin first.
+# (tests/support/long_runs.h); its label is unit-wide, say. Golden tests, which may take 20 s, begin before other short ones.
 function(swarmsmith_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE;WIDE;OPTIMISED" "LABEL;TIMEOUT" "SOURCES;USES")
   if(NOT arg_TIMEOUT)

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <string_view>
 
 #include "tests/cluster/simulated_cluster.h"
 #include "tests/support/long_runs.h"
