@@ -1,17 +1,24 @@
 # swarmsmith_share_units(TARGET SOURCE...): where files are compiled in units of several (CMAKE_UNITY_BUILD, as ./dev
-# does), which ones are in one.
+# does), those of a target share them; swarmsmith_form_units() says how.
 function(swarmsmith_share_units target)
   if(CMAKE_UNITY_BUILD)
-    execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/units.py ${ARGN}
-      WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE units
-      OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-    string(REPLACE "\n" ";" units "${units}")
-    foreach(unit IN LISTS units)
-      string(REGEX MATCH "^(.*)=([0-9]+)$" unit "${unit}")
-      set_source_files_properties(${CMAKE_MATCH_1} PROPERTIES UNITY_GROUP ${target}_${CMAKE_MATCH_2})
-    endforeach()
+    set_property(GLOBAL APPEND_STRING PROPERTY SWARMSMITH_UNITS "${target};${CMAKE_CURRENT_SOURCE_DIR};${ARGN}\n")
     set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   endif()
+endfunction()
+
+# swarmsmith_form_units(): which files of which target are in one unit; all targets at once, at the end.
+function(swarmsmith_form_units)
+  get_property(targets GLOBAL PROPERTY SWARMSMITH_UNITS)
+  file(WRITE ${PROJECT_BINARY_DIR}/units.txt "${targets}")
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/units.py ${PROJECT_BINARY_DIR}/units.txt
+    OUTPUT_VARIABLE units OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" units "${units}")
+  foreach(unit IN LISTS units)
+    string(REGEX MATCH "^([^=]*)=([0-9]+)=(.*)$" unit "${unit}")
+    set_source_files_properties(${CMAKE_MATCH_3} TARGET_DIRECTORY ${CMAKE_MATCH_1}
+      PROPERTIES UNITY_GROUP ${CMAKE_MATCH_1}_${CMAKE_MATCH_2})
+  endforeach()
 endfunction()
 
 # swarmsmith_precompile(TARGET code|text|test): what nearly all of them include is compiled once for all libraries and

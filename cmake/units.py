@@ -1,6 +1,7 @@
-"""units.py FILE...: which sources of a target are compiled in which unit, a line FILE=UNIT each: at most
+"""units.py TARGETS: which sources are compiled in which unit of their target, a line TARGET=UNIT=FILE each: at most
 sixteen in one, and never two with the same name in an unnamed namespace. A file with all names of an enumeration
-(`using enum`) is alone."""
+(`using enum`) is alone. TARGETS is a file with a line TARGET;FOLDER;FILE;FILE... for each target."""
+import os
 import re
 import sys
 
@@ -14,14 +15,15 @@ NAME = re.compile(
 FILES_IN_A_UNIT = 16
 FULL = [None] * FILES_IN_A_UNIT
 
-units = []
-for path in sys.argv[1:]:
+
+
+def unit_of(path, units):
+    """The number of a file's unit, to which it is added."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     if "\nusing enum " in text:
         units.append((FULL, set()))
-        print(f"{path}={len(units) - 1}")
-        continue
+        return len(units) - 1
     names = {found["name"] for part in UNNAMED.findall(text) for found in NAME.finditer(part)}
     for number, (files, taken) in enumerate(units):
         if len(files) < FILES_IN_A_UNIT and not names & taken:
@@ -31,4 +33,12 @@ for path in sys.argv[1:]:
         units.append((files, taken))
     files.append(path)
     taken |= names
-    print(f"{path}={number}")
+    return number
+
+
+with open(sys.argv[1], encoding="utf-8") as targets:
+    for line in targets:
+        target, folder, *files = line.rstrip("\n").split(";")
+        units = []
+        for path in (os.path.join(folder, file) for file in files):
+            print(f"{target}={unit_of(path, units)}={path}")

@@ -15,6 +15,9 @@ SWARMSMITH = str(BIN / "swarmsmith")
 #: How much longer than usual a program may take: more than 1 under sanitizers.
 PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 
+# A shell that starts the tests in the background lets them ignore Ctrl-C, and so would each program that they start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 CAMPAIGN = """\
 format = 1
 

@@ -65,7 +65,7 @@ class OldStores(Stores):
 
 
 class Backup(Stores):
-    budget = 15000
+    budget = 10000
 
     def test_a_copy_that_is_made_while_a_campaign_runs_goes_on_to_the_same_answer(self):
         store, copy = self.folder / "running.db", self.folder / "copy.db"

@@ -18,13 +18,13 @@ store = "unused.db"
 
 [[mission]]
 name = "aggregation"
-duration = "20 s"
+duration = "10 s"
   [mission.instances]
   test = { count = 12 }
 
 [[mission]]
 name = "color_selection"
-duration = "20 s"
+duration = "10 s"
   [mission.instances]
   test = { count = 12 }
 

@@ -139,8 +139,8 @@ class KillBeside(Beside):
     """Coordinator and workers are killed again and again while people look at the store, and tell it
     to pause and to go on: whatever was acknowledged or confirmed is there after each kill."""
 
-    budget = 60000 if LONG else 4000
-    kills = 200 if LONG else 12
+    budget = 60000 if LONG else 3000
+    kills = 200 if LONG else 8
 
     def setUp(self):
         super().setUp()

@@ -122,9 +122,9 @@ TEST_F(QueryTest, StopsAtTheLimitOfTimeAlsoBeforeTheFirstRow) {
 TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
   const double before = peak_memory();
   const std::string many =
-      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 200000) ";
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 60000) ";
   const std::string few =
-      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 1000) ";
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 600) ";
   for (const std::string& sql :
        {std::string("SELECT zeroblob(900000000)"), std::string("SELECT hex(zeroblob(400000000))"),
         std::string("SELECT randomblob(900000000)"),
@@ -133,7 +133,7 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
         few + "SELECT json_group_array(printf('%0500000d', i)) FROM n",
         many + "SELECT printf('%05000d', i) AS s FROM n ORDER BY s DESC",
         many + "SELECT count(*) FROM n GROUP BY printf('%05000d', i)",
-        many + "SELECT DISTINCT printf('%05000d', i) FROM n LIMIT -1 OFFSET 200000",
+        many + "SELECT DISTINCT printf('%05000d', i) FROM n LIMIT -1 OFFSET 60000",
         std::string("WITH RECURSIVE n (i, s) AS (SELECT 1, '' UNION SELECT i + 1, "
                     "printf('%05000d', i) FROM n) "
                     "SELECT count(*) FROM n"),
