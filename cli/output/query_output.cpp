@@ -118,6 +118,7 @@ std::string rows_as_text(const Rows& rows) {
 
 std::string cells_as_csv(const std::vector<Cell>& cells) {
   std::vector<std::string> texts;
+  texts.reserve(cells.size());
   for (const Cell& cell : cells)
     texts.push_back(cell.text);
   return csv_line(texts);

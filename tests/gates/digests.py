@@ -85,7 +85,8 @@ def tidy_line(unit):
 
 def is_tidied(unit):
     path = os.path.relpath(unit, ROOT)
-    return not ("_verify_interface_" in path or "/generated/" in path or path.startswith(("tests/", f"{BUILD}/tests/")))
+    return not ("_verify_interface_" in path or "/generated/" in path or path.endswith(".S") or
+                path.startswith(("tests/", f"{BUILD}/tests/")))
 
 
 def units_of(program):
