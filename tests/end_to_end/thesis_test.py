@@ -9,8 +9,9 @@ import subprocess
 import tempfile
 import unittest
 
+from programs import BIN
+
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
-BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
 MAKE = SOURCE / "examples" / "thesis" / "make"
 
 
