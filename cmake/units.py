@@ -16,7 +16,6 @@ FILES_IN_A_UNIT = 16
 FULL = [None] * FILES_IN_A_UNIT
 
 
-
 def unit_of(path, units):
     """The number of a file's unit, to which it is added."""
     with open(path, encoding="utf-8") as file:
