@@ -9,8 +9,8 @@ digests.py programs NAME...   a line NAME DIGEST for each of these programs of b
                               of all units that they are made of
 digests.py tests BUILD TREE [CTEST-ARGUMENT...]
                               a line DIGEST NAME for each test, the longest first: that of its program and of
-                              tests/golden; TREE for what reads other files of the repository, or starts other programs
-                              of it
+                              tests/golden; for what reads other files of the repository, or starts other programs of
+                              it, that of all files but other tests (*_test.py, *_test.cpp). TREE for what reads these too
 
 Neither comments nor the place of the clone change a digest.
 """
@@ -104,6 +104,36 @@ def programs_digests(programs):
             for program, parts in read.items()}
 
 
+#: Folders of tests that read all that there is: each citation, each include, the archive of a release.
+READ_TESTS = ("tests/docs/", "tests/rooms/", "tests/packaging/")
+
+
+@cache
+def files_in_git():
+    return [line for line in output_of("git", "ls-files", "-s").splitlines() if "\ttests/gates/green.tsv" not in line]
+
+
+def with_imports(names, scripts):
+    """The tests of these names, and those that they import; `scripts` has each test's path."""
+    found, left = set(), set(names)
+    while left := left & scripts.keys() - found:
+        found |= left
+        left = set().union(*(re.findall(r"^\s*(?:from|import) (\w+_test)\b", Path(scripts[name]).read_text(), re.M)
+                             for name in left))
+    return {scripts[name] for name in found}
+
+
+def digest_of_files(test, tree):
+    """Of all files that count for a test that is a script, or that reads files."""
+    path_of = {line: line.split("\t")[1] for line in files_in_git()}
+    scripts = {Path(path).stem: path for path in path_of.values() if path.endswith("_test.py")}
+    own = with_imports(re.findall(r"\b\w+_test\b", shlex.join(test["command"])), scripts)
+    if tree == "changed" or any(path.startswith(READ_TESTS) for path in own):
+        return tree
+    return digest_of(*(line for line, path in path_of.items()
+                       if path in own or not path.endswith(("_test.py", "_test.cpp"))))
+
+
 def cost_of(test):
     return next((one["value"] for one in test.get("properties", ()) if one["name"] == "COST"), 0)
 
@@ -116,7 +146,8 @@ def test_lines(tree, arguments):
     golden = output_of("git", "ls-files", "-s", "tests/golden")
     for test in sorted(tests, key=cost_of, reverse=True):
         digest, has_paths = digests.get(program_of.get(test["name"]), ("", True))
-        yield f"{tree if has_paths else digest_of(digest, golden, *test['command'])} {test['name']}"
+        read = digest_of_files(test, tree) if has_paths else golden
+        yield f"{read if read == tree else digest_of(digest, read, *test['command'])} {test['name']}"
 
 
 match sys.argv[1:]:
