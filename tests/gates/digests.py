@@ -10,7 +10,7 @@ digests.py programs NAME...   a line NAME DIGEST for each of these programs of b
 digests.py tests BUILD TREE [CTEST-ARGUMENT...]
                               a line DIGEST NAME for each test, the longest first: that of its program and of
                               tests/golden; for what reads other files of the repository, or starts other programs of
-                              it, that of all files but other tests (*_test.py, *_test.cpp). TREE for what reads these too
+                              it, that of all files but UNREAD ones. TREE for the tests that read these too
 
 Neither comments nor the place of the clone change a digest.
 """
@@ -104,13 +104,15 @@ def programs_digests(programs):
             for program, parts in read.items()}
 
 
-#: Folders of tests that read all that there is: each citation, each include, the archive of a release.
-READ_TESTS = ("tests/docs/", "tests/rooms/", "tests/packaging/")
+#: Files that change no test's verdict but its own, and those of the folders of tests that read all that there is: each
+#: citation, each include, the archive of a release.
+UNREAD = re.compile(r".*_test\.(py|cpp)|tests/gates/.*|(CHANGELOG|CONTRIBUTING|docs/(performance|reliability))\.md")
+READ_ALL = ("tests/docs/", "tests/rooms/", "tests/packaging/")
 
 
 @cache
 def files_in_git():
-    return [line for line in output_of("git", "ls-files", "-s").splitlines() if "\ttests/gates/green.tsv" not in line]
+    return output_of("git", "ls-files", "-s").splitlines()
 
 
 def with_imports(names, scripts):
@@ -128,10 +130,10 @@ def digest_of_files(test, tree):
     path_of = {line: line.split("\t")[1] for line in files_in_git()}
     scripts = {Path(path).stem: path for path in path_of.values() if path.endswith("_test.py")}
     own = with_imports(re.findall(r"\b\w+_test\b", shlex.join(test["command"])), scripts)
-    if tree == "changed" or any(path.startswith(READ_TESTS) for path in own):
+    if tree == "changed" or any(path.startswith(READ_ALL) for path in own):
         return tree
     return digest_of(*(line for line, path in path_of.items()
-                       if path in own or not path.endswith(("_test.py", "_test.cpp"))))
+                       if path in own or not UNREAD.fullmatch(path)))
 
 
 def cost_of(test):

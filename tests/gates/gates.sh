@@ -100,7 +100,7 @@ tests_gate() {
     while IFS=$'\t' read -r name seconds; do
       green=$((green + 1))
       [ -z "$tree" ] || note_green "$gate" "$name" "${digests[$name]}" "test" "$seconds"
-    done < <(tr '\n\t' '  ' <build-gate/tests.xml | sed 's/<testcase/\n&/g' |
+    done < <({ tr '\n\t' '  ' <build-gate/tests.xml; echo; } | sed 's/<testcase/\n&/g' |
       sed -n 's/^<testcase name="\([^"]*\)".* time="\([0-9.]*\)" status="run".*/\1\t\2/p')
   done
   echo "$green of ${#digests[@]} tests" >&3
