@@ -115,25 +115,41 @@ def files_in_git():
     return output_of("git", "ls-files", "-s").splitlines()
 
 
-def with_imports(names, scripts):
-    """The tests of these names, and those that they import; `scripts` has each test's path."""
-    found, left = set(), set(names)
-    while left := left & scripts.keys() - found:
+@cache
+def scripts():
+    """The paths of all tests that are scripts, by their names without a folder."""
+    found = {}
+    for line in files_in_git():
+        if (path := Path(line.split("\t")[1])).match("*_test.py"):
+            found.setdefault(path.stem, set()).add(str(path))
+    return found
+
+
+def with_imports(paths):
+    """These scripts, and the tests that they import, in whatever folder."""
+    found, left = set(), set(paths)
+    while left := left - found:
         found |= left
-        left = set().union(*(re.findall(r"^\s*(?:from|import) (\w+_test)\b", Path(scripts[name]).read_text(), re.M)
-                             for name in left))
-    return {scripts[name] for name in found}
+        imports = (re.findall(r"^\s*(?:from|import) (\w+_test)\b", Path(path).read_text(), re.M) for path in left)
+        left = set().union(*(scripts().get(name, ()) for names in imports for name in names))
+    return found
+
+
+def script_of(test):
+    """That of a path, or that which is a module."""
+    words = " ".join(os.path.relpath(word, ROOT) if os.path.isabs(word) else word for word in test["command"])
+    paths = set(re.findall(r"\S+_test\.py\b", words))
+    modules = re.findall(r"\b\w+_test\b", words) if "-m" in test["command"] else ()
+    return paths or set().union(*(scripts().get(name, ()) for name in modules))
 
 
 def digest_of_files(test, tree):
     """Of all files that count for a test that is a script, or that reads files."""
-    path_of = {line: line.split("\t")[1] for line in files_in_git()}
-    scripts = {Path(path).stem: path for path in path_of.values() if path.endswith("_test.py")}
-    own = with_imports(re.findall(r"\b\w+_test\b", shlex.join(test["command"])), scripts)
+    own = with_imports(script_of(test))
     if tree == "changed" or any(path.startswith(READ_ALL) for path in own):
         return tree
-    return digest_of(*(line for line, path in path_of.items()
-                       if path in own or not UNREAD.fullmatch(path)))
+    return digest_of(*(line for line in files_in_git()
+                       if (path := line.split("\t")[1]) in own or not UNREAD.fullmatch(path)))
 
 
 def cost_of(test):
