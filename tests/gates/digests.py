@@ -105,9 +105,11 @@ def programs_digests(programs):
 
 
 #: Files that change no test's verdict but its own, and those of the folders of tests that read all that there is: each
-#: citation, each include, the archive of a release.
-UNREAD = re.compile(r".*_test\.(py|cpp)|tests/gates/.*|(CHANGELOG|CONTRIBUTING|docs/(performance|reliability))\.md")
-READ_ALL = ("tests/docs/", "tests/rooms/", "tests/packaging/")
+#: citation, each include, the archive of a release. Of what CMake reads, the commands count that it makes. What
+#: ThreadSanitizer leaves out is among them: whoever changes that runs again what it was changed for.
+UNREAD = re.compile(r".*_test\.(py|cpp)|tests/(gates/.*|thread_sanitizer\.supp)|(.*/)?CMakeLists\.txt|cmake/.*|"
+                    r"(CHANGELOG|CONTRIBUTING|docs/(performance|reliability))\.md")
+READ_ALL = ("tests/docs/", "tests/how_to/", "tests/packaging/", "tests/rooms/")
 
 
 @cache
@@ -148,12 +150,20 @@ def digest_of_files(test, tree):
     own = with_imports(script_of(test))
     if tree == "changed" or any(path.startswith(READ_ALL) for path in own):
         return tree
-    return digest_of(*(line for line in files_in_git()
+    return digest_of(how_programs_are_made(), *property_of(test, "ENVIRONMENT", ()),
+                     *(line for line in files_in_git()
                        if (path := line.split("\t")[1]) in own or not UNREAD.fullmatch(path)))
 
 
-def cost_of(test):
-    return next((one["value"] for one in test.get("properties", ()) if one["name"] == "COST"), 0)
+@cache
+def how_programs_are_made():
+    """The digest of the commands that make all programs but the tests', from generated code to linking."""
+    made = re.findall(r"^(bin/(?!fuzz_)[^:]*(?<!_test)):", output_of("ninja", "-C", BUILD, "-t", "targets", "all"), re.M)
+    return digest_of(output_of("ninja", "-C", BUILD, "-t", "commands", *sorted(made)))
+
+
+def property_of(test, name, default):
+    return next((one["value"] for one in test.get("properties", ()) if one["name"] == name), default)
 
 
 def test_lines(tree, arguments):
@@ -162,7 +172,7 @@ def test_lines(tree, arguments):
                   if "command" in test and os.path.dirname(test["command"][0]) == str(BUILD.absolute() / "bin")}
     digests = programs_digests(sorted(set(program_of.values())))
     golden = output_of("git", "ls-files", "-s", "tests/golden")
-    for test in sorted(tests, key=cost_of, reverse=True):
+    for test in sorted(tests, key=lambda test: property_of(test, "COST", 0), reverse=True):
         digest, has_paths = digests.get(program_of.get(test["name"]), ("", True))
         read = digest_of_files(test, tree) if has_paths else golden
         yield f"{read if read == tree else digest_of(digest, read, *test['command'])} {test['name']}"
