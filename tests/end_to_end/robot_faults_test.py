@@ -5,12 +5,13 @@ import signal
 import unittest
 
 import robots
-from programs import ProgramTest
+from programs import PATIENCE, ProgramTest
 from robots import Master, ZeroMq, machine_file
 from robot_lock_step_test import WATERMELON, mission_of
 
 NO_ROS = robots.why_no_ros()
 FORWARD = "--nstates 1 --s0 0 --rwm0 1"
+SILENCE_S = 2 * PATIENCE  #: after which a robot or a world counts as gone
 LOCK_STEP = ("--flavour", "watermelon", "--lock-step", "senses")
 
 
@@ -22,7 +23,7 @@ class Faults(ProgramTest):
     def world_in_steps(self, way, *words):
         mission = mission_of(self.folder, "aggregation", seconds=5)
         return way.program(self, "world", "--mission", mission, "--seeds", "1-1000000", "--lock-step", "--json",
-                           "--patience", "1", *words)
+                           "--patience", SILENCE_S, *words)
 
     def assert_killed_node_is_named(self, way):
         nodes = way.nodes(self, 3, self.machine, *LOCK_STEP)
@@ -30,11 +31,11 @@ class Faults(ProgramTest):
         world.wait_for('"digest"')
         nodes[1].signal(signal.SIGKILL)
         self.assertEqual(world.end(), 5, world.said())
-        self.assertRegex(world.said(), r"rvr2: no answer from rvr2 in cycle \d+ of seed \d+ within 1 s; "
-                                       r"its node is gone")
+        self.assertRegex(world.said(), r"rvr2: no answer from rvr2 in cycle \d+ of seed \d+ within "
+                                       rf"{SILENCE_S} s; its node is gone")
 
     def assert_killed_world_is_told(self, way):
-        nodes = way.nodes(self, 3, self.machine, *LOCK_STEP, "--patience", "1")
+        nodes = way.nodes(self, 3, self.machine, *LOCK_STEP, "--patience", SILENCE_S)
         world = self.world_in_steps(way)
         world.wait_for('"digest"')
         world.signal(signal.SIGKILL)

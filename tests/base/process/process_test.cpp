@@ -127,7 +127,7 @@ TEST_F(Programs, LeaveNobodyBehind) {
   EXPECT_TRUE(eventually([&] { return is_dead(std::stoi(end.errors.text)); }));
   // Ended by us, with a grandchild that ignores it.
   ProcessCall call = hostile({"--ignore", "15", "--grandchild", "", "--hang", ""});
-  call.limit = milliseconds(100);
+  call.limit = kBeginning;
   const ProcessEnd killed = run(call);
   EXPECT_TRUE(eventually([&] { return is_dead(std::stoi(killed.errors.text)); }));
 }
