@@ -13,7 +13,11 @@ namespace swarmsmith::cluster {
 namespace {
 
 constexpr std::uint64_t kShards = 8;
+#ifdef SWARMSMITH_SANITIZED
+constexpr std::uint64_t kSchedulesOfAShard = 50;  // each frame's arena is mapped anew there
+#else
 constexpr std::uint64_t kSchedulesOfAShard = 250;
+#endif
 
 std::uint64_t schedules_of_a_shard() {
   return times(kSchedulesOfAShard, 20 * kSchedulesOfAShard);
