@@ -82,7 +82,7 @@ tests_gate() {
     digests[$name]=$digest
     is_green "$gate" "$name" "$digest" || open+=("$name")
   done < <(python3 tests/gates/digests.py tests "$folder" "${tree:-changed}" "$@")
-  for name in "${!digests[@]}"; do echo "$name ${digests[$name]}"; done | keep_units "$gate"
+  for name in "${!digests[@]}"; do printf '%s\t%s\n' "$name" "${digests[$name]}"; done | keep_units "$gate"
   green=$((${#digests[@]} - ${#open[@]}))
   for ((begin = 0; begin < ${#open[@]}; begin += 12)); do
     rm -rf "$reports"
@@ -101,7 +101,8 @@ tests_gate() {
       green=$((green + 1))
       [ -z "$tree" ] || note_green "$gate" "$name" "${digests[$name]}" "test" "$seconds"
     done < <({ tr '\n\t' '  ' <build-gate/tests.xml; echo; } | sed 's/<testcase/\n&/g' |
-      sed -n 's/^<testcase name="\([^"]*\)".* time="\([0-9.]*\)" status="run".*/\1\t\2/p')
+      sed -n 's/^<testcase name="\([^"]*\)".* time="\([0-9.]*\)" status="run".*/\1\t\2/p' |
+      sed 's/&lt;/</g; s/&gt;/>/g; s/&quot;/"/g; s/&amp;/\&/g')
   done
   echo "$green of ${#digests[@]} tests" >&3
   return "$status"
@@ -162,7 +163,7 @@ gate_fuzz() {
   mkdir -p build-fuzz/found
   while read -r program digest; do digests[${program#fuzz_}]=$digest; done < <(
     sed 's/^\([^ ]*\).*/fuzz_\1/' build-asan/fuzzers.txt | xargs python3 tests/gates/digests.py programs)
-  for name in "${!digests[@]}"; do echo "$name ${digests[$name]}"; done | keep_units fuzz
+  for name in "${!digests[@]}"; do printf '%s\t%s\n' "$name" "${digests[$name]}"; done | keep_units fuzz
   while read -r name seeds; do
     is_green fuzz "$name" "${digests[$name]}" "$seconds" || open+=("$name ${digests[$name]} $seeds")
   done <build-asan/fuzzers.txt

@@ -25,11 +25,11 @@ note_green() {
   ) 9>build-gate/ledger.lock
 }
 
-# keep_units GATE: of its lines, only those of units that standard input names, with the digest that may stand beside.
+# keep_units GATE: of its lines, only those of units that standard input names, with the digest that may stand beside,
+# after a tab. Names may have blanks.
 keep_units() {
-  awk -v gate="$1" 'NR == FNR { digest[$1] = $2; next }
-    { split($0, part, "\t") }
-    part[1] != gate || part[2] in digest && (digest[part[2]] == "" || digest[part[2]] == part[3])' - $ledger >build-gate/green.tsv
+  awk -F '\t' -v gate="$1" 'NR == FNR { digest[$1] = $2; next }
+    $1 != gate || $2 in digest && (digest[$2] == "" || digest[$2] == $3)' - $ledger >build-gate/green.tsv
   cat build-gate/green.tsv >$ledger
 }
 
