@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
@@ -9,6 +11,7 @@
 #include "sim/control/flavour.h"
 #include "sim/files/mission_file.h"
 #include "sim/mission/mission.h"
+#include "sim/mission/score.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -40,12 +43,12 @@ duration = "120 s"
 #   floor = "gray"
 #   spots = [ { shape = "square", x = 0, y = 0.5, side = 0.5, color = "white" } ]
 #   [mission.score]
-#   kind  = "robots_on"                           # robots_on, coverage, color_reward
+#   kind  = "robots_on"                           # @SCORES@
 #   color = "white"
 
 [[method]]
 name    = "@FLAVOUR@"
-flavour = "@FLAVOUR@"          # watermelon, watermelon-argos3, chocolate
+flavour = "@FLAVOUR@"          # @FLAVOURS@
 max_states      = 4
 max_transitions = 4            # out of each state
 # behaviours = ["exploration", "stop", "attraction", "repulsion"]
@@ -74,11 +77,20 @@ void replace_all(std::string& text, std::string_view what, std::string_view with
   }
 }
 
+std::vector<std::string> flavour_names() {
+  std::vector<std::string> names;
+  for (const Flavour* flavour : all_flavours())
+    names.emplace_back(flavour->name);
+  return names;
+}
+
 /// A commented campaign file that runs as it is.
 std::string campaign_template(const std::string& mission, const std::string& flavour) {
   std::string text(kTemplate);
   replace_all(text, "@MISSION@", mission);
   replace_all(text, "@FLAVOUR@", flavour);
+  replace_all(text, "@FLAVOURS@", fmt::format("{}", fmt::join(flavour_names(), ", ")));
+  replace_all(text, "@SCORES@", fmt::format("{}", fmt::join(score_kinds(), ", ")));
   return text;
 }
 
@@ -116,8 +128,7 @@ Run declare_init(Options& options) {
   auto arguments = std::make_shared<InitArguments>();
   options.text("DIR", arguments->folder, "Folder of the new campaign.toml (default: this one)");
   options.choice("--mission", arguments->mission, mission_names(), "Mission to design for");
-  options.choice("--flavour", arguments->flavour, {"watermelon", "watermelon-argos3", "chocolate"},
-                 "Flavour of the modules");
+  options.choice("--flavour", arguments->flavour, flavour_names(), "Flavour of the modules");
   return [arguments](Output& output) { return run_init(*arguments, output); };
 }
 

@@ -36,7 +36,7 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 9> kMigrations = {
+  static const std::array<Migration, 10> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
@@ -46,6 +46,8 @@ std::span<const Migration> migrations() {
       Migration{8, [](sqlite::Connection&) {}},  // the same: tests under further profiles
       Migration{9, [](sqlite::Connection&) {}},  // the same: modules of trees
       Migration{10, [](sqlite::Connection& connection) { connection.execute(kRobotLogsSchema); }},
+      Migration{11,
+                [](sqlite::Connection&) {}},  // views alone: ids of tests under further profiles
   };
   return kMigrations;
 }

@@ -352,7 +352,7 @@ FROM worker;
 CREATE VIEW v_attempts AS
 SELECT 'e' || (a.candidate * 100000 + a.pair)
            || CASE a.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
-                             WHEN 4 THEN 's' ELSE 'v' END AS id,
+                             WHEN 4 THEN 's' WHEN 5 THEN 'v' ELSE 'p' END AS id,
        (a.candidate - 1) / 1000000 + 1 AS design, a.candidate, a.pair, a.attempt,
        nullif(a.worker, 0) AS worker, w.host, a.held_ms, a.outcome, a.time AS at
 FROM attempt AS a
@@ -377,10 +377,11 @@ WITH failed (candidate, purpose, pair, attempt, worker, reason, command, output,
 )
 SELECT 'e' || (f.candidate * 100000 + f.pair)
            || CASE f.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
-                             WHEN 4 THEN 's' ELSE 'v' END AS id,
+                             WHEN 4 THEN 's' WHEN 5 THEN 'v' ELSE 'p' END AS id,
        (f.candidate - 1) / 1000000 + 1 AS design, f.candidate,
        CASE f.purpose WHEN 0 THEN 'race' WHEN 1 THEN 'look-ahead' WHEN 2 THEN 'test'
-                      WHEN 3 THEN 'audit' WHEN 4 THEN 'score' ELSE 'evaluator' END AS purpose,
+                      WHEN 3 THEN 'audit' WHEN 4 THEN 'score' WHEN 5 THEN 'evaluator'
+                      ELSE 'transfer' END AS purpose,
        f.pair, p.instance, p.seed, e.iteration, f.attempt, nullif(f.worker, 0) AS worker, w.host,
        f.reason, f.command, f.output, f.errors, f.time AS at
 FROM failed AS f

@@ -1,9 +1,13 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
+#include "sim/control/flavour.h"
+#include "sim/mission/score.h"
 #include "tests/cli/cli_support.h"
 
 namespace swarmsmith::cli {
@@ -102,6 +106,15 @@ TEST(Init, WritesAFileThatCheckAccepts) {
     ASSERT_TRUE(campaign) << to_string(campaign.error().front());
     EXPECT_EQ(campaign->missions[0].mission.name, mission);
   }
+}
+
+TEST(Init, NamesEveryFlavourAndKindOfScore) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"init", folder.path().string()}).code, 0);
+  const std::string text = *read_whole_file((folder / "campaign.toml").string());
+  EXPECT_THAT(text, HasSubstr(fmt::format("# {}\n", fmt::join(score_kinds(), ", "))));
+  for (const Flavour* flavour : all_flavours())
+    EXPECT_THAT(text, HasSubstr(flavour->name));
 }
 
 TEST(Init, NeverOverwrites) {

@@ -102,6 +102,26 @@ TEST_F(TargetsTest, FailuresAreAttemptsAndRejectionsWithoutOne) {
                   Cells{"e200001", "rejected", "NULL", "NULL"}));
 }
 
+TEST_F(TargetsTest, AnEvaluationOfAnyPurposeHasOneIdAndOneWordInAllViews) {
+  constexpr auto kLast = static_cast<int>(Purpose::Transfer);
+  for (int number = 0; number <= kLast; ++number) {
+    const EvaluationRow made = run(kWinner, static_cast<Purpose>(number), 8, 1);
+    campaign.batches.front().emplace_back(made);
+    campaign.batches.front().emplace_back(FailureRow{.key = made.key, .reason = "planted"});
+    campaign.batches.front().emplace_back(AttemptRow{.key = made.key});
+  }
+  const std::string count = std::to_string(kLast + 1);
+  EXPECT_THAT(
+      all("SELECT count(DISTINCT id), count(DISTINCT purpose) FROM v_evaluations WHERE pair = 8"),
+      ElementsAre(Cells{count, count}));
+  EXPECT_THAT(all("SELECT count(DISTINCT id) FROM v_failures JOIN v_evaluations USING (id, purpose)"
+                  " WHERE reason = 'planted'"),
+              ElementsAre(Cells{count}));
+  EXPECT_THAT(all("SELECT count(DISTINCT id) FROM v_attempts JOIN v_evaluations AS e USING (id)"
+                  " WHERE e.pair = 8"),
+              ElementsAre(Cells{count}));
+}
+
 TEST_F(TargetsTest, ACandidateThatIsDroppedTwiceIsOneCandidateInTwoRaces) {
   EXPECT_THAT(all("SELECT candidate, eliminated_in FROM v_candidates"),
               ElementsAre(Cells{"1", "NULL"}, Cells{"2", "2"}));
