@@ -8,9 +8,11 @@ digests.py tidy UNIT          a unit's name, and the digest of its text after th
 digests.py programs NAME...   a line NAME DIGEST for each of these programs of build-asan: of the same texts and commands
                               of all units that they are made of
 digests.py tests BUILD TREE [CTEST-ARGUMENT...]
-                              a line DIGEST NAME for each test, the longest first: that of its program and of
+                              a line DIGEST PROGRAM NAME for each test, the longest first: that of its program and of
                               tests/golden; for what reads other files of the repository, or starts other programs of
-                              it, that of all files but UNREAD ones. TREE for the tests that read these too
+                              it, that of all files but UNREAD ones. TREE for the tests that read these too. PROGRAM
+                              is - for scripts. Test programs need not be built where each is one test, as under a
+                              sanitizer; all others do
 
 Neither comments nor the place of the clone change a digest.
 """
@@ -166,17 +168,26 @@ def property_of(test, name, default):
     return next((one["value"] for one in test.get("properties", ()) if one["name"] == name), default)
 
 
+def with_command(test):
+    """ctest knows no command of a program that is not built yet."""
+    name = re.sub(r"^fuzz\.", "fuzz_", test["name"])
+    path = BUILD.absolute() / "bin" / (name if name.startswith("fuzz_") else f"{name}_test")
+    return {"command": [str(path)], **test}
+
+
 def test_lines(tree, arguments):
-    tests = json.loads(output_of("ctest", "--test-dir", BUILD, "--show-only=json-v1", *arguments))["tests"]
+    tests = [with_command(test) for test in
+             json.loads(output_of("ctest", "--test-dir", BUILD, "--show-only=json-v1", *arguments))["tests"]]
     program_of = {test["name"]: os.path.basename(test["command"][0]) for test in tests
-                  if "command" in test and os.path.dirname(test["command"][0]) == str(BUILD.absolute() / "bin")}
+                  if os.path.dirname(test["command"][0]) == str(BUILD.absolute() / "bin")}
     digests = programs_digests(sorted(set(program_of.values())))
     golden = output_of("git", "ls-files", "-s", "tests/golden")
     lines = []
     for test in sorted(tests, key=lambda test: property_of(test, "COST", 0), reverse=True):
-        digest, has_paths = digests.get(program_of.get(test["name"]), ("", True))
+        program = program_of.get(test["name"], "-")
+        digest, has_paths = digests.get(program, ("", True))
         read = digest_of_files(test, tree) if has_paths else golden
-        lines.append(f"{read if read == tree else digest_of(digest, read, *test['command'])} {test['name']}")
+        lines.append(f"{read if read == tree else digest_of(digest, read, *test['command'])} {program} {test['name']}")
     # Those whose lines the next commit ends come last.
     return sorted(lines, key=lambda line: line.startswith(tree))
 

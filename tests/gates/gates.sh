@@ -70,19 +70,24 @@ ctest_gate() {
   return "$status"
 }
 
-# tests_gate GATE FOLDER [CTEST-ARGUMENT...]: those that are not green yet, a dozen at a time: what has ended is in the
-# ledger. No test is, if a sanitizer reports anything: reports of every process that they start, also of those that are
-# killed, go to files.
+# tests_gate GATE FOLDER [CTEST-ARGUMENT...]: those that are not green yet, a dozen at a time, after their programs are
+# built: what has ended is in the ledger. No test is, if a sanitizer reports anything: reports of every process that they
+# start, also of those that are killed, go to files.
 tests_gate() {
-  local gate=$1 folder=$2 reports=$PWD/build-gate/$1-reports status=0 tree digest name seconds begin green open=()
+  local gate=$1 folder=$2 reports=$PWD/build-gate/$1-reports status=0 tree lines open=() programs=()
+  local digest program name seconds begin green
   local -A digests
   shift 2
   tree=$(tree_digest)
-  while read -r digest name; do
+  lines=$(python3 tests/gates/digests.py tests "$folder" "${tree:-changed}" "$@")
+  while read -r digest program name; do
     digests[$name]=$digest
-    is_green "$gate" "$name" "$digest" || open+=("$name")
-  done < <(python3 tests/gates/digests.py tests "$folder" "${tree:-changed}" "$@")
+    is_green "$gate" "$name" "$digest" && continue
+    open+=("$name")
+    [ "$program" = - ] || programs+=("bin/$program")
+  done <<<"$lines"
   for name in "${!digests[@]}"; do printf '%s\t%s\n' "$name" "${digests[$name]}"; done | keep_units "$gate"
+  [ ${#programs[@]} -eq 0 ] || printf '%s\n' "${programs[@]}" | sort -u | xargs cmake --build "$folder" -j "$jobs" --target
   green=$((${#digests[@]} - ${#open[@]}))
   for ((begin = 0; begin < ${#open[@]}; begin += 12)); do
     rm -rf "$reports"
@@ -146,9 +151,11 @@ hashes_gate() {
 gate_debug() { hashes_gate debug; }
 gate_clang() { hashes_gate clang; }
 
+# What scripts need is built, and of the test programs those that are not green yet: all of them take most of an hour.
 sanitizer_gate() {
   configure "build-$1" --preset "$1"
-  cmake --build "build-$1" -j "$jobs"
+  ninja -C "build-$1" -t targets all | sed -n '/_test:\|\/fuzz_/d; s/^\(bin\/[^:]*\):.*/\1/p' |
+    xargs cmake --build "build-$1" -j "$jobs" --target
   tests_gate "$1" "build-$1" -LE long
 }
 gate_asan() { sanitizer_gate asan; }
@@ -156,13 +163,13 @@ gate_tsan() { sanitizer_gate tsan; }
 
 # Each target from its seeds and what earlier runs have found worth keeping.
 gate_fuzz() {
-  local seconds=${SWARMSMITH_FUZZ_SECONDS:-600} program digest name seeds open=()
+  local seconds=${SWARMSMITH_FUZZ_SECONDS:-600} lines program digest name seeds open=()
   local -A digests
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target swarmsmith_pb
   mkdir -p build-fuzz/found
-  while read -r program digest; do digests[${program#fuzz_}]=$digest; done < <(
-    sed 's/^\([^ ]*\).*/fuzz_\1/' build-asan/fuzzers.txt | xargs python3 tests/gates/digests.py programs)
+  lines=$(sed 's/^\([^ ]*\).*/fuzz_\1/' build-asan/fuzzers.txt | xargs python3 tests/gates/digests.py programs)
+  while read -r program digest; do digests[${program#fuzz_}]=$digest; done <<<"$lines"
   for name in "${!digests[@]}"; do printf '%s\t%s\n' "$name" "${digests[$name]}"; done | keep_units fuzz
   while read -r name seeds; do
     is_green fuzz "$name" "${digests[$name]}" "$seconds" || open+=("$name ${digests[$name]} $seeds")

@@ -26,10 +26,13 @@ note_green() {
 }
 
 # keep_units GATE: of its lines, only those of units that standard input names, with the digest that may stand beside,
-# after a tab. Names may have blanks.
+# after a tab. Names may have blanks. Without a name nothing changes: who made the names has failed.
 keep_units() {
+  local units
+  units=$(cat)
+  [ -n "$units" ] || { echo "no units of $1: the ledger stays as it is" >&2; return 1; }
   awk -F '\t' -v gate="$1" 'NR == FNR { digest[$1] = $2; next }
-    $1 != gate || $2 in digest && (digest[$2] == "" || digest[$2] == $3)' - $ledger >build-gate/green.tsv
+    $1 != gate || $2 in digest && (digest[$2] == "" || digest[$2] == $3)' - $ledger <<<"$units" >build-gate/green.tsv
   cat build-gate/green.tsv >$ledger
 }
 
