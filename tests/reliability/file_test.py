@@ -75,7 +75,8 @@ class Locks(FaultTest):
 
 class OpenedBeside(FaultTest):
     """No program opens a store besides SQLite, at rest or while a campaign runs."""
-    budget = 3000
+    budget = 1500
+    designs = 2
 
     def setUp(self):
         super().setUp()
@@ -108,6 +109,7 @@ class OpenedBeside(FaultTest):
                 self.count("command looked at")
 
     def test_by_no_command(self):
+        self.hold(env=self.env)
         serve = self.serve("--http", "127.0.0.1:0", env=self.env)
         worker = self.worker(serve.address())
         self.wait_stored(300)
@@ -123,7 +125,8 @@ class OpenedBeside(FaultTest):
 
 class Names(FaultTest):
     """A store is its file, whatever it is called."""
-    budget = 6000
+    budget = 1500
+    designs = 2
 
     def assert_refused(self, name, *words):
         done = call("run", self.file, "--store", name, "--no-dashboard")
@@ -133,10 +136,10 @@ class Names(FaultTest):
         self.count("second coordinator refused")
 
     def test_no_second_coordinator_by_any_name(self):
+        self.hold()
         serve = self.serve()
         worker = self.worker(serve.address())
         self.wait_stored(300)
-        worker.kill()  # so that the campaign is not over before it was asked
         link = self.folder / "link.db"
         link.symlink_to(self.store.name)
         self.assert_refused(link, "another process is writing this store", f"pid={serve.pid}")
@@ -148,10 +151,11 @@ class Names(FaultTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         done = call("resume", link)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.finish(serve, [self.worker(serve.address())])
+        self.held = None
+        self.finish(serve, [worker])
 
     def test_a_store_with_two_names_is_refused_at_rest(self):
-        self.assertEqual(self.run_local("--workers", "2", "--budget", "2000").wait(), 0)
+        self.assertEqual(self.run_local("--workers", "2").wait(), 0)
         other = self.folder / "hard.db"
         other.hardlink_to(self.store)
         self.assert_refused(other, "second name")
@@ -238,9 +242,11 @@ class Lost(Beside):
                 self.assertGreaterEqual(stored(self.store), 500)
 
     def test_of_a_run_that_goes_on_to_the_same_answer(self):
-        self.budget = 3000
+        self.budget = 1500
+        self.designs = 2
         self.file.write_text(self.campaign_text())
         self.begin("whole")
+        self.hold()
         run = self.run_local("--workers", "2")
         self.wait_stored(300)
         self.store.unlink()

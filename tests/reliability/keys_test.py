@@ -7,7 +7,7 @@ from wire import Peer
 
 
 class Keys(FaultTest):
-    budget = 4000
+    budget = 1500
 
     def setUp(self):
         super().setUp()
@@ -38,10 +38,10 @@ class Keys(FaultTest):
         self.keygen(self.folder / "others")
         self.serving = self.serve("--keys", self.keys)
         address = self.serving.address()
-        honest = self.worker(address, "--key", self.keys / "worker.key")
-        self.wait_stored(200)
         # It must not end while they knock.
         self.command("pause", "--key", self.keys / "operator.key")
+        honest = self.worker(address, "--key", self.keys / "worker.key")
+        wait_for(lambda: self.serving.progress().get("workers") == 1, "the honest worker", 30)
         kept_out = [self.worker(address, "--key", unlisted),
                     self.worker(address, "--key", self.keys / "late.key"),
                     self.worker(address, "--key", self.folder / "others" / "worker.key"),

@@ -4,7 +4,6 @@ import json
 import random
 import signal
 import subprocess
-import time
 import unittest
 
 from beside import Beside, Onlookers
@@ -15,11 +14,16 @@ PRELOAD = str(BIN / "faulty_calls.so")
 
 
 class Kill(Beside):
-    budget = 20000 if LONG else 3000
+    budget = 20000 if LONG else 2000
+    designs = 2
     kills = 60 if LONG else 8
 
+    def setUp(self):
+        super().setUp()
+        self.hold()
+
     def moments(self, rng):
-        """At most so many moments of the campaign, each after some of its results; none is near its end."""
+        """At most so many moments of the campaign, each after some results of its first design."""
         step = self.budget // (self.kills + 3)
         before = 0
         while before < self.budget - 3 * step:
@@ -39,10 +43,10 @@ class Kill(Beside):
             workers[one] = self.worker(serve.address())
             killed += 1
         self.count("worker killed", killed)
-        self.assertEqual(serve.wait(), 0, serve.tail())
+        numbers = self.finish(serve)
         self.assertEqual(events(self.store, "evaluation rejected"), [], "a task was blamed")
         # Not the workers: one that came too late finds nobody, and looks on for ten minutes.
-        self.assert_killed(killed, self.finish(serve))
+        self.assert_killed(killed, numbers)
 
     def test_local_workers_at_random(self):
         run = self.run_local("--workers", "2")
@@ -58,7 +62,6 @@ class Kill(Beside):
 
     def assert_killed(self, killed, numbers):
         lost = events(self.store, "worker lost")
-        self.assertGreater(killed, 0, "it ended before a worker could be killed")
         self.assertGreater(len(lost), 0)
         self.assertLessEqual(len(lost), killed)
         self.assertEqual(numbers["lost_workers"], len(lost))
@@ -70,11 +73,9 @@ class Kill(Beside):
         workers = [self.worker(serve.address()) for _ in range(2)]
         self.wait_stored(500)
         workers[0].kill()
-        began = time.monotonic()
-        wait_for(lambda: events(self.store, "worker lost"), "the loss of a killed worker", 10)
-        took = time.monotonic() - began
-        # 2 s on a quiet machine; the limit allows for one that is busy.
-        self.assertLess(took, 5)
+        # By its connection, not by its silence: nobody waits for a lease's end.
+        [lost] = wait_for(lambda: events(self.store, "worker lost"), "the loss of a killed worker")
+        self.assertEqual(lost["how"], "connection closed")
         self.count("worker killed", 1)
         numbers = self.finish(serve, workers[1:])
         self.assertEqual(numbers["expired"], 0)
@@ -95,9 +96,7 @@ class Kill(Beside):
             before = now
             serve = self.serve(bind=address)
         # Who is away at the end looks on for ten minutes: nothing ends before both are back.
-        self.assertEqual(self.ask("pause", "d1").returncode, 0)
         wait_for(lambda: serve.progress().get("workers") == 2, "both workers", 30)
-        self.assertEqual(self.ask("resume", "d1").returncode, 0)
         self.finish(serve, workers)
         self.assert_promises_are_kept()
         self.assertEqual({row[0] for row in rows(self.store, "select pid from worker")},
@@ -108,7 +107,7 @@ class Kill(Beside):
         before = 0
         for _ in range(10 if LONG else 3):
             run = self.run_local("--workers", "2")
-            self.wait_stored(before + rng.randrange(1, 600))
+            self.wait_stored(min(before + rng.randrange(1, 600), 0.9 * self.budget))
             for pid in [run.pid, *children_of(run.pid)]:
                 send(pid, signal.SIGKILL)
             run.kill()
@@ -139,11 +138,13 @@ class KillBeside(Beside):
     """Coordinator and workers are killed again and again while people look at the store, and tell it
     to pause and to go on: whatever was acknowledged or confirmed is there after each kill."""
 
-    budget = 60000 if LONG else 3000
+    budget = 60000 if LONG else 2000
+    designs = 2
     kills = 200 if LONG else 8
 
     def setUp(self):
         super().setUp()
+        self.hold()
         self.rng = random.Random(11)
         self.coordinator = self.serve()
         self.address = self.coordinator.address()
@@ -161,13 +162,7 @@ class KillBeside(Beside):
     def kill_all_the_time(self):
         step = self.budget // (self.kills + 10)
         for n in range(self.kills):
-            limit = stored(self.store) + self.rng.randrange(1, step)
-            wait_for(lambda limit=limit: stored(self.store) >= limit or not self.coordinator.alive(),
-                     f"{limit} evaluations in the store", 90)
-            # Near its end the campaign could be over before the next kill.
-            if not self.coordinator.alive() or stored(self.store) > 0.9 * self.budget:
-                self.assertGreater(n, self.kills * 0.6)
-                break
+            self.wait_stored(min(stored(self.store) + self.rng.randrange(1, step), 0.9 * self.budget))
             if n % 4 == 3:
                 self.pause_or_resume()
             if n % 2 == 0 or n % 5 == 0:
@@ -201,21 +196,20 @@ class KillBeside(Beside):
 class KillAfterCommands(Beside):
     """Commands that change the answer: whatever was confirmed acts, though nobody lives to see it."""
     budget = 2000
-
-    def campaign_text(self):
-        return super().campaign_text().replace("seed = 7\n", "seed = 7\nrepetitions = 2\n")
+    designs = 2
 
     def wanted(self):
         """Not what the campaign without the commands asks for; the store says it in the end."""
         return set()
 
     def test_extend_and_cancel_outlive_the_coordinator(self):
+        self.hold()
         serve = self.serve()
         address = serve.address()
         proxy = self.overhear(address)
         worker = self.worker(proxy.address, slots=2)
         for kind, words in (("extend", ("d1", "--budget", "500")), ("cancel", ("d2",))):
-            self.wait_stored(stored(self.store) + 200)
+            self.wait_stored(min(stored(self.store) + 200, 0.9 * self.budget))
             done = self.ask(kind, *words)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             serve.kill()

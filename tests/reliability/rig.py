@@ -154,6 +154,8 @@ class FaultTest(unittest.TestCase):
     budget = 20000
     seed = 7
     tests = 20
+    #: Designs of the campaign; two for one that is held.
+    designs = 1
     #: Further lines of the campaign file.
     more = ""
 
@@ -174,9 +176,11 @@ class FaultTest(unittest.TestCase):
         self.store = self.folder / "campaign.db"
         self.started = 0
         self.tried = {}
+        self.held = None
 
     def campaign_text(self):
-        return CAMPAIGN.format(seed=self.seed, budget=self.budget, tests=self.tests) + self.more
+        return CAMPAIGN.format(seed=self.seed, budget=self.budget, tests=self.tests).replace(
+            "\n\n[[mission]]", f"\nrepetitions = {self.designs}\n\n[[mission]]", 1) + self.more
 
     def count(self, what, number=1):
         """Counts faults for the line that the test prints at its end."""
@@ -215,6 +219,16 @@ class FaultTest(unittest.TestCase):
     def worker(self, address, *arguments, slots=1, program=WORKER, env=None, prefix=()):
         return self.start("worker", program, "--connect", f"tcp://{address}", "--slots",
                           slots, *arguments, env=env, prefix=prefix)
+
+    def hold(self, env=None):
+        """Makes the store, and pauses the last of two designs until `finish`: without it, the campaign could
+        be over before it is disturbed, if the machine is fast or the test gets no processor."""
+        self.assertEqual(self.designs, 2)
+        serve = self.serve(env=env)
+        self.command("pause", "d2")
+        serve.send(signal.SIGINT)
+        self.assertEqual(serve.wait(), 130, serve.tail())
+        self.held = "d2"
 
     def wait_stored(self, number, seconds=90):
         wait_for(lambda: stored(self.store) >= number, f"{number} evaluations in the store",
@@ -275,7 +289,10 @@ class FaultTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def finish(self, coordinator, workers=(), seconds=180):
-        """The campaign ends by itself, its workers go home, and the answer is the usual one."""
+        """The campaign ends by itself, once nothing holds it; its workers go home, and the answer is the usual one."""
+        if self.held:
+            self.command("resume", self.held)
+            self.held = None
         self.assertEqual(coordinator.wait(seconds), 0, coordinator.tail())
         for worker in workers:
             self.assertEqual(worker.wait(30), 0, worker.tail())

@@ -8,9 +8,11 @@ from rig import events
 
 
 class Stopping(Beside):
-    budget = 8000
+    budget = 2000
+    designs = 2
 
     def fleet(self):
+        self.hold()
         serve = self.serve()
         workers = [self.worker(serve.address()) for _ in range(2)]
         self.wait_stored(500)
@@ -47,7 +49,6 @@ class Stop(Stopping):
 
 class StopLong(Stopping):
     """Shorter and longer than the 5 s after which a silent worker is taken for dead."""
-    budget = 20000
     times = (1, 10, 60)
 
     def test_workers(self):
@@ -74,7 +75,7 @@ class StopLong(Stopping):
 
 class StopOne(Stopping):
     """One of two is stopped: the other one does its work, and its late results are welcome."""
-    budget = 60000
+    budget = 40000
     times = (1, 10)
 
     def test_workers(self):

@@ -34,6 +34,8 @@ class Visited(FaultTest):
 
     def setUp(self):
         super().setUp()
+        if self.designs == 2:
+            self.hold()
         self.coordinator = self.serve()
         self.address = self.coordinator.address()
         # One of them is heard, for what its messages look like.
