@@ -94,26 +94,20 @@ function(swarmsmith_program name)
   swarmsmith_precompile_code(${name} ${arg_PRIVATE})
 endfunction()
 
-# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WHOLE] [WIDE] [OPTIMISED] [TIMEOUT s] SOURCES ... USES ...)
+# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WIDE] [OPTIMISED] [TIMEOUT s] SOURCES ... USES ...)
 #
-# One test program a folder; each of its tests is a ctest of its own, so that they run in parallel. WHOLE, and all under
-# a sanitizer: one ctest for the program, because to start it takes longer than most of its tests. A program that loads
-# OpenCV's imgcodecs or videoio takes 0.2 to 0.3 s of processor. OPTIMISED: its own code and the inline functions that it
-# calls are what it spends its time in. WIDE: `./dev test --long` runs it too, and does more then
-# (tests/support/long_runs.h); its label is unit-wide, say. Golden tests, which may take 20 s, begin before other short ones.
+# One test program a folder, and one ctest each: to start a program takes longer than most of its tests. OPTIMISED: its own
+# code and the inline functions that it calls are what it spends its time in. WIDE: `./dev test --long` runs it too, and does
+# more then (tests/support/long_runs.h); its label is unit-wide, say. COST: as for scripts.
 function(swarmsmith_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WHOLE;WIDE;OPTIMISED" "LABEL;TIMEOUT" "SOURCES;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WIDE;OPTIMISED" "LABEL;TIMEOUT" "SOURCES;USES")
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 120)
+    set(arg_TIMEOUT 300)
   endif()
   math(EXPR limit "${arg_TIMEOUT} * ${SWARMSMITH_PATIENCE}")
   set(label ${arg_LABEL})
   if(arg_WIDE)
     string(APPEND label "-wide")
-  endif()
-  set(cost 0)
-  if(arg_LABEL STREQUAL "golden")
-    set(cost 50)
   endif()
   set(target ${name}_test)
   add_executable(${target} ${arg_SOURCES})
@@ -132,13 +126,8 @@ function(swarmsmith_test name)
   if(SWARMSMITH_SANITIZE)
     target_compile_definitions(${target} PRIVATE SWARMSMITH_SANITIZED)
   endif()
-  if(SWARMSMITH_SANITIZE OR arg_WHOLE)
-    add_test(NAME ${name} COMMAND ${target})
-    set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 3600 COST 100)
-    return()
-  endif()
-  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
-    PROPERTIES LABELS ${label} TIMEOUT ${limit} COST ${cost})
+  add_test(NAME ${name} COMMAND ${target})
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${limit} COST ${arg_TIMEOUT})
 endfunction()
 
 # swarmsmith_script_test(ROOM.FILE TIMEOUT s [LABEL label] [LONG] [PROCESSORS n] [ORDINARY test...]

@@ -2,12 +2,13 @@
 whole, and the campaign goes on to its usual end."""
 import contextlib
 import shutil
+import signal
 import sqlite3
 import subprocess
 import time
 import unittest
 
-from programs import ProgramTest
+from programs import ProgramTest, children_of, send
 
 SHELL = shutil.which("sqlite3")
 
@@ -98,11 +99,19 @@ class Readers(ProgramTest):
         return reader
 
     def begun_campaign(self, steps):
-        """A campaign that has held so many steps, and far from all."""
+        """A campaign that has held so many steps, and far from all. Its workers stand still until `go_on`, so that it
+        does not end before the test has looked."""
         campaign = self.start_campaign(self.store, "--workers", "2")
         self.wait(lambda: self.store.exists() and self.steps() >= steps, "steps")
+        self.workers = children_of(campaign.pid)
+        for worker in self.workers:
+            send(worker, signal.SIGSTOP)
         self.assertIsNone(campaign.poll(), "the campaign ended before the test could look")
         return campaign
+
+    def go_on(self):
+        for worker in self.workers:
+            send(worker, signal.SIGCONT)
 
     def steps(self):
         try:
@@ -140,9 +149,10 @@ class Readers(ProgramTest):
         seen = python.execute(MOMENT).fetchall()
         shell.ask("BEGIN")
         shell_seen = shell.ask(MOMENT)
-        self.assertIsNone(campaign.poll(), "the campaign ended before the test could look")
         asked = 0
         while campaign.poll() is None:
+            if asked == 1:
+                self.go_on()
             self.assert_consistent(python.execute(BROKEN).fetchall())
             self.assert_consistent(shell.ask(BROKEN))
             self.assertEqual(python.execute(MOMENT).fetchall(), seen)
@@ -171,12 +181,16 @@ class Readers(ProgramTest):
     def test_every_moment_is_whole(self):
         campaign = self.begun_campaign(steps=1)
         moments = []
-        while campaign.poll() is None:
+        while True:
+            ended = campaign.poll() is not None
             reader = self.python_reader()
             reader.execute("BEGIN")
             self.assert_consistent(reader.execute(BROKEN).fetchall())
             moments += reader.execute(MOMENT).fetchall()
             reader.close()
+            if ended:
+                break
+            self.go_on()
         self.assertEqual(campaign.returncode, 0)
         self.assertGreater(len(set(moments)), 1, "the test looked at too few moments")
         self.assertEqual([m[1] for m in moments], sorted(m[1] for m in moments))
@@ -186,6 +200,7 @@ class Readers(ProgramTest):
         shell = Shell(self, self.store)  # which may write, as the shell does by default
         shell.ask("BEGIN")
         seen = shell.ask(MOMENT)
+        self.go_on()
         self.assertEqual(campaign.wait(300), 0)
         self.assertEqual(shell.ask(MOMENT), seen)
         self.assertGreater(self.log_size(), 0)

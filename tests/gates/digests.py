@@ -11,8 +11,7 @@ digests.py tests BUILD TREE [CTEST-ARGUMENT...]
                               a line DIGEST PROGRAM NAME for each test, the longest first: that of its program and of
                               tests/golden; for what reads other files of the repository, or starts other programs of
                               it, that of all files but UNREAD ones. TREE for the tests that read these too. PROGRAM
-                              is - for scripts. Test programs need not be built where each is one test, as under a
-                              sanitizer; all others do
+                              is - for scripts. Test programs need not be built; all others do
 
 Neither comments nor the place of the clone change a digest.
 """

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mission/polygon.h"
+
 namespace swarmsmith::film {
 namespace {
 
@@ -128,8 +130,9 @@ void paint(const Arm& arm, const Footprint& pixel, const Point3& camera,
   }
 }
 
-Bgr arena_color(const Arena& arena, const Point3& camera, Point floor) {
-  if (is_inside(arena, floor)) return as_bgr(floor_at(arena, floor));
+Bgr arena_color(const Arena& arena, std::span<const Point> corners, const Point3& camera,
+                Point floor) {
+  if (is_within(corners, floor)) return as_bgr(floor_at(arena, floor));
   // The ray comes down from the camera: where it first passes a wall's face below its top, it
   // ends there.
   const double dx = floor.x - camera.x;

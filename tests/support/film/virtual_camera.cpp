@@ -150,12 +150,13 @@ struct VirtualCamera::Stage {
 VirtualCamera::Stage::Backdrop VirtualCamera::Stage::backdrop_from(const CameraPlace& place) const {
   Backdrop made{{shooting.view.camera, place}, FloorMap(*lens, place), {}, {}};
   const FloorMap& floor = made.floor;
+  const std::vector<Point> corners = corners_of(scene.arena);
   made.sharp.create(lens->size.height, lens->size.width, CV_8UC3);
   for (int v = 0; v < lens->size.height; ++v) {
     for (int u = 0; u < lens->size.width; ++u) {
       const Footprint f = floor.at(u, v);
       const auto seen = [&](float du, float dv) {
-        return arena_color(scene.arena, floor.camera(),
+        return arena_color(scene.arena, corners, floor.camera(),
                            {f.x + du * f.x_u + dv * f.x_v, f.y + du * f.y_u + dv * f.y_v});
       };
       // Most pixels are of one colour.

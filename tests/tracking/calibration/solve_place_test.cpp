@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "synthetic.h"
+#include "tests/support/long_runs.h"
 
 namespace swarmsmith {
 namespace {
@@ -47,7 +48,7 @@ TEST(SolvePlaceTest, IsExactOnExactCorners) {
 
 /// 0.05 px is what medians of good recordings show.
 TEST(SolvePlaceTest, IsWithinHalfAMillimetreOnNoisyCorners) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= times(5U, 20U); ++seed) {
     const auto solved = solve_place(question(0.05, seed));
     ASSERT_TRUE(solved) << to_string(solved.error());
     EXPECT_LT(worst_shift(solved->place), 0.0005);

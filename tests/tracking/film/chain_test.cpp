@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "tests/support/film/commands.h"
 #include "tests/support/film/schedule.h"
+#include "tests/support/long_runs.h"
 #include "tracking/detection/tag_search.h"
 #include "tracking/motion/track_run.h"
 
@@ -149,7 +150,7 @@ Chain short_run(const std::string& mission, const std::string& machine) {
   chain.run.mission = mission;
   chain.run.machine = machine;
   chain.run.seed = 7;
-  chain.run.seconds = 8;
+  chain.run.seconds = times(3, 8);
   return chain;
 }
 

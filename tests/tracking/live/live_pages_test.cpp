@@ -93,7 +93,7 @@ TEST(LivePagesTest, SendsPicturesWhileSomebodyWatches) {
       ++parts;
     return parts < 3;
   });
-  EXPECT_EQ(parts, 3);
+  EXPECT_GE(parts, 3) << "several may come at once";
   EXPECT_THAT(stream, StartsWith("--frame\r\nContent-Type: image/jpeg\r\nContent-Length: "));
   for (int i = 0; i < 5000 && pages->is_watched(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
