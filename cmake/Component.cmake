@@ -94,13 +94,13 @@ function(swarmsmith_program name)
   swarmsmith_precompile_code(${name} ${arg_PRIVATE})
 endfunction()
 
-# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WIDE] [OPTIMISED] [TIMEOUT s] SOURCES ... USES ...)
+# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WIDE] [TIMEOUT s] SOURCES ... [OPTIMISED ...] USES ...)
 #
-# One test program a folder, and one ctest each: to start a program takes longer than most of its tests. OPTIMISED: its own
-# code and the inline functions that it calls are what it spends its time in. WIDE: `./dev test --long` runs it too, and does
+# One test program a folder, and one ctest each: to start a program takes longer than most of its tests. OPTIMISED: sources
+# whose own code and the inline functions that they call are what it spends its time in. WIDE: `./dev test --long` runs it too, and does
 # more then (tests/support/long_runs.h); its label is unit-wide, say. COST: as for scripts.
 function(swarmsmith_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WIDE;OPTIMISED" "LABEL;TIMEOUT" "SOURCES;USES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WIDE" "LABEL;TIMEOUT" "SOURCES;OPTIMISED;USES")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -110,22 +110,30 @@ function(swarmsmith_test name)
     string(APPEND label "-wide")
   endif()
   set(target ${name}_test)
-  add_executable(${target} ${arg_SOURCES})
+  set(parts ${target})
+  if(arg_OPTIMISED)
+    # Linked first, since of an inline function that several have the first is taken.
+    add_library(${target}_optimised OBJECT ${arg_OPTIMISED})
+    swarmsmith_share_units(${target}_optimised ${arg_OPTIMISED})
+    set(optimised $<TARGET_OBJECTS:${target}_optimised>)
+    list(APPEND parts ${target}_optimised)
+  endif()
+  add_executable(${target} ${optimised} ${arg_SOURCES})
   swarmsmith_share_units(${target} ${arg_SOURCES})
-  target_link_libraries(${target} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
-    swarmsmith_warnings swarmsmith_exact_arithmetic)
-  # The code under test is optimised; by GCC, its tests compile in two thirds of the time.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(NOT arg_OPTIMISED)
-    swarmsmith_precompile(${target} test)
-  endif()
-  target_compile_definitions(${target} PRIVATE
-    SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
-    SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
-    SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  if(SWARMSMITH_SANITIZE)
-    target_compile_definitions(${target} PRIVATE SWARMSMITH_SANITIZED)
-  endif()
+  swarmsmith_precompile(${target} test)
+  foreach(part IN LISTS parts)
+    target_link_libraries(${part} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
+      swarmsmith_warnings swarmsmith_exact_arithmetic)
+    # The code under test is optimised; by GCC, its tests compile in two thirds of the time.
+    target_compile_options(${part} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_definitions(${part} PRIVATE
+      SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
+      SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
+      SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    if(SWARMSMITH_SANITIZE)
+      target_compile_definitions(${part} PRIVATE SWARMSMITH_SANITIZED)
+    endif()
+  endforeach()
   add_test(NAME ${name} COMMAND ${target})
   set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${limit} COST ${arg_TIMEOUT})
 endfunction()

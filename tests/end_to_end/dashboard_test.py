@@ -64,7 +64,7 @@ class Dashboard(ProgramTest):
 
     def watch_campaign(self):
         self.store = self.folder / "watched.db"
-        return self.begin("run", self.file, "--store", self.store, "--workers", "2", "--http", "127.0.0.1:*")
+        return self.begin("run", self.file, "--store", self.store, "--workers", "1", "--http", "127.0.0.1:*")
 
     def bearer(self, store=None):
         token = pathlib.Path(str(store or self.store) + ".token")
