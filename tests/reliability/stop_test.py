@@ -75,7 +75,7 @@ class StopLong(Stopping):
 
 class StopOne(Stopping):
     """One of two is stopped: the other one does its work, and its late results are welcome."""
-    budget = 40000
+    budget = 20000
     times = (1, 10)
 
     def test_workers(self):
