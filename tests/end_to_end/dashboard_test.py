@@ -134,7 +134,7 @@ class Dashboard(ProgramTest):
         coordinator = self.port
         self.begin("dashboard", self.store, "--http", "127.0.0.1:*")
         self.assertNotEqual(self.port, coordinator)
-        self.eventually(lambda: (live := self.live())["running"] and live["status"]["workers"] == 2)
+        self.eventually(lambda: (live := self.live())["running"] and live["status"]["workers"] == 1)
         self.assertGreater(len(self.eventually(lambda: self.ask("workers")[1]["workers"])), 0)
         # It has the secret of the coordinator, and leaves it where it is.
         status, done = self.ask("c1/designs/d1/pause", "POST", self.bearer())
