@@ -62,9 +62,10 @@ void paint(const Painted& thing, const Footprint& pixel, const Point3& camera,
 void paint(const Arm& arm, const Footprint& pixel, const Point3& camera,
            std::array<Bgr, kSamples>& colors);
 
-/// The colour of the arena as seen along one ray: floor, walls, and what is around. `corners` are the arena's, which a
-/// picture of millions of rays asks for once.
-Bgr arena_color(const Arena& arena, std::span<const Point> corners, const Point3& camera, Point floor);
+/// The colour of the arena as seen along one ray: floor, walls, and what is around. `corners` are
+/// the arena's, which a picture of millions of rays asks for once.
+Bgr arena_color(const Arena& arena, std::span<const Point> corners, const Point3& camera,
+                Point floor);
 
 /// The moment of a sample within the exposure, -0.5 to 0.5: each row and column of samples has
 /// early and late ones, so that no edge is seen at one time only.
