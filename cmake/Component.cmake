@@ -96,9 +96,9 @@ endfunction()
 
 # swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WIDE] [TIMEOUT s] SOURCES ... [OPTIMISED ...] USES ...)
 #
-# One test program a folder, and one ctest each: to start a program takes longer than most of its tests. OPTIMISED: sources
-# whose own code and the inline functions that they call are what it spends its time in. WIDE: `./dev test --long` runs it too, and does
-# more then (tests/support/long_runs.h); its label is unit-wide, say. COST: as for scripts.
+# One test program a folder, and one ctest each: to start a program takes longer than most of its tests. OPTIMISED:
+# sources whose own code and the inline functions that they call are what it spends its time in. WIDE: `./dev test --long`
+# runs it too, and does more then (tests/support/long_runs.h); its label is unit-wide, say. COST: as for scripts.
 function(swarmsmith_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "WIDE" "LABEL;TIMEOUT" "SOURCES;OPTIMISED;USES")
   if(NOT arg_TIMEOUT)

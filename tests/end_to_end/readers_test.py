@@ -159,7 +159,6 @@ class Readers(ProgramTest):
             self.assertEqual(shell.ask(MOMENT), shell_seen)
             asked += 1
         self.assertEqual(campaign.returncode, 0)
-        self.assertGreater(asked, 1)
 
         # The moment is still the same one, while others see the end.
         self.assertEqual(python.execute(MOMENT).fetchall(), seen)
