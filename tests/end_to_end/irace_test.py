@@ -38,6 +38,8 @@ read -r bias < "$file"
 cost=$(( (x - 30) * (x - 30) + mode + seed % 50 + bias ))
 """
 PRINT = "echo $cost"
+# No call beyond the limit ends while the limit is there.
+WAIT = 'while [ -e limit ] && [ "$(wc -l < calls.txt)" -gt "$(cat limit)" ]; do sleep 0.05; done\n'
 
 DEFAULTS = {"parameterFile": "parameters.txt", "trainInstancesDir": "Instances",
             "maxExperiments": 180, "seed": 42}
@@ -229,10 +231,13 @@ class Survival(Irace):
         self.irace("--log-file", "reference.db")
         undisturbed = len(self.calls())
         (self.folder / "calls.txt").unlink()
+        self.write_runner(WAIT + PRINT)
+        limit = self.folder / "limit"
         rng = random.Random(3)
         kills = 0
         for _ in range(8):
             moment = len(self.calls()) + rng.randrange(40)
+            limit.write_text(f"{moment + 20}\n")  # it must not be over before it is killed
             process = start("irace", "--parallel", "2", cwd=self.folder)
             deadline = time.monotonic() + 60
             while len(self.calls()) < moment and process.poll() is None:
@@ -244,6 +249,7 @@ class Survival(Irace):
             process.wait()
             kills += 1
         self.assertGreater(kills, 0)
+        limit.unlink()
         done = self.irace()
         self.assert_clean()
         self.assertEqual(self.digest(), self.digest("reference.db"))

@@ -29,6 +29,7 @@ PYTHON = python_with_zmq()
 
 
 @unittest.skipIf(PYTHON is None, "no python3 with zmq is here (python3-zmq)")
+@robots.by_the_clock
 class Driver(ProgramTest):
     def driven(self, way, key=()):
         node = way.node(self, 1, machine_file(self, FORWARD), "--flavour", "watermelon-argos3", "--logs", self.folder)

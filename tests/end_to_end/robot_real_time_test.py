@@ -122,6 +122,7 @@ class RealTime(ProgramTest):
         self.assertIsNone(world.process.poll())
 
 
+@robots.by_the_clock
 class OverZeroMq(RealTime):
     def test_a_sensor_that_is_silent_for_a_moment_holds_the_robot(self):
         self.sensor_is_silent_for_a_moment()
@@ -268,6 +269,7 @@ class OverZeroMq(RealTime):
 
 
 @unittest.skipIf(NO_ROS, NO_ROS or "")
+@robots.by_the_clock
 class OverRos(RealTime):
     def way(self):
         return Master(self, self.folder)
