@@ -56,6 +56,7 @@ class Processes : public ::testing::Test {
     campaign = std::make_unique<FlatCampaign>(tasks_of(evaluations));
     ServiceOptions options;
     options.coordinator.scenario = to_bytes({scenario});
+    options.coordinator.scheduler = scheduler;
     options.coordinator.scheduler.engine_version = kEngineVersion;
     options.coordinator.scheduler.self_test = self_test_digest();
     auto opened = Service::open(options, {{"d", &store, campaign.get()}});
@@ -93,6 +94,7 @@ class Processes : public ::testing::Test {
     return true;
   }
 
+  SchedulerOptions scheduler;
   MemoryStore store;
   std::unique_ptr<FlatCampaign> campaign;
   std::unique_ptr<Service> service;
@@ -110,7 +112,8 @@ TEST_F(Processes, EvaluateACampaign) {
   EXPECT_EQ(store.rows_of<EvaluationRow>().size(), 200U);
 }
 
-TEST_F(Processes, RequeueWithinTwoSecondsWhatAKilledWorkerHad) {
+TEST_F(Processes, RequeueWhatAKilledWorkerHadWithoutWaitingForItsSilence) {
+  scheduler.dead_after = scheduler.lease_floor = std::chrono::minutes(10);
   open(4, 800'000);
   std::jthread loop = run();
   {
@@ -118,9 +121,7 @@ TEST_F(Processes, RequeueWithinTwoSecondsWhatAKilledWorkerHad) {
     ASSERT_TRUE(started);
     ASSERT_TRUE(eventually([&] { return leased.load() > 0; }));
     kill(started->pids().at(0), SIGKILL);
-    const auto killed = std::chrono::steady_clock::now();
     ASSERT_TRUE(eventually([&] { return requeued.load() > 0; }));
-    EXPECT_LT(std::chrono::steady_clock::now() - killed, std::chrono::seconds(2));
     // Another one is started in its place.
     ASSERT_TRUE(eventually([&] {
       started->tend(SystemClock().now());
