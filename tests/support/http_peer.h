@@ -6,6 +6,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 #include <array>
+#include <cerrno>
 #include <string>
 #include <utility>
 
@@ -37,10 +38,12 @@ class HttpPeer {
   std::string hear() {
     std::string heard;
     std::array<char, 65536> bytes{};
-    ssize_t got = 0;
-    while ((got = ::recv(socket_, bytes.data(), bytes.size(), 0)) > 0)
+    while (true) {
+      const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), 0);
+      if (got < 0 && errno == EINTR) continue;  // this process was stopped, and goes on
+      if (got <= 0) return heard;
       heard.append(bytes.data(), static_cast<std::size_t>(got));
-    return heard;
+    }
   }
 
  private:

@@ -106,6 +106,7 @@ constexpr milliseconds kBeginning{200};
 TEST_F(Programs, AreEndedWhenTheirTimeIsOver) {
   ProcessCall call = hostile({"--print", "1", "--hang", ""});
   call.limit = kBeginning;
+  call.term_grace = seconds(20);
   const ProcessEnd end = run(call);
   EXPECT_EQ(end.why, ProcessEnd::Why::Limit);
   EXPECT_EQ(end.signal, SIGTERM);
