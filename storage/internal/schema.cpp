@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 #include <array>
+#include <chrono>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,6 +35,23 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
   connection.execute(fmt::format("PRAGMA user_version = {}", version));
 }
 
+constexpr std::chrono::milliseconds kPatience{5000};
+
+/// SQLite does not wait for this one, since it reads before it writes: another connection may have
+/// the right to write for a moment, as each client has that takes away the journal of a coordinator
+/// that died while it made the store.
+void use_write_ahead_log(sqlite::Connection& connection) {
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  while (true) {
+    try {
+      return connection.execute("PRAGMA journal_mode = WAL");
+    } catch (const sqlite::SqliteError& error) {
+      if (error.primary_code() != SQLITE_BUSY || std::chrono::steady_clock::now() > until) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+}
+
 }  // namespace
 
 std::span<const Migration> migrations() {
@@ -53,17 +72,18 @@ std::span<const Migration> migrations() {
 }
 
 void configure_writer(sqlite::Connection& connection) {
-  sqlite3_busy_timeout(connection.handle(), 5000);
+  sqlite3_busy_timeout(connection.handle(), static_cast<int>(kPatience.count()));
   // 1000 pages of 8 KiB: the log is folded into the store every 8 MB, so that a small disk does for
   // a campaign. It grows further only while a reader holds on to what it sees.
   connection.execute(
-      "PRAGMA page_size = 8192; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
+      "PRAGMA page_size = 8192; PRAGMA synchronous = FULL;"
       "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA wal_autocheckpoint = 1000;"
       "PRAGMA journal_size_limit = 16777216; PRAGMA cache_size = -65536");
+  use_write_ahead_log(connection);
 }
 
 void configure_reader(sqlite::Connection& connection) {
-  sqlite3_busy_timeout(connection.handle(), 5000);
+  sqlite3_busy_timeout(connection.handle(), static_cast<int>(kPatience.count()));
   connection.execute(
       "PRAGMA query_only = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536");
 }

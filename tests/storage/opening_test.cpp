@@ -147,6 +147,18 @@ TEST_F(OpeningTest, WaitsForAWriterThatIsSoonDone) {
   EXPECT_TRUE(second.has_value());
 }
 
+TEST_F(OpeningTest, WaitsForAnOrdinaryClientOfAStoreThatIsStillEmpty) {
+  sqlite::Connection client(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  // As every client does that takes away the journal of a coordinator that died at the beginning.
+  client.execute("BEGIN IMMEDIATE");
+  const std::jthread brief([&client] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    client.execute("COMMIT");
+  });
+  const auto store = Store::open(path, campaign.campaign, campaign.designs);
+  EXPECT_TRUE(store.has_value()) << to_string(store.error());
+}
+
 /// A child that does `work`, then writes a byte and waits to be killed.
 pid_t child_that_waits(const std::function<void()>& work) {
   int ends[2];
