@@ -53,6 +53,7 @@ class Faults(ProgramTest):
 
 
 @unittest.skipIf(NO_ROS, NO_ROS or "")
+@robots.by_the_clock
 class OverRos(Faults):
     def setUp(self):
         super().setUp()

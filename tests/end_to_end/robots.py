@@ -17,7 +17,7 @@ from programs import BIN, PATIENCE
 
 ROBOT = str(BIN / "swarmsmith-robot")
 DEADLINE_S = 60 * PATIENCE
-#: With a control cycle of 0.1 s, sensors are silent for less than the 0.3 s that a robot waits.
+#: A stand-still that a robot does not notice: sensors come every 0.1 s, and may be silent for 0.3 s.
 SHORT_S = 0.15
 
 

@@ -6,6 +6,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 #include <array>
+#include <cerrno>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -50,9 +52,12 @@ class RawPeer {
     constexpr std::size_t kGreeting = 64;
     std::string heard;
     std::array<char, 256> bytes{};
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (heard.size() < kGreeting + 2 ||
            heard.size() < kGreeting + 2 + static_cast<unsigned char>(heard[kGreeting + 1])) {
       const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), 0);
+      const bool may_come = got < 0 && (errno == EAGAIN || errno == EINTR);
+      if (may_come && std::chrono::steady_clock::now() < until) continue;
       if (got <= 0) return;
       heard.append(bytes.data(), static_cast<std::size_t>(got));
     }
