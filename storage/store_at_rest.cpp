@@ -12,6 +12,7 @@
 #include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
+#include "storage/whole.h"
 
 namespace swarmsmith {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "cli/commands/commands.h"
 #include "storage/store.h"
+#include "storage/whole.h"
 
 int main(int argc, char** argv) {
   using namespace swarmsmith::cli;

@@ -4,6 +4,7 @@
 
 #include "cli/completion/offer_stored.h"
 #include "storage/store.h"
+#include "storage/whole.h"
 #include "tracking/app/commands.h"
 
 int main(int argc, char** argv) {
