@@ -165,8 +165,13 @@ Svg with_heading(const Drawn& machine, const FigureOptions& options) {
 
 Expected<StoredController> controller_of(const MachineRecord& candidate) {
   const std::string id = to_string(candidate.candidate);
-  if (!architecture_of_text(candidate.machine))
-    return bad_input(id + " is a configuration of a program, not a machine");
+  // A program's parameters may have the switches of machines.
+  const bool is_machine = architecture_of_text(candidate.machine).has_value();
+  if (!is_machine || (candidate.flavour.empty() && !candidate.store_lacks_flavours)) {
+    return bad_input(id +
+                     " is a configuration of a program, not a machine: the method's candidates are "
+                     "the parameters of its file");
+  }
   if (candidate.flavour.empty()) {
     return bad_input(
         "the store has an older version without the flavour of its machines; `swarmsmith backup "

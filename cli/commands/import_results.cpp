@@ -10,9 +10,12 @@
 #include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/irace_converter.h"
+#include "console/terminal.h"
+#include "coordinator/results/imported_world.h"
 #include "coordinator/results/irace_log_rows.h"
 #include "coordinator/results/machine_import.h"
 #include "coordinator/results/score_import.h"
+#include "sim/control/controller.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith::cli {
@@ -114,6 +117,12 @@ std::string campaign_name(const ImportArguments& arguments) {
 ExitCode import_machines_into(const ImportArguments& arguments,
                               OrErrors<std::vector<MachineText>> machines, Output& output) {
   if (!machines) return fail_all(output, machines.error());
+  for (const MachineText& machine : *machines) {
+    const auto remark = remark_about(machine.text);
+    if (!remark) continue;
+    print_note(output, machine.place + ": " + *remark);
+    break;
+  }
   const auto named = flavour_of(*machines, arguments.flavour);
   if (!named) return fail(output, ExitCode::Usage, named.error());
   const auto flavour = find_flavour(*named);
@@ -122,7 +131,7 @@ ExitCode import_machines_into(const ImportArguments& arguments,
                 Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
   }
   const auto missions = read_mission_words(arguments.missions);
-  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions) return fail_all(output, missions.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Make);
   if (!target) return fail(output, ExitCode::Store, target.error());
   auto addition =
@@ -147,7 +156,7 @@ ExitCode import_log_into(const ImportArguments& arguments,
     known.flavour = **flavour;
   }
   const auto missions = read_mission_words(arguments.missions);
-  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions) return fail_all(output, missions.error());
   if (!missions->of_all.empty()) known.mission = missions->of_all;
   if (!arguments.method.empty()) known.method = arguments.method;
   const auto log = read_irace_log(texts);
@@ -157,13 +166,16 @@ ExitCode import_log_into(const ImportArguments& arguments,
   known.designs = target->designs;
   auto addition = irace_log_addition(*log, known);
   if (!addition) return fail_all(output, addition.error());
+  if (const MissionEntry* described = missions->of_file(known.mission)) {
+    addition->campaign->file = imported_text({.missions = {*described}, .profile = {}});
+  }
   return add_campaign(arguments, std::move(*target), std::move(*addition), "irace log", output);
 }
 
 ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& table,
                             Output& output) {
   const auto missions = read_mission_words(arguments.missions);
-  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions) return fail_all(output, missions.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Refuse);
   if (!target) return fail(output, ExitCode::Store, target.error());
   auto ledger = ScoreLedger::read(*target->reader);

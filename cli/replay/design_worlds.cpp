@@ -8,6 +8,7 @@
 #include "base/text/csv.h"
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
+#include "coordinator/results/imported_world.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -51,11 +52,12 @@ Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
   auto designs = known_designs(store);
   if (!designs) return Unexpected(designs.error());
   worlds.designs_ = std::move(*designs);
-  const auto files = select(store, "SELECT id, file, deciding FROM campaign ORDER BY id");
+  const auto files = select(store, "SELECT id, file, deciding, state FROM campaign ORDER BY id");
   if (!files) return Unexpected(files.error());
   for (const auto& cells : files->cells)
-    worlds.files_.emplace(std::stoll(cells[0].text),
-                          File{cells[1].text, engine_version_in(cells[2].text)});
+    worlds.files_.emplace(
+        std::stoll(cells[0].text),
+        File{cells[1].text, engine_version_in(cells[2].text), cells[3].text == "imported"});
   worlds.seed_ = static_cast<std::uint64_t>(store.campaign().seed);
   return worlds;
 }
@@ -65,7 +67,7 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   if (known == designs_.end()) return std::optional<DesignWorld>();
   DesignWorld world{.design = *known};
   const auto file = files_.find(known->campaign);
-  if (file != files_.end() && !file->second.text.empty()) {
+  if (file != files_.end() && !file->second.text.empty() && !file->second.is_imported) {
     world.engine_version = file->second.engine_version;
     const auto campaign = parse_campaign(file->second.text, "the store's campaign file");
     if (!campaign) return Unexpected(campaign.error().front());
@@ -74,7 +76,15 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   }
   world.flavour = known->flavour;
   world.has_parameters = known->flavour.empty();
-  if (!world.has_parameters) world.mission = built_in(known->mission);
+  if (world.has_parameters) return world;
+  world.mission = built_in(known->mission);
+  if (file == files_.end()) return world;
+  auto imported = read_imported_world(file->second.text);
+  if (!imported) return Unexpected(imported.error());
+  for (MissionEntry& entry : imported->missions) {
+    if (entry.mission.name == known->mission) world.mission = CampaignMission{std::move(entry), {}};
+  }
+  world.profile = std::move(imported->profile);
   return world;
 }
 

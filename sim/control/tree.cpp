@@ -1,8 +1,11 @@
 #include "sim/control/tree.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/assert.h"
@@ -18,6 +21,7 @@ constexpr int kSelector = 0;
 constexpr int kSequenceWithMemory = 3;
 constexpr int kAction = 5;
 constexpr int kCondition = 6;
+constexpr int kOldSequenceWithMemory = 0;  ///< as a root of the older form
 
 /// Takes a field that can have one value alone in Maple's trees.
 std::optional<Error> need_value(Block& block, std::string_view stem, int value,
@@ -30,31 +34,36 @@ std::optional<Error> need_value(Block& block, std::string_view stem, int value,
                                     ", " + meaning + ": only Maple's trees can be read");
 }
 
-/// The fields of subtree `index`, sorted into its own and those of its two children.
+/// The fields of a subtree, sorted into its own and those of its children.
 struct SubtreeBlocks {
   Block own;
-  Block condition;
-  Block action;
+  std::vector<Block> children;
 };
 
-Expected<SubtreeBlocks> blocks_of(int index, std::span<const Field> fields, const Token& end) {
-  const std::string name = std::to_string(index);
-  SubtreeBlocks blocks{Block(name, end), Block(name + "0", end), Block(name + "1", end)};
+Expected<SubtreeBlocks> blocks_of(const std::string& name, std::span<const Field> fields,
+                                  const Token& end, int children, const std::string& between) {
+  SubtreeBlocks blocks{Block(name, end), {}};
+  for (int i = 0; i < children; ++i)
+    blocks.children.emplace_back(name + between + std::to_string(i), end);
   for (const Field& field : fields) {
-    if (field.transition > 1) {
-      return Unexpected(
-          error_at(field.name, quoted(field.name.text) + ": a subtree has the children 0 and 1"));
+    if (field.transition >= children) {
+      const std::string last = std::to_string(children - 1);
+      return Unexpected(error_at(
+          field.name,
+          quoted(field.name.text) + (between.empty() ? ": the subtree has the children 0 to " + last
+                                                     : " is of a condition beyond those that " +
+                                                           quoted("--nc" + name) + " announces")));
     }
-    Block& block = field.transition < 0    ? blocks.own
-                   : field.transition == 0 ? blocks.condition
-                                           : blocks.action;
+    Block& block = field.transition < 0
+                       ? blocks.own
+                       : blocks.children[static_cast<std::size_t>(field.transition)];
     if (auto error = block.add(field)) return Unexpected(*error);
   }
   return blocks;
 }
 
+/// The condition that `--c` names.
 Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
-  if (auto error = need_value(block, "n", kCondition, "a condition")) return Unexpected(*error);
   const Expected<Field> selector = block.need("c");
   if (!selector) return Unexpected(selector.error());
   const auto spec = read_module(*selector, flavour.conditions, flavour);
@@ -65,33 +74,106 @@ Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
   return make_condition((*spec)->module, *values);
 }
 
-Expected<Behaviour> read_action(Block& block, const Flavour& flavour) {
-  if (auto error = need_value(block, "n", kAction, "an action")) return Unexpected(*error);
+/// The action that `--a` names; `last` takes what stands behind its parameters.
+template <class Last>
+Expected<Behaviour> read_action(Block& block, const Flavour& flavour, const Last& last) {
   const Expected<Field> selector = block.need("a");
   if (!selector) return Unexpected(selector.error());
   const auto spec = read_module(*selector, flavour.behaviours, flavour);
   if (!spec) return Unexpected(spec.error());
   const auto values = read_parameters(**spec, block, flavour);
   if (!values) return Unexpected(values.error());
-  if (auto error = need_value(block, "p", 0, "an action that never reports success"))
-    return Unexpected(*error);
+  if (std::optional<Error> error = last()) return Unexpected(std::move(*error));
   if (auto error = block.check_empty(id_of((*spec)->module))) return Unexpected(*error);
   return make_behaviour((*spec)->module, *values);
 }
 
+/// `conditions` are at least one.
+Subtree subtree_of(std::vector<Condition> conditions, Behaviour action) {
+  Subtree subtree{.condition = conditions.front(), .action = std::move(action)};
+  subtree.more.assign(conditions.begin() + 1, conditions.end());
+  return subtree;
+}
+
+/// The value of a field from `low` to `high`, which stays in its place.
+Expected<int> count_in(std::span<const Field> fields, const std::string& name, int low, int high,
+                       const Token& end) {
+  const auto found =
+      std::ranges::find_if(fields, [&](const Field& field) { return field.name.text == name; });
+  if (found == fields.end())
+    return Unexpected(error_at(end, "expected " + quoted(name) + " before this place"));
+  return integer_of(*found, low, high);
+}
+
 Expected<Subtree> read_subtree(int index, std::span<const Field> fields, const Token& end,
                                const Flavour& flavour) {
-  auto blocks = blocks_of(index, fields, end);
+  const std::string name = std::to_string(index);
+  const auto children = count_in(fields, "--nchild" + name, 2, kMaxConditions + 1, end);
+  if (!children) return Unexpected(children.error());
+  auto blocks = blocks_of(name, fields, end, *children, "");
   if (!blocks) return Unexpected(blocks.error());
   if (auto error = need_value(blocks->own, "n", kSelector, "a selector")) return Unexpected(*error);
-  if (auto error = need_value(blocks->own, "nchild", 2, "a condition and an action"))
-    return Unexpected(*error);
+  (void)blocks->own.take("nchild");
   if (auto error = blocks->own.check_empty("a selector")) return Unexpected(*error);
-  const auto condition = read_condition(blocks->condition, flavour);
-  if (!condition) return Unexpected(condition.error());
-  const auto action = read_action(blocks->action, flavour);
+  Block action_block = std::move(blocks->children.back());
+  blocks->children.pop_back();
+  std::vector<Condition> conditions;
+  for (Block& block : blocks->children) {
+    if (auto error = need_value(block, "n", kCondition, "a condition")) return Unexpected(*error);
+    const auto condition = read_condition(block, flavour);
+    if (!condition) return Unexpected(condition.error());
+    conditions.push_back(*condition);
+  }
+  if (auto error = need_value(action_block, "n", kAction, "an action")) return Unexpected(*error);
+  auto action = read_action(action_block, flavour, [&] {
+    return need_value(action_block, "p", 0, "an action that never reports success");
+  });
   if (!action) return Unexpected(action.error());
-  return Subtree{*condition, *action};
+  return subtree_of(std::move(conditions), std::move(*action));
+}
+
+/// In the form of 2018: `--nc0` conditions `--c0x0`, `--c0x1`, ..., then the action `--a0`.
+Expected<Subtree> read_old_subtree(int index, std::span<const Field> fields, const Token& end,
+                                   const Flavour& flavour) {
+  const std::string name = std::to_string(index);
+  const auto count = count_in(fields, "--nc" + name, 1, kMaxConditions, end);
+  if (!count) return Unexpected(count.error());
+  auto blocks = blocks_of(name, fields, end, *count, "x");
+  if (!blocks) return Unexpected(blocks.error());
+  if (auto error = need_value(blocks->own, "n", kSelector, "a selector")) return Unexpected(*error);
+  (void)blocks->own.take("nc");
+  std::vector<Condition> conditions;
+  for (Block& block : blocks->children) {
+    const auto condition = read_condition(block, flavour);
+    if (!condition) return Unexpected(condition.error());
+    conditions.push_back(*condition);
+  }
+  auto action = read_action(blocks->own, flavour, [] { return std::optional<Error>(); });
+  if (!action) return Unexpected(action.error());
+  return subtree_of(std::move(conditions), std::move(*action));
+}
+
+/// What the two forms differ in, besides their subtrees.
+struct Form {
+  std::string_view root;
+  int root_kind;
+  std::string_view count;
+  Between between;
+  Expected<Subtree> (*subtree)(int, std::span<const Field>, const Token&, const Flavour&);
+};
+
+constexpr Form kNewForm = {"--nroot", kSequenceWithMemory, "--nchildroot", Between::Nothing,
+                           read_subtree};
+constexpr Form kOldForm = {"--rootnode", kOldSequenceWithMemory, "--nchildsroot", Between::Cross,
+                           read_old_subtree};
+
+/// Whether the condition, or one of the further ones, holds in this cycle.
+bool ends(const Subtree& subtree, Senses& senses, const Flavour& flavour, Rng& rng) {
+  const auto holds = [&](const Condition& condition) {
+    const double probability = enabling_probability(condition, senses, flavour);
+    return probability > 0 && rng.bernoulli(probability);
+  };
+  return holds(subtree.condition) || std::ranges::any_of(subtree.more, holds);
 }
 
 }  // namespace
@@ -101,11 +183,17 @@ std::optional<Error> check(const Tree& tree, const Flavour& flavour) {
     return Error{ErrorKind::BadInput, "a tree has 1 to 4 subtrees", ""};
   }
   for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
-    const auto& [condition, action] = tree.subtrees[i];
+    const auto& [condition, action, more] = tree.subtrees[i];
     auto complaint =
         complaint_about_module(module_of(condition), parameters_of(condition), flavour);
+    for (const Condition& other : more) {
+      if (!complaint)
+        complaint = complaint_about_module(module_of(other), parameters_of(other), flavour);
+    }
     if (!complaint)
       complaint = complaint_about_module(module_of(action), parameters_of(action), flavour);
+    if (!complaint && more.size() >= kMaxConditions)
+      complaint = "a subtree has 1 to " + std::to_string(kMaxConditions) + " conditions";
     if (complaint) return Error{ErrorKind::BadInput, *complaint, "subtree " + std::to_string(i)};
   }
   return std::nullopt;
@@ -115,21 +203,21 @@ Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour) {
   const std::vector<Token> tokens = tokens_of(text);
   std::span<const Token> rest = tokens;
   if (rest[0].text == "--bt-config") rest = rest.subspan(1);
-  const auto all = fields_of(rest, Between::Nothing);
+  const Form& form = rest[0].text == kOldForm.root ? kOldForm : kNewForm;
+  const auto all = fields_of(rest, form.between);
   if (!all) return Unexpected(all.error());
   std::span<const Field> fields = *all;
   const Token& end = tokens.back();
   const auto first = [&]() -> const Token& { return fields.empty() ? end : fields[0].name; };
-  if (first().text != "--nroot")
-    return Unexpected(error_at(first(), "a tree begins with `--nroot`"));
-  if (const auto kind = integer_of(fields[0]); !kind || *kind != kSequenceWithMemory) {
-    return Unexpected(error_at(fields[0].value,
-                               "`--nroot` must be 3, a sequence with memory: only Maple's trees "
-                               "can be read"));
+  if (first().text != form.root)
+    return Unexpected(error_at(first(), "a tree begins with `--nroot` or `--rootnode`"));
+  if (const auto kind = integer_of(fields[0]); !kind || *kind != form.root_kind) {
+    return Unexpected(
+        error_at(fields[0].value, quoted(form.root) + " must be " + std::to_string(form.root_kind) +
+                                      ", a sequence with memory: only Maple's trees can be read"));
   }
   fields = fields.subspan(1);
-  if (first().text != "--nchildroot")
-    return Unexpected(error_at(first(), "expected `--nchildroot`"));
+  if (first().text != form.count) return Unexpected(expected_error(form.count, first()));
   const auto count = integer_of(fields[0], 1, kMaxSubtrees);
   if (!count) return Unexpected(count.error());
   fields = fields.subspan(1);
@@ -138,17 +226,17 @@ Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour) {
     std::size_t size = 0;
     while (size < fields.size() && fields[size].state == i)
       ++size;
-    if (size == 0)
-      return Unexpected(error_at(first(), "expected " + quoted("--n" + std::to_string(i))));
+    if (size == 0) return Unexpected(expected_error("--n" + std::to_string(i), first()));
     const Token& block_end = size == fields.size() ? end : fields[size].name;
-    auto subtree = read_subtree(i, fields.first(size), block_end, flavour);
+    auto subtree = form.subtree(i, fields.first(size), block_end, flavour);
     if (!subtree) return Unexpected(subtree.error());
-    tree.subtrees.push_back(*subtree);
+    tree.subtrees.push_back(std::move(*subtree));
     fields = fields.subspan(size);
   }
   if (fields.empty()) return tree;
-  return Unexpected(
-      error_at(first(), "expected the end, since `--nchildroot` is " + std::to_string(*count)));
+  return Unexpected(error_at(first(), "expected the end, since " + quoted(form.count) + " is " +
+                                          std::to_string(*count) + ", found " +
+                                          quoted(first().text)));
 }
 
 std::string print_tree(const Tree& tree, const Flavour& flavour) {
@@ -157,19 +245,24 @@ std::string print_tree(const Tree& tree, const Flavour& flavour) {
   append_switch(text, "nroot", "", std::to_string(kSequenceWithMemory));
   append_switch(text, "nchildroot", "", std::to_string(tree.subtrees.size()));
   for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
-    const auto& [condition, action] = tree.subtrees[i];
+    const Subtree& subtree = tree.subtrees[i];
     const std::string own = std::to_string(i);
     append_switch(text, "n", own, std::to_string(kSelector));
-    append_switch(text, "nchild", own, "2");
-    const ModuleSpec& waits = *flavour.find(module_of(condition));
-    append_switch(text, "n", own + "0", std::to_string(kCondition));
-    append_switch(text, "c", own + "0", std::to_string(waits.number));
-    append_parameters(text, waits, parameters_of(condition), own + "0", flavour);
-    const ModuleSpec& acts = *flavour.find(module_of(action));
-    append_switch(text, "n", own + "1", std::to_string(kAction));
-    append_switch(text, "a", own + "1", std::to_string(acts.number));
-    append_parameters(text, acts, parameters_of(action), own + "1", flavour);
-    append_switch(text, "p", own + "1", "0");
+    append_switch(text, "nchild", own, std::to_string(subtree.more.size() + 2));
+    for (std::size_t j = 0; j <= subtree.more.size(); ++j) {
+      const Condition& condition = j == 0 ? subtree.condition : subtree.more[j - 1];
+      const std::string child = own + std::to_string(j);
+      const ModuleSpec& waits = *flavour.find(module_of(condition));
+      append_switch(text, "n", child, std::to_string(kCondition));
+      append_switch(text, "c", child, std::to_string(waits.number));
+      append_parameters(text, waits, parameters_of(condition), child, flavour);
+    }
+    const std::string child = own + std::to_string(subtree.more.size() + 1);
+    const ModuleSpec& acts = *flavour.find(module_of(subtree.action));
+    append_switch(text, "n", child, std::to_string(kAction));
+    append_switch(text, "a", child, std::to_string(acts.number));
+    append_parameters(text, acts, parameters_of(subtree.action), child, flavour);
+    append_switch(text, "p", child, "0");
   }
   return text;
 }
@@ -184,8 +277,7 @@ Command TreeControl::step(Senses& senses) {
   while (true) {
     const auto at = static_cast<std::size_t>(subtree_);
     const Subtree& subtree = tree_->subtrees[at];
-    const double probability = enabling_probability(subtree.condition, senses, *flavour_);
-    if (!(probability > 0 && rng_.bernoulli(probability)))
+    if (!ends(subtree, senses, *flavour_, rng_))
       return act(subtree.action, senses, *flavour_, memories_[at], rng_);
     if (at + 1 == tree_->subtrees.size()) {
       subtree_ = 0;

@@ -59,6 +59,8 @@ UsedSenses senses_used_by(const Controller& controller, const Flavour& flavour) 
                         [&](const Tree& tree) {
                           for (const Subtree& subtree : tree.subtrees) {
                             add(subtree.condition, used);
+                            for (const Condition& condition : subtree.more)
+                              add(condition, used);
                             add(subtree.action, flavour, used);
                           }
                         },

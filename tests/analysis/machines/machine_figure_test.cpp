@@ -129,6 +129,10 @@ TEST_F(ControllerFigureTest, OfAllKindsIsASheetWithTheColumnsOfAll) {
 
 TEST(ControllerOf, NeedsTheFlavour) {
   MachineRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
+  // A program may have the switches of machines.
+  EXPECT_THAT(controller_of(record).error().message,
+              HasSubstr("c7 is a configuration of a program, not a machine"));
+  record.store_lacks_flavours = true;
   EXPECT_THAT(controller_of(record).error().message, HasSubstr("`swarmsmith backup"));
   record.flavour = "melon";
   EXPECT_THAT(controller_of(record).error().message, HasSubstr("flavour melon"));
