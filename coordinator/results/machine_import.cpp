@@ -103,7 +103,7 @@ class Worlds {
                                  const MissionWords& words) {
     auto entry = entry_of(from, name, words);
     const auto [known, is_new] = missions_.try_emplace(name, std::move(entry));
-    if (!is_new && known->second != entry_of(from, name, words)) {
+    if (!is_new && known->second != entry) {
       return "a machine before it has another mission " + name +
              "; import a file for each, or rename with --mission OLD=NEW";
     }
