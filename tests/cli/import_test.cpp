@@ -82,6 +82,21 @@ TEST_F(Import, TakesAMissionFile) {
   EXPECT_THAT(missing.err, HasSubstr("none.toml"));
 }
 
+TEST_F(Import, SaysThatTheStoreHasAnotherMissionOfThisName) {
+  write_store(store_);  // of the built-in aggregation
+  const auto imported = [&](const std::string& robots) {
+    const std::string head =
+        "#: format = 1\n#: flavour = \"watermelon\"\n#: [[mission]]\n"
+        "#: name = \"aggregation\"\n#: preset = \"aggregation\"\n" +
+        robots;
+    return run({"import", file("m.fsm", head + kExploreText + "\n"), "--into", store_});
+  };
+  EXPECT_EQ(imported("").err, "");
+  const Ran other = imported("#: robots = 7\n");
+  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("d1 of the store has another mission aggregation"));
+}
+
 TEST_F(Import, RefusesMachinesBehindOptionsOfAnotherProgram) {
   const std::string machines =
       file("ho.txt", " --robots 22 --rabsi 2 --rabar 0.7 " + kStopText + "\n");
