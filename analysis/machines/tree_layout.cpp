@@ -27,26 +27,10 @@ struct Form {
   bool stepped = false;  ///< actions below their conditions
 };
 
-/// All conditions of the subtree, one below the other.
-LeafShape condition_shape(const Subtree& subtree, const Flavour& flavour, const Form& form) {
-  const double size = form.sizes.condition;
-  LeafShape shape;
-  const auto add = [&](const Condition& condition) {
-    const ModuleLabel label = label_of(condition, flavour);
-    for (LabelLine& line : lines_of(form.narrow ? narrowed(label) : label, size))
-      shape.lines.push_back(std::move(line));
-  };
-  add(subtree.condition);
-  for (const Condition& condition : subtree.more) {
-    shape.lines.push_back({.at = {}, .text = "or", .size = size});
-    add(condition);
-  }
-  if (!subtree.more.empty()) {
-    const double middle = static_cast<double>(shape.lines.size() - 1) / 2;
-    for (std::size_t i = 0; i < shape.lines.size(); ++i) {
-      shape.lines[i].at.y = (static_cast<double>(i) - middle) * kLinePitch * size + kMiddle * size;
-    }
-  }
+LeafShape condition_shape(const Condition& condition, const Flavour& flavour, const Form& form) {
+  const ModuleLabel label = label_of(condition, flavour);
+  LeafShape shape{.centre = {},
+                  .lines = lines_of(form.narrow ? narrowed(label) : label, form.sizes.condition)};
   shape.width = box_width(shape.lines);
   shape.height = box_height(shape.lines);
   return shape;
@@ -65,7 +49,7 @@ TreeLayout without_places(const Tree& tree, const Flavour& flavour, const Form& 
   double radius = 0;
   for (const Subtree& subtree : tree.subtrees) {
     layout.subtrees.push_back({.selector = {},
-                               .condition = condition_shape(subtree, flavour, form),
+                               .condition = condition_shape(subtree.condition, flavour, form),
                                .action = action_shape(subtree.action, flavour, form),
                                .to_selector = {},
                                .to_condition = {},

@@ -50,11 +50,9 @@ std::string where(const RecordFilter& filter, std::string_view table = "") {
   return terms.empty() ? "" : fmt::format(" WHERE {}", fmt::join(terms, " AND "));
 }
 
-constexpr const char* kNoFlavours = "''";
-
 /// What stands for the flavour of a design `d`: stores of a schema before 4 do not have it.
 Expected<std::string> flavour_column(StoreReader& store) {
-  std::string column = kNoFlavours;
+  std::string column = "''";
   const auto end = store.query(
       "SELECT * FROM v_designs LIMIT 0", kRecordLimits,
       [&](const std::vector<std::string>& names) {
@@ -84,14 +82,15 @@ Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, c
 
 Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
   return read<CampaignRecord>(
-      store, "SELECT campaign, name, seed, digest, file, state FROM v_campaigns ORDER BY campaign",
+      store,  // An imported one has no file that could be run.
+      "SELECT campaign, name, seed, digest, iif(state = 'imported', '', file) FROM v_campaigns "
+      "ORDER BY campaign",
       [](const Cells& row) {
         return CampaignRecord{.campaign = integer(row[0]),
                               .name = row[1].text,
                               .seed = integer(row[2]),
                               .digest = row[3].text,
-                              .file = row[4].text,
-                              .is_imported = row[5].text == "imported"};
+                              .file = row[4].text};
       });
 }
 
@@ -161,15 +160,14 @@ Expected<MachineRecord> candidate(StoreReader& store, CandidateId id) {
           " FROM v_candidates AS c JOIN v_designs AS d ON d.design = c.design"
           " WHERE c.candidate = {}",
           *flavour, id.value),
-      [&](const Cells& row) {
+      [](const Cells& row) {
         return MachineRecord{.candidate = {integer(row[0])},
                              .design = {integer(row[1])},
                              .mission = row[2].text,
                              .method = row[3].text,
                              .repetition = integer(row[4]),
                              .machine = row[5].text,
-                             .flavour = row[6].text,
-                             .store_lacks_flavours = *flavour == kNoFlavours};
+                             .flavour = row[6].text};
       });
   if (!found) return Unexpected(found.error());
   if (found->empty()) {

@@ -45,8 +45,7 @@ struct CampaignRecord {
   std::string name;
   std::int64_t seed = 0;
   std::string digest;  ///< of what decides its answer
-  std::string file;    ///< normalised; of an imported one what its designs are simulated in
-  bool is_imported = false;
+  std::string file;    ///< normalised
 };
 
 /// A design and its best machine, the winner when it is finished.
@@ -74,9 +73,8 @@ struct MachineRecord {
   std::string mission;
   std::string method;
   std::int64_t repetition = 0;
-  std::string machine;                ///< text of the grammar, or a program's configuration
-  std::string flavour;                ///< as in DesignRecord
-  bool store_lacks_flavours = false;  ///< its schema is one before 4
+  std::string machine;  ///< text of the grammar, or a program's configuration
+  std::string flavour;  ///< as in DesignRecord
 };
 
 /// An elite at the end of an iteration.

@@ -93,7 +93,7 @@ Expected<void> add_controllers(Files& files, StoreReader& store, const Supplemen
     if (!design.best) continue;
     const auto record = candidate(store, *design.best);
     if (!record) return Unexpected(record.error());
-    const auto stored = controller_of(*record);
+    const auto stored = controller_of(*record, store.schema());
     if (!stored) return Unexpected(stored.error());
     files.push_back(
         {path + ".dot",
@@ -211,9 +211,8 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
   if (!asked) return Unexpected(asked.error());
   for (const CampaignRecord& campaign : *asked) {
     const std::string number = asked->size() == 1 ? "" : fmt::format("-{}", campaign.campaign);
-    // Imported results have no file that could be run.
-    if (!campaign.is_imported && !campaign.file.empty())
-      files.push_back({"campaign" + number + ".toml", campaign.file});
+    // Imported results have no file.
+    if (!campaign.file.empty()) files.push_back({"campaign" + number + ".toml", campaign.file});
   }
   if (options.instance_tables) {
     auto tables = options.instance_tables();

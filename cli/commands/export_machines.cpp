@@ -53,7 +53,7 @@ Expected<std::string> picture_of(const MachineRecord& candidate, const StoredCon
 Expected<Mission> mission_of(StoreReader& store, DesignId design, const std::string& name) {
   const auto stored = store.campaign_of(design);
   if (!stored) return Unexpected(stored.error());
-  if (stored->state == "imported") {
+  if (stored->row.file.empty() || is_imported_text(stored->row.file)) {
     const auto world = read_imported_world(stored->row.file);
     if (!world) return Unexpected(world.error());
     for (const MissionEntry& entry : world->missions)
@@ -93,7 +93,7 @@ Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineEx
                              double width) {
   const auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  const auto stored = controller_of(*record);
+  const auto stored = controller_of(*record, store.schema());
   if (!stored) return Unexpected(stored.error());
   auto bytes = what.format == "argos" ? experiment_of(store, *record, *stored, what)
                                       : picture_of(*record, *stored, what, width);

@@ -17,7 +17,7 @@
 #include "coordinator/results/irace_log_rows.h"
 #include "coordinator/results/machine_import.h"
 #include "coordinator/results/score_import.h"
-#include "sim/control/controller.h"
+#include "sim/control/foreign_text.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith::cli {

@@ -52,12 +52,11 @@ Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
   auto designs = known_designs(store);
   if (!designs) return Unexpected(designs.error());
   worlds.designs_ = std::move(*designs);
-  const auto files = select(store, "SELECT id, file, deciding, state FROM campaign ORDER BY id");
+  const auto files = select(store, "SELECT id, file, deciding FROM campaign ORDER BY id");
   if (!files) return Unexpected(files.error());
   for (const auto& cells : files->cells)
-    worlds.files_.emplace(
-        std::stoll(cells[0].text),
-        File{cells[1].text, engine_version_in(cells[2].text), cells[3].text == "imported"});
+    worlds.files_.emplace(std::stoll(cells[0].text),
+                          File{cells[1].text, engine_version_in(cells[2].text)});
   worlds.seed_ = static_cast<std::uint64_t>(store.campaign().seed);
   return worlds;
 }
@@ -67,7 +66,7 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   if (known == designs_.end()) return std::optional<DesignWorld>();
   DesignWorld world{.design = *known};
   const auto file = files_.find(known->campaign);
-  if (file != files_.end() && !file->second.text.empty() && !file->second.is_imported) {
+  if (file != files_.end() && !file->second.text.empty() && !is_imported_text(file->second.text)) {
     world.engine_version = file->second.engine_version;
     const auto campaign = parse_campaign(file->second.text, "the store's campaign file");
     if (!campaign) return Unexpected(campaign.error().front());

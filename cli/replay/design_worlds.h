@@ -19,7 +19,7 @@ struct DesignWorld {
   std::optional<CampaignMission> mission;  ///< nothing: its programs', or of an unknown name
   std::string flavour;
   std::optional<TurnClock> turn_clock;
-  std::optional<Profile> profile;      ///< the campaign's; nothing when an import said none
+  std::optional<Profile> profile;      ///< the campaign's; nothing for imported machines
   std::vector<Profile> test_profiles;  ///< further ones of the campaign
   int engine_version = 0;              ///< that made its scores; 0 when the store does not say
   bool has_programs = false;           ///< programs evaluate
@@ -27,7 +27,7 @@ struct DesignWorld {
 };
 
 /// The worlds of all designs of a store: of a campaign's file, or, for imported machines, by their
-/// flavour, and what their files said of mission and profile, or the name of a built-in mission.
+/// flavour and the name of their mission, when that is built in.
 class DesignWorlds {
  public:
   static Expected<DesignWorlds> read(StoreReader& store);
@@ -43,9 +43,8 @@ class DesignWorlds {
  private:
   std::vector<KnownDesign> designs_;
   struct File {
-    std::string text;  ///< of an imported campaign as imported_world.h has it; may be empty
+    std::string text;  ///< empty for an imported campaign
     int engine_version = 0;
-    bool is_imported = false;
   };
   std::map<std::int64_t, File> files_;  ///< of the campaigns
   std::uint64_t seed_ = 0;

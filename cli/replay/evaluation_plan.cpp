@@ -13,6 +13,7 @@
 #include "cli/replay/design_worlds.h"
 #include "console/seeds.h"
 #include "sim/control/controller.h"
+#include "sim/control/foreign_text.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/instance_csv.h"
 

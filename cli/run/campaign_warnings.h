@@ -8,7 +8,7 @@
 namespace swarmsmith::cli {
 
 /// Warnings about campaigns that run but hardly as intended: modules that cannot work with this
-/// mission and profile, robots of which the shape alone is their own.
+/// mission and profile.
 std::vector<std::string> warnings_about(const Campaign& campaign);
 
 }  // namespace swarmsmith::cli

@@ -183,8 +183,6 @@ std::vector<std::pair<std::string, int>> module_counts(const Controller& control
     for (const Subtree& subtree : tree->subtrees) {
       ++counts[module_of(subtree.action)];
       ++counts[module_of(subtree.condition)];
-      for (const Condition& condition : subtree.more)
-        ++counts[module_of(condition)];
     }
   }
   std::vector<std::pair<std::string, int>> named;

@@ -72,9 +72,7 @@ Configuration TreeSpace::from_tree(const Tree& tree) const {
     configuration.set(slot_.count, static_cast<double>(tree.subtrees.size()));
   for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
     const SubtreeSlot& slot = slot_.subtrees.at(i);
-    // The space has one condition a subtree.
-    const Condition& condition = tree.subtrees[i].condition;
-    const Behaviour& action = tree.subtrees[i].action;
+    const auto& [condition, action] = tree.subtrees[i];
     configuration.set(slot.condition,
                       static_cast<double>(put_module(module_of(condition), parameters_of(condition),
                                                      slot.conditions, *flavour_, configuration)));

@@ -10,6 +10,8 @@ namespace swarmsmith {
 namespace {
 
 constexpr const char* kPlace = "the store's imported world";
+constexpr std::string_view kFirstLine =
+    "# What imported machines are simulated in; this is no campaign file.\n";
 
 }  // namespace
 
@@ -29,7 +31,11 @@ std::string imported_text(const ImportedWorld& world) {
   std::vector<Section> sections = imported_sections(world);
   if (sections.empty()) return "";
   sections.insert(sections.begin(), Section{"", "", {{"format", "1"}}});
-  return text_of(sections);
+  return std::string(kFirstLine) + text_of(sections);
+}
+
+bool is_imported_text(std::string_view text) {
+  return text.starts_with(kFirstLine);
 }
 
 Expected<ImportedWorld> read_imported_world(std::string_view text) {

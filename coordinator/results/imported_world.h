@@ -24,6 +24,9 @@ struct ImportedWorld {
 
 std::vector<Section> imported_sections(const ImportedWorld& world);
 
+/// Whether a campaign's `file` is such a text.
+bool is_imported_text(std::string_view text);
+
 /// Empty for a world of which nothing is said; else read_imported_world gives the same bits.
 std::string imported_text(const ImportedWorld& world);
 

@@ -24,20 +24,15 @@ enum class Architecture { Machine, Tree, Network };
 std::string_view name_of(Architecture architecture);
 Architecture architecture_of(const Controller& controller);
 
-/// Reads a text of any architecture; its first word says which: `--nstates` or `--fsm-config`,
-/// `--nroot`, `--rootnode` or `--bt-config`, `--network` or `genomestart`.
+/// Reads a text of any architecture; its first switch says which: `--nstates` or `--fsm-config`,
+/// `--nroot` or `--bt-config`, `--network`.
 Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour);
 /// Whether the text begins as one of a controller; nothing of the rest is looked at.
 std::optional<Architecture> architecture_of_text(std::string_view text);
-/// The words that texts begin with, for sentences: "--nstates, --fsm-config, ...".
+/// The switches that texts begin with, for sentences: "--nstates, --fsm-config, ...".
 std::string first_switches();
 /// Where a controller's text begins in a line, behind a name or nothing; npos without any.
 std::size_t find_controller(std::string_view line);
-/// What is wrong with what stands before a controller's text: options, which would change what the
-/// text means to the program that it was made for.
-std::optional<std::string> complaint_about_name(std::string_view before);
-/// What holds of all texts of this kind and cannot be checked; nothing of most.
-std::optional<std::string> remark_about(std::string_view text);
 
 /// The canonical text. Throws std::invalid_argument when the controller does not fit the flavour.
 std::string print_controller(const Controller& controller, const Flavour& flavour);

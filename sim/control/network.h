@@ -50,8 +50,7 @@ struct Network {
 /// that is no finite number, inputs of sensors that the flavour lacks.
 std::optional<Error> check(const Network& network, const Flavour& flavour);
 
-/// Reads `--network rvr --weights -1.25,0.5,...`, or a genome (internal/genome.h). `where` of
-/// errors is as of parse_machine.
+/// Reads `--network rvr --weights -1.25,0.5,...`. `where` of errors is as of parse_machine.
 Expected<Network> parse_network(std::string_view text, const Flavour& flavour);
 /// The canonical text: each weight in its shortest form that reads back to the same value. Throws
 /// std::invalid_argument when the network does not fit the flavour.

@@ -51,7 +51,7 @@ Expected<SubtreeBlocks> blocks_of(const std::string& name, std::span<const Field
       return Unexpected(error_at(
           field.name,
           quoted(field.name.text) + (between.empty() ? ": the subtree has the children 0 to " + last
-                                                     : " is of a condition beyond those that " +
+                                                     : " is of a condition beyond the one that " +
                                                            quoted("--nc" + name) + " announces")));
     }
     Block& block = field.transition < 0
@@ -88,69 +88,47 @@ Expected<Behaviour> read_action(Block& block, const Flavour& flavour, const Last
   return make_behaviour((*spec)->module, *values);
 }
 
-/// `conditions` are at least one.
-Subtree subtree_of(std::vector<Condition> conditions, Behaviour action) {
-  Subtree subtree{.condition = conditions.front(), .action = std::move(action)};
-  subtree.more.assign(conditions.begin() + 1, conditions.end());
-  return subtree;
-}
-
-/// The value of a field from `low` to `high`, which stays in its place.
-Expected<int> count_in(std::span<const Field> fields, const std::string& name, int low, int high,
-                       const Token& end) {
-  const auto found =
-      std::ranges::find_if(fields, [&](const Field& field) { return field.name.text == name; });
-  if (found == fields.end())
-    return Unexpected(error_at(end, "expected " + quoted(name) + " before this place"));
-  return integer_of(*found, low, high);
-}
-
 Expected<Subtree> read_subtree(int index, std::span<const Field> fields, const Token& end,
                                const Flavour& flavour) {
-  const std::string name = std::to_string(index);
-  const auto children = count_in(fields, "--nchild" + name, 2, kMaxConditions + 1, end);
-  if (!children) return Unexpected(children.error());
-  auto blocks = blocks_of(name, fields, end, *children, "");
+  auto blocks = blocks_of(std::to_string(index), fields, end, 2, "");
   if (!blocks) return Unexpected(blocks.error());
   if (auto error = need_value(blocks->own, "n", kSelector, "a selector")) return Unexpected(*error);
-  (void)blocks->own.take("nchild");
+  if (auto error = need_value(blocks->own, "nchild", 2, "a condition and an action"))
+    return Unexpected(*error);
   if (auto error = blocks->own.check_empty("a selector")) return Unexpected(*error);
-  Block action_block = std::move(blocks->children.back());
-  blocks->children.pop_back();
-  std::vector<Condition> conditions;
-  for (Block& block : blocks->children) {
-    if (auto error = need_value(block, "n", kCondition, "a condition")) return Unexpected(*error);
-    const auto condition = read_condition(block, flavour);
-    if (!condition) return Unexpected(condition.error());
-    conditions.push_back(*condition);
-  }
-  if (auto error = need_value(action_block, "n", kAction, "an action")) return Unexpected(*error);
-  auto action = read_action(action_block, flavour, [&] {
-    return need_value(action_block, "p", 0, "an action that never reports success");
+  Block& waits = blocks->children[0];
+  if (auto error = need_value(waits, "n", kCondition, "a condition")) return Unexpected(*error);
+  const auto condition = read_condition(waits, flavour);
+  if (!condition) return Unexpected(condition.error());
+  Block& acts = blocks->children[1];
+  if (auto error = need_value(acts, "n", kAction, "an action")) return Unexpected(*error);
+  const auto action = read_action(acts, flavour, [&] {
+    return need_value(acts, "p", 0, "an action that never reports success");
   });
   if (!action) return Unexpected(action.error());
-  return subtree_of(std::move(conditions), std::move(*action));
+  return Subtree{*condition, *action};
 }
 
-/// In the form of 2018: `--nc0` conditions `--c0x0`, `--c0x1`, ..., then the action `--a0`.
+/// In the form of 2018: `--nc0 1` condition `--c0x0`, then the action `--a0`.
 Expected<Subtree> read_old_subtree(int index, std::span<const Field> fields, const Token& end,
                                    const Flavour& flavour) {
   const std::string name = std::to_string(index);
-  const auto count = count_in(fields, "--nc" + name, 1, kMaxConditions, end);
-  if (!count) return Unexpected(count.error());
-  auto blocks = blocks_of(name, fields, end, *count, "x");
+  const auto count = std::ranges::find_if(
+      fields, [&](const Field& field) { return field.name.text == "--nc" + name; });
+  if (count != fields.end() && count->value.text != "1") {
+    return Unexpected(error_at(count->value, "a subtree of " + std::string(count->value.text) +
+                                                 " conditions; trees with one a subtree are read, "
+                                                 "as Maple's"));
+  }
+  auto blocks = blocks_of(name, fields, end, 1, "x");
   if (!blocks) return Unexpected(blocks.error());
   if (auto error = need_value(blocks->own, "n", kSelector, "a selector")) return Unexpected(*error);
-  (void)blocks->own.take("nc");
-  std::vector<Condition> conditions;
-  for (Block& block : blocks->children) {
-    const auto condition = read_condition(block, flavour);
-    if (!condition) return Unexpected(condition.error());
-    conditions.push_back(*condition);
-  }
-  auto action = read_action(blocks->own, flavour, [] { return std::optional<Error>(); });
+  if (const auto one = blocks->own.need("nc"); !one) return Unexpected(one.error());
+  const auto condition = read_condition(blocks->children[0], flavour);
+  if (!condition) return Unexpected(condition.error());
+  const auto action = read_action(blocks->own, flavour, [] { return std::optional<Error>(); });
   if (!action) return Unexpected(action.error());
-  return subtree_of(std::move(conditions), std::move(*action));
+  return Subtree{*condition, *action};
 }
 
 /// What the two forms differ in, besides their subtrees.
@@ -167,15 +145,6 @@ constexpr Form kNewForm = {"--nroot", kSequenceWithMemory, "--nchildroot", Betwe
 constexpr Form kOldForm = {"--rootnode", kOldSequenceWithMemory, "--nchildsroot", Between::Cross,
                            read_old_subtree};
 
-/// Whether the condition, or one of the further ones, holds in this cycle.
-bool ends(const Subtree& subtree, Senses& senses, const Flavour& flavour, Rng& rng) {
-  const auto holds = [&](const Condition& condition) {
-    const double probability = enabling_probability(condition, senses, flavour);
-    return probability > 0 && rng.bernoulli(probability);
-  };
-  return holds(subtree.condition) || std::ranges::any_of(subtree.more, holds);
-}
-
 }  // namespace
 
 std::optional<Error> check(const Tree& tree, const Flavour& flavour) {
@@ -183,17 +152,11 @@ std::optional<Error> check(const Tree& tree, const Flavour& flavour) {
     return Error{ErrorKind::BadInput, "a tree has 1 to 4 subtrees", ""};
   }
   for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
-    const auto& [condition, action, more] = tree.subtrees[i];
+    const auto& [condition, action] = tree.subtrees[i];
     auto complaint =
         complaint_about_module(module_of(condition), parameters_of(condition), flavour);
-    for (const Condition& other : more) {
-      if (!complaint)
-        complaint = complaint_about_module(module_of(other), parameters_of(other), flavour);
-    }
     if (!complaint)
       complaint = complaint_about_module(module_of(action), parameters_of(action), flavour);
-    if (!complaint && more.size() >= kMaxConditions)
-      complaint = "a subtree has 1 to " + std::to_string(kMaxConditions) + " conditions";
     if (complaint) return Error{ErrorKind::BadInput, *complaint, "subtree " + std::to_string(i)};
   }
   return std::nullopt;
@@ -245,24 +208,19 @@ std::string print_tree(const Tree& tree, const Flavour& flavour) {
   append_switch(text, "nroot", "", std::to_string(kSequenceWithMemory));
   append_switch(text, "nchildroot", "", std::to_string(tree.subtrees.size()));
   for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
-    const Subtree& subtree = tree.subtrees[i];
+    const auto& [condition, action] = tree.subtrees[i];
     const std::string own = std::to_string(i);
     append_switch(text, "n", own, std::to_string(kSelector));
-    append_switch(text, "nchild", own, std::to_string(subtree.more.size() + 2));
-    for (std::size_t j = 0; j <= subtree.more.size(); ++j) {
-      const Condition& condition = j == 0 ? subtree.condition : subtree.more[j - 1];
-      const std::string child = own + std::to_string(j);
-      const ModuleSpec& waits = *flavour.find(module_of(condition));
-      append_switch(text, "n", child, std::to_string(kCondition));
-      append_switch(text, "c", child, std::to_string(waits.number));
-      append_parameters(text, waits, parameters_of(condition), child, flavour);
-    }
-    const std::string child = own + std::to_string(subtree.more.size() + 1);
-    const ModuleSpec& acts = *flavour.find(module_of(subtree.action));
-    append_switch(text, "n", child, std::to_string(kAction));
-    append_switch(text, "a", child, std::to_string(acts.number));
-    append_parameters(text, acts, parameters_of(subtree.action), child, flavour);
-    append_switch(text, "p", child, "0");
+    append_switch(text, "nchild", own, "2");
+    const ModuleSpec& waits = *flavour.find(module_of(condition));
+    append_switch(text, "n", own + "0", std::to_string(kCondition));
+    append_switch(text, "c", own + "0", std::to_string(waits.number));
+    append_parameters(text, waits, parameters_of(condition), own + "0", flavour);
+    const ModuleSpec& acts = *flavour.find(module_of(action));
+    append_switch(text, "n", own + "1", std::to_string(kAction));
+    append_switch(text, "a", own + "1", std::to_string(acts.number));
+    append_parameters(text, acts, parameters_of(action), own + "1", flavour);
+    append_switch(text, "p", own + "1", "0");
   }
   return text;
 }
@@ -277,7 +235,8 @@ Command TreeControl::step(Senses& senses) {
   while (true) {
     const auto at = static_cast<std::size_t>(subtree_);
     const Subtree& subtree = tree_->subtrees[at];
-    if (!ends(subtree, senses, *flavour_, rng_))
+    const double probability = enabling_probability(subtree.condition, senses, *flavour_);
+    if (!(probability > 0 && rng_.bernoulli(probability)))
       return act(subtree.action, senses, *flavour_, memories_[at], rng_);
     if (at + 1 == tree_->subtrees.size()) {
       subtree_ = 0;

@@ -17,15 +17,11 @@ struct Flavour;
 
 /// Bound of the search space (Kuckling et al., ANTS 2018; docs/methods.md).
 inline constexpr int kMaxSubtrees = 4;
-/// What a text may have; the search space has one.
-inline constexpr int kMaxConditions = 4;
 
 /// A selector: while its condition does not hold, its action acts.
 struct Subtree {
   Condition condition;
   Behaviour action;
-  /// Further conditions, asked in turn while those before do not hold: any of them ends the action.
-  std::vector<Condition> more{};
 
   friend bool operator==(const Subtree&, const Subtree&) = default;
 };
@@ -45,16 +41,11 @@ std::optional<Error> check(const Tree& tree, const Flavour& flavour);
 ///
 ///     --nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 --a01 1 --p01 0
 ///
-/// or wrote it until 2018:
-///
-///     --rootnode 0 --nchildsroot 1 --n0 0 --nc0 1 --c0x0 0 --p0x0 1 --a0 1
-///
 /// Numbers of modules are those of the flavour's tables. A leading `--bt-config` is skipped. Only
 /// Maple's trees are read: any other kind of node is an error. `where` is as of parse_machine.
 Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour);
 
-/// The canonical text, in the newer form. Throws std::invalid_argument when the tree does not fit
-/// the flavour.
+/// The canonical text. Throws std::invalid_argument when the tree does not fit the flavour.
 std::string print_tree(const Tree& tree, const Flavour& flavour);
 
 /// A running tree. A tick goes on with the subtree that acted last. A condition that holds, with

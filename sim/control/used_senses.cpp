@@ -59,8 +59,6 @@ UsedSenses senses_used_by(const Controller& controller, const Flavour& flavour) 
                         [&](const Tree& tree) {
                           for (const Subtree& subtree : tree.subtrees) {
                             add(subtree.condition, used);
-                            for (const Condition& condition : subtree.more)
-                              add(condition, used);
                             add(subtree.action, flavour, used);
                           }
                         },

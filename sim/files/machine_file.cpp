@@ -8,6 +8,7 @@
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "sim/control/controller.h"
+#include "sim/control/foreign_text.h"
 #include "sim/files/internal/file_kind.h"
 #include "sim/files/profile_file.h"
 

@@ -55,7 +55,7 @@ void use_write_ahead_log(sqlite::Connection& connection) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 11> kMigrations = {
+  static const std::array<Migration, 10> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
@@ -67,7 +67,6 @@ std::span<const Migration> migrations() {
       Migration{10, [](sqlite::Connection& connection) { connection.execute(kRobotLogsSchema); }},
       Migration{11,
                 [](sqlite::Connection&) {}},  // views alone: ids of tests under further profiles
-      Migration{12, [](sqlite::Connection&) {}},  // views alone: subtrees of several conditions
   };
   return kMigrations;
 }

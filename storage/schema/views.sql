@@ -294,14 +294,14 @@ LEFT JOIN flavour_name AS l ON l.flavour = t.flavour AND l.kind = 'l'
   AND l.number = 0 + substr(t.text, instr(t.text, ' --l' || t.place) + 4 + length(t.place));
 
 -- Not public: one row for each place of a machine or a tree that has a module. Those of a tree's subtree 1
--- are c10 and a11, or c10, c11 and a12 with two conditions; all subtrees can be reached.
+-- are c10 and a11; all subtrees can be reached.
 CREATE VIEW module_place AS
 SELECT m.candidate, m.design, n.name AS module,
        m.text GLOB '--nroot*' OR instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0
          AS reachable
 FROM machine_reach AS m
 JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*' OR j.value GLOB 'c[0-9]*x[0-9]*'
-  OR j.value GLOB 'a[0-9][0-9] *' OR j.value GLOB 'c[0-9][0-9] *'
+  OR j.value GLOB 'a[0-9]1 *' OR j.value GLOB 'c[0-9]0 *'
 LEFT JOIN flavour_name AS n ON n.flavour = m.flavour
   AND n.kind = replace(substr(j.value, 1, 1), 'a', 's')
   AND n.number = 0 + substr(j.value, instr(j.value, ' '));

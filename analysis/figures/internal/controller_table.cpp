@@ -70,16 +70,10 @@ struct TableOf {
     ControllerTable table{
         .columns = {"subtree", "condition", "condition_parameters", "action", "action_parameters"},
         .rows = {}};
-    for (std::size_t i = 0; i < tree.subtrees.size(); ++i) {
-      const Subtree& subtree = tree.subtrees[i];
-      const std::string number = std::to_string(i);
-      table.rows.push_back({number, id_text(subtree.condition),
+    for (const Subtree& subtree : tree.subtrees) {
+      table.rows.push_back({std::to_string(table.rows.size()), id_text(subtree.condition),
                             parameters_text(subtree.condition, *flavour), id_text(subtree.action),
                             parameters_text(subtree.action, *flavour)});
-      for (const Condition& condition : subtree.more) {
-        table.rows.push_back(
-            {number, id_text(condition), parameters_text(condition, *flavour), "", ""});
-      }
     }
     return table;
   }

@@ -100,7 +100,7 @@ std::string supplement_readme(const std::vector<SupplementFile>& files,
   std::string again;
   for (const CampaignRecord& campaign : campaigns) {
     names.push_back(markdown_text(campaign.name));
-    if (campaign.is_imported || campaign.file.empty()) continue;
+    if (campaign.file.empty()) continue;
     again += fmt::format("    swarmsmith run campaign{}.toml\n",
                          campaigns.size() == 1 ? "" : fmt::format("-{}", campaign.campaign));
   }
