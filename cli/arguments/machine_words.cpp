@@ -10,9 +10,12 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The first word of a text.
+/// The first word of a text, or all of one, which may have options of another program before it.
 bool begins_machine(std::string_view word) {
-  return word.starts_with("--") && architecture_of_text(word).has_value();
+  if (!word.starts_with("--")) return false;
+  const bool is_whole = word.find(' ') != std::string_view::npos;
+  return architecture_of_text(word).has_value() ||
+         (is_whole && find_controller(word) != std::string_view::npos);
 }
 
 /// Whether the word is a switch of one of the grammars: a known stem, and then digits or
