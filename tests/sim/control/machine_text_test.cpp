@@ -161,8 +161,7 @@ TEST(ControllerText, NamesTheOptionsBeforeAMachineThatItDoesNotKnow) {
       parse_controller("--robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1", watermelon());
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().where, "token 1, column 1");
-  EXPECT_THAT(read.error().message,
-              HasSubstr("`--robots`, `--rabsi`, `--rabar` before the machine"));
+  EXPECT_THAT(read.error().message, HasSubstr("not known here: `--robots`, `--rabsi`, `--rabar`;"));
   EXPECT_THAT(parse_controller("--nstates 1 --robots 22 --s0 1", watermelon()).error().message,
               HasSubstr("expected `--s0`, found `--robots`"));
   EXPECT_THAT(parse_controller("--nstates 1 --s0 1 --robots 22", watermelon()).error().message,
