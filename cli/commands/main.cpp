@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "base/process/begin_program.h"
 #include "cli/commands/commands.h"
 #include "storage/store.h"
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
   try {

@@ -176,6 +176,7 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live, st
       .add("conflicts", live.conflicts)
       .add("unleased", live.unleased)
       .add("malformed", live.malformed)
+      .add("uncommitted", live.uncommitted)
       .add("trouble", live.trouble)
       .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
       .text();

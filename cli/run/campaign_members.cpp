@@ -106,6 +106,7 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
 void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     Member& member = members_[running_[i]];
+    member.unwritten = end.unwritten[i];
     if (!end.lost[i].empty()) {
       member.end = lose(member, end.lost[i]);
     } else if (end.distrusted[i]) {
@@ -126,7 +127,14 @@ ExitCode CampaignMembers::end_of(const Member& member, const std::string& reason
   }
   if (member.store->finished()) return ExitCode::Done;
   if (!trouble.empty()) return ExitCode::Unreachable;
+  if (ending_signal() == SIGXCPU) {
+    print_error(output_, {ErrorKind::Unavailable,
+                          "stopped: this process has used the processor time that it may use "
+                          "(ulimit -t)",
+                          member.campaign->store.string()});
+  }
   print_resume(member);
+  if (ending_signal() == SIGXCPU) return ExitCode::Terminated;
   return ending_signal() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
 }
 
@@ -149,8 +157,19 @@ std::string CampaignMembers::in_front(const Member& member, const std::string& m
 
 void CampaignMembers::print_resume(const Member& member) {
   if (!keeps_store_) return;
-  print_note(output_, "everything so far is in " + member.campaign->store.string() +
-                          "; the same command continues from there");
+  const std::string store = member.campaign->store.string();
+  if (member.unwritten == 0) {
+    print_note(output_,
+               "everything so far is in " + store + "; the same command continues from there");
+    return;
+  }
+  // Even when quiet: work is lost.
+  print_error(output_, {ErrorKind::Unavailable,
+                        std::to_string(member.store->scores().size()) +
+                            " evaluations are stored; " + std::to_string(member.unwritten) +
+                            " more could not be written, and are made again when the same command "
+                            "continues",
+                        store});
 }
 
 std::vector<ServiceCampaign> CampaignMembers::served() const {

@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "base/descriptor_limit.h"
+#include "base/process_limits.h"
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/output/progress.h"
@@ -22,8 +22,13 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Of the process, besides its connections: stores, logs, workers' pipes.
-constexpr int kOtherDescriptors = 1'000;
+// Of the process, besides its connections: stores, logs, workers' pipes, pages.
+constexpr std::int64_t kOtherDescriptors = 1'000;
+constexpr std::int64_t kLeastDescriptors = 48;
+// Measured: libraries, stacks of threads, and a small campaign; the second is what is in use.
+constexpr std::uint64_t kAddressSpace = std::uint64_t{400} << 20U;
+constexpr std::uint64_t kMemory = std::uint64_t{48} << 20U;
+constexpr std::uint64_t kMemoryOfWorker = std::uint64_t{16} << 20U;
 
 /// How much worse than others an end is: a campaign that cannot go on outweighs one that can.
 int gravity(ExitCode code) {
@@ -54,7 +59,8 @@ class CampaignRun {
   }
 
   std::vector<ExitCode> run() {
-    ExitCode begun = members_.open_stores(listener_);
+    ExitCode begun = check_limits();
+    if (begun == ExitCode::Done) begun = members_.open_stores(listener_);
     if (begun == ExitCode::Done && !members_.running().empty()) begun = begin();
     std::vector<ExitCode> ends;
     for (std::size_t i = 0; i < members_.size(); ++i)
@@ -63,6 +69,22 @@ class CampaignRun {
   }
 
  private:
+  /// Before there is a store: one that cannot be filled would be left behind.
+  ExitCode check_limits() {
+    const LaunchOptions launch = launch_of(members_.campaign(0), options_);
+    const std::int64_t workers = launch.kind == LaunchOptions::Kind::Local ? launch.processes : 0;
+    const std::string who = "a campaign with " + std::to_string(workers) +
+                            (workers == 1 ? " worker process" : " worker processes") +
+                            " of this host";
+    auto enough = provide_descriptors(kLeastDescriptors + 2 * workers,
+                                      SocketOptions().max_connections + kOtherDescriptors, who);
+    if (enough) {
+      enough = check_memory(kAddressSpace,
+                            kMemory + static_cast<std::uint64_t>(workers) * kMemoryOfWorker, who);
+    }
+    return enough ? ExitCode::Done : fail(output_, ExitCode::Failed, enough.error());
+  }
+
   ExitCode begin() {
     catch_ending_signals();
     if (const ExitCode begun = members_.begin(); begun != ExitCode::Done) return begun;
@@ -138,7 +160,6 @@ class CampaignRun {
 
   /// Keys and clients, or plaintext; false after having said what is wrong.
   bool open_door() {
-    raise_descriptor_limit(SocketOptions().max_connections + kOtherDescriptors);
     auto access = open_access(options_.access, bind_of(options_));
     if (access) {
       access_ = std::move(*access);

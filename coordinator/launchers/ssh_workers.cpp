@@ -15,6 +15,8 @@ namespace {
 /// A worker that ran so long did not fail at its start.
 constexpr Duration kShortLife = std::chrono::seconds(30);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
+/// Ends without an error of one worker, each after a short life, in a row.
+constexpr int kMostQuickEnds = 5;
 constexpr int kRefused = 7;      // swarmsmith-worker: another build
 constexpr int kCannotRun = 126;  // the shell of that host
 constexpr int kNoProgram = 127;  // the same
@@ -181,6 +183,15 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   }
   worker.trouble = reason(status, worker.ssh.last_line(), ships);
   worker.refused = code == kRefused;
+  // A worker ends well only when it is asked to.
+  const bool quick = code == 0 && now - worker.started < kShortLife;
+  worker.quick_ends = quick ? worker.quick_ends + 1 : 0;
+  if (worker.quick_ends >= kMostQuickEnds) {
+    worker.trouble =
+        "the worker there ends as soon as it is started, with code 0; is it "
+        "swarmsmith-worker? It is not started again";
+    worker.refused = true;
+  }
   if (now - worker.started >= kShortLife) worker.backoff.reset();
   worker.start_at = now + worker.backoff.next();
 }

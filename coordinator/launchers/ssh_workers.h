@@ -47,7 +47,7 @@ class SshWorkers final : public Launcher {
   ~SshWorkers() override;
   SshWorkers(SshWorkers&&) noexcept = default;
 
-  /// Trouble: every host has refused its worker for good (another build, no bundle for it).
+  /// Trouble: no host will have a worker (another build, no bundle for it, another program).
   std::string tend(TimePoint now) override;
   std::string stop(Duration grace) override;
   LauncherStatus status() const override;
@@ -62,6 +62,7 @@ class SshWorkers final : public Launcher {
     TimePoint started;
     TimePoint start_at;
     Backoff backoff;
+    int quick_ends = 0;    ///< without an error, after a short life, in a row
     bool refused = false;  ///< for good
     std::string trouble;   ///< why it does not run
   };

@@ -628,6 +628,12 @@ LiveStatus Coordinator::status() const {
   return status;
 }
 
+std::int64_t Coordinator::uncommitted(std::uint32_t campaign) const {
+  return std::ranges::count_if(waiting_, [&](const auto& entry) {
+    return swarmsmith::campaign_of(entry.first) == campaign;
+  });
+}
+
 std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {
   std::vector<WorkerStatus> fleet;
   fleet.reserve(scheduler_.workers().all().size());

@@ -115,6 +115,8 @@ class Coordinator {
   bool finished() const;
   /// Everything accepted so far is on disk.
   bool settled() const;
+  /// Outcomes of a campaign that are not on disk yet.
+  std::int64_t uncommitted(std::uint32_t campaign) const;
   /// Why the campaign cannot go on, if so. The others do.
   const std::optional<std::string>& stopped(std::uint32_t campaign = 0) const {
     return campaigns_[campaign].stopped;

@@ -264,7 +264,7 @@ class Loop final : public Service {
     hear_news();
     carry_out();
     report(clock_.now(), true);
-    return {ServiceEnd::How::Interrupted, reasons(), stores_.lost(), distrusted()};
+    return {ServiceEnd::How::Interrupted, reasons(), stores_.lost(), distrusted(), unwritten()};
   }
 
   ServiceEnd finish() {
@@ -280,13 +280,20 @@ class Loop final : public Service {
     const std::vector<std::string> stopped = reasons();
     const bool all_well = std::ranges::all_of(stopped, &std::string::empty);
     return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped,
-            stores_.lost(), distrusted()};
+            stores_.lost(), distrusted(), unwritten()};
   }
 
   std::vector<bool> distrusted() const {
     std::vector<bool> all;
     for (std::uint32_t index = 0; index < stores_.count(); ++index)
       all.push_back(coordinator_.distrusted(index));
+    return all;
+  }
+
+  std::vector<std::int64_t> unwritten() const {
+    std::vector<std::int64_t> all;
+    for (std::uint32_t index = 0; index < stores_.count(); ++index)
+      all.push_back(coordinator_.uncommitted(index));
     return all;
   }
 

@@ -2,10 +2,12 @@
 #include <string>
 #include <vector>
 
+#include "base/process/begin_program.h"
 #include "cli/completion/offer_stored.h"
 #include "robot/app/commands.h"
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
   const Program program{"swarmsmith robot",

@@ -2,11 +2,13 @@
 #include <string>
 #include <vector>
 
+#include "base/process/begin_program.h"
 #include "cli/completion/offer_stored.h"
 #include "storage/store.h"
 #include "tracking/app/commands.h"
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
   const Program program{
