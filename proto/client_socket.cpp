@@ -7,7 +7,6 @@
 
 #include "base/peer_user.h"
 #include "proto/internal/zmq_support.h"
-#include "proto/network.h"
 #include "proto/socket.h"
 #include "proto/wire.h"
 

@@ -110,7 +110,7 @@ int fail(const Error& error) {
 }
 
 void tell_launcher(bool connected) {
-  std::cout << (connected ? kWorkerConnected : kWorkerAlone) << std::endl;
+  std::cout << (connected ? kWorkerConnected : kWorkerAlone) << '\n' << std::flush;
 }
 
 /// How the coordinator is found, again before each try to connect. What a person must mend first is

@@ -93,7 +93,11 @@ void read_launcher(TableReader& table, const std::filesystem::path& folder, Laun
 
 std::optional<std::string> read_bind(TableReader& table) {
   const auto bind = table.text("bind");
-  if (!bind || parse_address(*bind)) return bind;
+  if (!bind) return bind;
+  constexpr std::string_view kScheme = "tcp://";
+  std::string_view address = *bind;
+  if (address.starts_with(kScheme)) address.remove_prefix(kScheme.size());
+  if (parse_address(address)) return bind;
   table.complain("bind",
                  "`bind` must be an address with a port, such as \"127.0.0.1:5555\" or "
                  "\"[fd00::1]:5555\"; this is \"" +
