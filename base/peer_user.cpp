@@ -33,18 +33,6 @@ struct Ends {
   sockaddr_storage theirs = {};
 };
 
-std::optional<Ends> ends_of(int socket) {
-  Ends ends;
-  socklen_t size = sizeof ends.ours;
-  if (getsockname(socket, reinterpret_cast<sockaddr*>(&ends.ours), &size) != 0) return std::nullopt;
-  size = sizeof ends.theirs;
-  if (getpeername(socket, reinterpret_cast<sockaddr*>(&ends.theirs), &size) != 0)
-    return std::nullopt;
-  unmap(ends.ours);
-  unmap(ends.theirs);
-  return ends;
-}
-
 /// An IPv4 address within IPv6, as a socket of both families has it, as one of IPv4.
 void unmap(sockaddr_storage& end) {
   const auto six = reinterpret_cast<const sockaddr_in6&>(end);
@@ -55,6 +43,18 @@ void unmap(sockaddr_storage& end) {
   std::memcpy(&four.sin_addr, &six.sin6_addr.s6_addr[12], sizeof four.sin_addr);
   end = {};
   std::memcpy(&end, &four, sizeof four);
+}
+
+std::optional<Ends> ends_of(int socket) {
+  Ends ends;
+  socklen_t size = sizeof ends.ours;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&ends.ours), &size) != 0) return std::nullopt;
+  size = sizeof ends.theirs;
+  if (getpeername(socket, reinterpret_cast<sockaddr*>(&ends.theirs), &size) != 0)
+    return std::nullopt;
+  unmap(ends.ours);
+  unmap(ends.theirs);
+  return ends;
 }
 
 /// Whose a socket is. One that no process holds any more has no inode, and the kernel says of it

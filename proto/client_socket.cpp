@@ -180,7 +180,9 @@ bool ClientSocket::receive(std::string& frame) {
   impl_->hear();
   if (!impl_->socket) return false;
   zmq::message_t message;
-  if (!impl_->socket.recv(message, zmq::recv_flags::dontwait)) return false;
+  do {
+    if (!impl_->socket.recv(message, zmq::recv_flags::dontwait)) return false;
+  } while (message.size() == 0 && !message.more());
   const bool single = !message.more();
   while (message.more())
     (void)impl_->socket.recv(message, zmq::recv_flags::dontwait);

@@ -143,7 +143,7 @@ struct ServerSocket::Impl {
     peer.connection = connection_at(zmq_msg_get(frame.handle(), ZMQ_SRCFD));
     peer.taken = gate->meter_of(peer.connection);
     peer.unsent_to_host = &unsent_to[network_of(peer.address)];
-    if (asks_for_user && !is_of_same_user(peer.connection.descriptor)) {
+    if (asks_for_user && !is_of_same_user(id, peer)) {
       peer.stranger = true;
       cut(peer.connection);
     }
@@ -151,6 +151,19 @@ struct ServerSocket::Impl {
     peer.key = property_of(frame, "User-Id");
     check(peer);
     return peer;
+  }
+
+  /// The kernel knows whose a connection is, and libzmq that it still stands: only then is the
+  /// descriptor that the message names not another one's by now. libzmq hears of an end before it
+  /// closes the descriptor.
+  bool is_of_same_user(PeerId id, const Peer& peer) {
+    if (!swarmsmith::is_of_same_user(peer.connection.descriptor)) return false;
+    if (!options.probes_newcomers) return true;
+    (void)socket.get(zmq::sockopt::events);  // takes what it has heard, which a sending may put off
+    const RoutingId name = routing_id_of(id);
+    const std::string_view bytes(reinterpret_cast<const char*>(name.data()), name.size());
+    return send_on(socket, bytes, zmq::send_flags::sndmore) == SendStatus::Sent &&
+           send_on(socket, "", zmq::send_flags::none) == SendStatus::Sent;
   }
 
   void change_unsent(Peer& peer, std::uint64_t given, std::uint64_t arrived) {

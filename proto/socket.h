@@ -36,6 +36,11 @@ struct SocketOptions {
   std::chrono::milliseconds handshake_timeout{3000};
   std::chrono::milliseconds linger{0};
   int send_queue = 1000;  ///< messages a peer
+  /// On loopback without keys a server sends an empty frame to each newcomer, which tells whether
+  /// the connection that spoke is still the one whose user it knows. Clients of others, who would
+  /// not expect it, may be spared that; they could be taken for each other in the moment in which
+  /// one's connection ends and the next one's begins.
+  bool probes_newcomers = true;
   /// A server closes connections beyond these, half-open ones included (orchestration facts, 5
   /// "Limits"); those without a handshake end by themselves after `handshake_timeout`. Each takes a
   /// descriptor: where the process's limit is lower, libzmq leaves newcomers in the system's queue.
@@ -132,7 +137,7 @@ class ClientSocket {
   void close(std::chrono::milliseconds linger);
   /// Never blocks; frames sent before the connection stands are queued. Gone when not connected.
   SendStatus send(std::string_view frame);
-  /// Takes a frame if there is one; false if not.
+  /// Takes a frame if there is one; false if not. Empty ones are left out.
   bool receive(std::string& frame);
   /// Whether the connection broke, or could not be made, since the last call.
   bool lost();

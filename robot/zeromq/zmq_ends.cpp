@@ -434,6 +434,7 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
   }
   SocketOptions socket_options;
   socket_options.linger = kLastFrames;
+  socket_options.probes_newcomers = false;  // drivers are anybody's programs
   auto socket = ServerSocket::bind(options.endpoint, socket_options, std::move(options.keys));
   if (!socket) return tl::unexpected(socket.error());
   NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};
