@@ -17,9 +17,9 @@
 #include "cli/output/stored_stages.h"
 #include "cli/run/coordinator_link.h"
 #include "console/terminal.h"
+#include "proto/access/address.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/find_coordinator.h"
-#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -177,10 +177,10 @@ Expected<FoundCoordinator> coordinator_of(const StatusArguments& arguments) {
     const auto store = arguments.store.path();
     if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
     search.file = coordinator_file_of(real_store(*store));
-  } else if (const std::string endpoint =
-                 (named.find("://") == std::string::npos ? "tcp://" : "") + named;
-             is_tcp_address(endpoint)) {
-    search.endpoint = endpoint;
+  } else if (const auto endpoint = endpoint_of(named, true)) {
+    search.endpoint = *endpoint;
+  } else if (!arguments.connect.empty() && !std::filesystem::exists(named)) {
+    return Unexpected(endpoint.error());
   } else {
     search.file = named;
   }

@@ -55,7 +55,7 @@ class CampaignRun {
     if (options_.bind.empty()) options_.bind = campaigns.front().bind;
     // Workers from other hosts have to reach it; where it is, its file says.
     const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
-    if (options_.bind.empty() && !local) options_.bind = "0.0.0.0:0";
+    if (options_.bind.empty() && !local) options_.bind = "*:0";
   }
 
   std::vector<ExitCode> run() {
