@@ -61,12 +61,15 @@ const Principal* Principals::find(const std::string& name) const {
 }
 
 void Principals::forget_idle() {
-  std::erase_if(principals_, [](auto& each) {
-    Principal& it = each.second;
+  for (auto& [name, it] : principals_) {
+    const std::set<WorkerNumber>& workers = it.workers;
     std::erase_if(it.standings, [&](const auto& one) {
       const auto& [worker, standing] = one;
-      return !it.workers.contains(worker) && !standing.is_known() && standing.on_trial == 0;
+      return !workers.contains(worker) && !standing.is_known() && standing.on_trial == 0;
     });
+  }
+  std::erase_if(principals_, [](const auto& each) {
+    const Principal& it = each.second;
     const bool idle = it.workers.empty() && it.waiting.empty() && it.claims == 0;
     return idle && it.standings.empty() && !it.quarantined && it.liars.empty();
   });

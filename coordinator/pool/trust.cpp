@@ -154,11 +154,14 @@ void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now
 /// It is known now: what waited counts.
 void Trust::take_waiting(Principal& principal, WorkerNumber worker, TimePoint now) {
   std::vector<std::pair<PackedKey, Principal::Waiting>> taken;
-  std::erase_if(principal.waiting, [&](auto& each) {
-    if (principal.judged_as(each.second.worker) != principal.judged_as(worker)) return false;
-    taken.emplace_back(each.first, std::move(each.second));
-    return true;
-  });
+  for (auto at = principal.waiting.begin(); at != principal.waiting.end();) {
+    if (principal.judged_as(at->second.worker) != principal.judged_as(worker)) {
+      ++at;
+      continue;
+    }
+    taken.emplace_back(at->first, std::move(at->second));
+    at = principal.waiting.erase(at);
+  }
   for (const auto& [key, one] : taken) {
     TaskRecord* record = book_->leases.find(key);
     WorkerEntry* entry = workers_->of_number(one.worker);
