@@ -10,7 +10,7 @@ LIAR = str(BIN / "liar")
 
 
 class Trust(FaultTest):
-    budget = 4000
+    budget = 1500
     designs = 2
 
     def liar(self, address, honest, every, *key):
@@ -28,7 +28,7 @@ class Trust(FaultTest):
 
 class CutOut(Trust):
     """A liar with a listed key is caught late: the store is mended, and the campaign ends as it should."""
-    budget = 6000
+    budget = 3000
 
     def setUp(self):
         super().setUp()
@@ -47,7 +47,7 @@ class CutOut(Trust):
             worker.kill()
         found = rows(self.store, "select count(*) from evaluation as e join worker as w on w.id = e.worker"
                      " where w.client = 'liar'")[0][0]
-        self.assertGreater(found, 150, "the liar was not believed at first")
+        self.assertGreater(found, 100, "the liar was not believed at first")
 
     def test_the_store_without_the_liar_goes_on_to_the_right_answer(self):
         self.caught()
@@ -67,7 +67,7 @@ class CutOut(Trust):
         self.store = honest
         self.assertEqual(self.quarantine()[0]["who"], "liar")
         serving = self.serve("--keys", self.keys)
-        self.assertIn("liar is in quarantine since", serving.log())
+        wait_for(lambda: "liar is in quarantine since" in serving.log(), "why the key is turned away")
         turned_away = self.liar(serving.address(), 0, 1, self.keys / "liar.key")
         self.assertEqual(turned_away.wait(60), 7, turned_away.tail())
         self.assertIn("in quarantine since", turned_away.log())
