@@ -247,7 +247,7 @@ Run declare(CommandKind kind, Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->kind = kind;
   if (kind == CommandKind::Forgive) {
-    options.words("STORE KEY|HOST", arguments->words,
+    options.words("STORE WHO|STORE", arguments->words,
                   "The campaign's store (else SWARMSMITH_STORE), and keys, addresses or hosts in "
                   "quarantine, as `status` has them");
   } else {
