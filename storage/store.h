@@ -54,9 +54,9 @@ struct StoreOptions {
 /// A store's record of the workers that gave its scores.
 struct StoredTrust {
   std::map<std::int64_t, std::string> principals;  ///< by worker
-  std::vector<std::string> quarantined;            ///< principals
-  std::set<EvaluationKey> audited;                 ///< made again, with the same bits
-  bool distrusted = false;                         ///< its scores are wrong, or may be
+  std::vector<Quarantine> quarantined;
+  std::set<EvaluationKey> audited;  ///< made again, with the same bits
+  bool distrusted = false;          ///< its scores are wrong, or may be
 };
 
 /// The one writer of a store: an SQLite file in WAL mode, synchronous=FULL, with its own thread,

@@ -60,6 +60,8 @@ constexpr char kAttempt[] =
 constexpr char kCommand[] =
     "INSERT INTO command (number, kind, design, step, budget, who) VALUES (?,?,?,?,?,?)"
     " ON CONFLICT DO UPDATE SET step = excluded.step";
+constexpr char kForgiven[] =
+    "UPDATE worker SET state = 'left' WHERE principal = ? AND state = 'quarantined'";
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
 
 std::optional<std::int64_t> unless_zero(std::int64_t value) {
@@ -102,6 +104,7 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       event_(connection, kEvent),
       attempt_(connection, kAttempt),
       command_(connection, kCommand),
+      forgiven_(connection, kForgiven),
       new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
       find_source_(connection, "SELECT id FROM source WHERE name = ?") {}
 
@@ -207,6 +210,10 @@ void RowWriter::put(const AttemptRow& row) {
 void RowWriter::put(const CommandRow& row) {
   command_.run(row.number, word_of(row.kind), unless_zero(row.design.value), row.step, row.budget,
                row.who);
+}
+
+void RowWriter::put(const ForgivenRow& row) {
+  forgiven_.run(row.principal);
 }
 
 std::int64_t RowWriter::source_id(const std::string& name) {
