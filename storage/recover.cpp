@@ -12,6 +12,7 @@
 #include "storage/internal/reading.h"
 #include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/salvage.h"
 #include "storage/internal/schema.h"
@@ -357,6 +358,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
         "UPDATE design SET best = NULL WHERE best NOT IN (SELECT id FROM candidate)");
     orphans_ += mend_real_runs(connection_);
     write_maker(connection_);
+    RowSums::found(connection_).write(connection_);
     if (const auto faults = faults_of(connection_); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt,
                         "the recovered rows are not a whole store: " + faults.front());

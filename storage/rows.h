@@ -98,6 +98,9 @@ constexpr std::int64_t number_of(CandidateId id) {
   return (id.value - 1) % kCandidatesPerDesign + 1;
 }
 
+/// Characters of a name in a store: of campaigns, missions, methods, designs, sources.
+inline constexpr std::int64_t kLongestName = 1000;
+
 struct CampaignRow {
   std::string name;
   std::string digest;    ///< of what decides the answer

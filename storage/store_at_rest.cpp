@@ -57,7 +57,6 @@ class SqliteAtRest final : public StoreAtRest {
   Expected<void> check_candidate(CandidateId candidate) const;
   Expected<RealRunRows> stored_run(RealRunId id) const;
   Expected<void> add_campaign(const Addition& addition);
-  void remove(const EvaluationKey& key);
 
   Writer writer_;
   fs::path path_;
@@ -69,11 +68,12 @@ Expected<void> SqliteAtRest::add(const Addition& addition) {
     require_finite(row);
   return in_one_go([&]() -> Expected<void> {
     if (auto added = add_campaign(addition); !added) return added;
-    for (const EvaluationKey& key : addition.removed)
-      remove(key);
     RowWriter writer(writer_.connection);
+    for (const EvaluationKey& key : addition.removed)
+      writer.remove(key);
     for (const Row& row : addition.rows)
       writer.write(row);
+    writer.write_sums({RowSums::Table::Campaign, RowSums::Table::Design});
     return {};
   });
 }
@@ -83,6 +83,7 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
     sqlite::Transaction transaction(writer_.connection);
     if (is_new_) write_empty_store(writer_.connection);
     if (auto changed = change(); !changed) return changed;
+    keep_sums(writer_.connection);
     transaction.commit();
   } catch (const sqlite::SqliteError& error) {
     return unexpected(
@@ -177,6 +178,11 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
   Statement insert(writer_.connection, kDesign);
   for (const auto& [row, name] : addition.designs) {
+    for (const std::string& each : {row.mission, row.method, name}) {
+      if (std::ssize(each) <= kLongestName) continue;
+      return bad_input(fmt::format("a name of design {} has {} characters; {} is the most",
+                                   to_string(row.id), each.size(), kLongestName));
+    }
     if (row.id.value != ++designs) {
       return unexpected(
           ErrorKind::Conflict,
@@ -187,12 +193,6 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
                row.budget, name);
   }
   return {};
-}
-
-void SqliteAtRest::remove(const EvaluationKey& key) {
-  Statement(writer_.connection,
-            "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?")
-      .run(key.candidate.value, static_cast<std::int64_t>(key.purpose), key.pair);
 }
 
 }  // namespace
@@ -218,6 +218,7 @@ Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& named,
     if (!blank) {
       migrate(writer->connection, path, migrations());
       name_flavours(writer->connection, designs);
+      keep_sums(writer->connection);
     }
     writer->lock.set_suspect(false);
     return std::make_unique<SqliteAtRest>(std::move(*writer), path, blank);

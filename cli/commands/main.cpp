@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
+  swarmsmith::set_check_listener([&](const std::string& text) { print_note(output, text); });
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const ExitCode code = run_program(arguments, output);

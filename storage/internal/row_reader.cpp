@@ -393,7 +393,10 @@ std::vector<CandidateId> candidates_without_phrases(const sqlite::Connection& co
 void read_candidates(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {
   each_candidate(connection, part, [&](const CandidateRow& candidate, bool whole) {
     if (!whole) {
-      connection.fail(SQLITE_CORRUPT, to_string(candidate.id) + " names phrases that do not exist");
+      connection.fail(
+          SQLITE_CORRUPT,
+          to_string(candidate.id) +
+              " names phrases that do not exist, or makes more text of them than a store's");
     }
     on_row(candidate);
   });
