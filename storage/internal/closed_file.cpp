@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/file_checks.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -23,8 +25,6 @@ bool look_at(const sqlite::Connection& connection, struct statx& file) {
   return connection.descriptor() >= 0 && ::statx(connection.descriptor(), "", AT_EMPTY_PATH,
                                                  STATX_BASIC_STATS | STATX_BTIME, &file) == 0;
 }
-
-}  // namespace
 
 /// What the file will say of itself; false when it cannot be written.
 bool remember(sqlite::Connection& connection, const struct timespec& now) {
@@ -54,7 +54,7 @@ void close_file(sqlite::Connection& connection) {
 
 bool is_as_closed(const sqlite::Connection& connection) {
   struct statx file {};
-  if (!look_at(connection, file)) return false;
+  if (!look_at(connection, file) || has_pending_log(connection.file())) return false;
   sqlite::Statement row(connection, "SELECT value FROM meta WHERE key = ?");
   row.bind(kKey);
   const struct timespec changed {

@@ -12,7 +12,8 @@ namespace swarmsmith {
 /// Where that fails, the next writer checks. Before, all is on disk already.
 void close_file(sqlite::Connection& connection);
 
-/// Whether the file is the one that was closed, as it was closed. Throws SqliteError.
+/// Whether the file is the one that was closed, as it was closed, without a log beside it. Throws
+/// SqliteError.
 bool is_as_closed(const sqlite::Connection& connection);
 
 }  // namespace swarmsmith
