@@ -1,5 +1,6 @@
 #include "storage/store_at_rest.h"
 
+#include <algorithm>
 #include <functional>
 #include <system_error>
 #include <utility>
@@ -12,7 +13,7 @@
 #include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
-#include "storage/whole.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -153,9 +154,9 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
 }
 
 Expected<void> SqliteAtRest::add_override(const RealOverrideRow& row) {
-  if (row.verdict != "VALID" && row.verdict != "DEGRADED" && row.verdict != "INVALID") {
-    return bad_input(
-        fmt::format("'{}' is not a verdict; use VALID, DEGRADED or INVALID", row.verdict));
+  if (std::ranges::find(kVerdicts, row.verdict) == kVerdicts.end()) {
+    return bad_input(fmt::format("'{}' is not a verdict; use one of {}", row.verdict,
+                                 fmt::join(kVerdicts, ", ")));
   }
   if (row.who.empty() || row.reason.empty()) {
     return bad_input(row.who.empty() ? "the person who overrides the verdict is not named"

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <string>
 
 #include "base/expected.h"
 
@@ -14,12 +11,5 @@ namespace swarmsmith {
 /// the file is as its last writer closed it. For those who make numbers of them. The errors of
 /// StoreReader::open are left to it.
 Expected<void> check_rows(const std::filesystem::path& store);
-
-/// In this process, says in a sentence when a store takes longer than two seconds to be checked as
-/// a whole, before it is written. Called by the thread that opens it.
-void set_check_listener(std::function<void(const std::string&)> on_long_check);
-
-/// Characters of a name in a store: of campaigns, missions, methods, designs, sources.
-inline constexpr std::int64_t kLongestName = 1000;
 
 }  // namespace swarmsmith

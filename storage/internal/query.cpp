@@ -117,8 +117,8 @@ class Rules {
     constexpr int kInstructions = 2000;  // some 20 us
     for (std::size_t i = 0; i < kLimits.size(); ++i)
       limits_before_[i] = sqlite3_limit(handle_, kLimits[i].which, kLimits[i].value);
-    // Those that others have added may be asked for by name; in place of ours nothing can stand.
-    connection_.allow_views(true);
+    // A store of an early schema is read with the views that it has.
+    connection_.allow_views(limits.views_of_file || !has_our_views_);
     sqlite3_set_authorizer(handle_, only_reading, &has_our_views_);
     sqlite3_progress_handler(
         handle_, kInstructions,

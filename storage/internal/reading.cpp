@@ -15,7 +15,6 @@
 #include "storage/internal/row_reader.h"
 #include "storage/internal/row_sums.h"
 #include "storage/internal/schema.h"
-#include "storage/whole.h"
 
 namespace swarmsmith {
 namespace {

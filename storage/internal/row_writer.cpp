@@ -64,6 +64,8 @@ constexpr char kAttempt[] =
 constexpr char kCommand[] =
     "INSERT INTO command (number, kind, design, step, budget, who) VALUES (?,?,?,?,?,?)"
     " ON CONFLICT DO UPDATE SET step = excluded.step";
+constexpr char kForgiven[] =
+    "UPDATE worker SET state = 'left' WHERE principal = ? AND state = 'quarantined'";
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
 
 std::optional<std::int64_t> unless_zero(std::int64_t value) {
@@ -107,6 +109,7 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       event_(connection, kEvent),
       attempt_(connection, kAttempt),
       command_(connection, kCommand),
+      forgiven_(connection, kForgiven),
       new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
       find_source_(connection, "SELECT id FROM source WHERE name = ?"),
       evaluation_cells_(connection, cells_of_rows(Table::Evaluation) + kOfEvaluation),
@@ -285,6 +288,10 @@ void RowWriter::put(const CommandRow& row) {
   command_cells_.bind(row.number);  // of a known one only the step is new
   if (command_cells_.step()) sums_->add(Table::Command, hash_of(command_cells_));
   command_cells_.reset();
+}
+
+void RowWriter::put(const ForgivenRow& row) {
+  forgiven_.run(row.principal);
 }
 
 std::int64_t RowWriter::source_id(const std::string& name) {

@@ -68,6 +68,7 @@ class RowWriter {
   void put(const EventRow& row);
   void put(const AttemptRow& row);
   void put(const CommandRow& row);
+  void put(const ForgivenRow& row);
 
   /// The number of a source, made when it is new.
   std::int64_t source_id(const std::string& name);
@@ -75,7 +76,8 @@ class RowWriter {
   sqlite::Connection& connection_;
   sqlite::Statement candidate_, known_candidate_, phrase_, pair_, evaluation_, used_, unused_,
       iteration_, race_step_, elimination_, elite_, totals_, design_state_, campaign_state_,
-      worker_, conflict_, failure_, event_, attempt_, command_, new_source_, find_source_;
+      worker_, conflict_, failure_, event_, attempt_, command_, forgiven_, new_source_,
+      find_source_;
   /// Cells of one row, as its sum has them.
   sqlite::Statement evaluation_cells_, used_cells_, totals_cells_, design_cells_, campaign_cells_,
       command_cells_;

@@ -88,6 +88,10 @@ thread_local Listener* Listener::now_ = nullptr;
 
 Connection::Connection(const std::string& file, int flags) {
   sqlite3* opened = nullptr;
+  // A new store is its owner's alone, and so are the files that SQLite makes beside it. Made
+  // without opening it, which only SQLite may do.
+  if ((flags & SQLITE_OPEN_CREATE) != 0 && file != ":memory:")
+    mknod(file.c_str(), S_IFREG | 0600, 0);
   const Listener listener;
   const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   handle_.reset(opened);
