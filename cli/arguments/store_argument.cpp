@@ -1,6 +1,5 @@
 #include "cli/arguments/store_argument.h"
 
-#include "cli/arguments/whole_store.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "storage/whole.h"
@@ -26,10 +25,10 @@ Expected<std::unique_ptr<StoreReader>> StoreArgument::open() const {
   return StoreReader::open(*where);
 }
 
-Expected<std::unique_ptr<StoreReader>> open_whole(const StoreArgument& argument) {
-  auto store = argument.open();
+Expected<std::unique_ptr<StoreReader>> StoreArgument::open_whole() const {
+  auto store = open();
   if (!store) return store;
-  if (auto whole = check_rows(*argument.path()); !whole) return Unexpected(whole.error());
+  if (auto whole = check_rows(*path()); !whole) return Unexpected(whole.error());
   return store;
 }
 

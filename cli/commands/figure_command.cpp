@@ -6,7 +6,6 @@
 #include "analysis/figures/figure.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
-#include "cli/arguments/whole_store.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/figure_arguments.h"
 #include "cli/commands/trajectories_figure.h"
@@ -92,7 +91,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
                 Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file",
                       options->paper ? "--paper" : "--font"});
   }
-  auto store = open_whole(arguments.store);
+  auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if (const auto missing = missing_in(**store, *options))
     return fail(output, exit_code_of(*missing), *missing);

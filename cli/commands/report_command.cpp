@@ -6,7 +6,6 @@
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
-#include "cli/arguments/whole_store.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/trajectories_figure.h"
 #include "console/counter.h"
@@ -43,7 +42,7 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
         Error{ErrorKind::BadInput,
               "standard output has the answer of --json; name a file for the report", "-o"});
   }
-  const auto store = open_whole(arguments.store);
+  const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   Counter counter(output, "wrote", "parts of the report");
   std::int64_t parts = 0;

@@ -13,7 +13,6 @@
 #include "base/text/whole_file.h"
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
-#include "cli/arguments/whole_store.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/trajectories_figure.h"
 #include "cli/dashboard/snapshot.h"
@@ -109,7 +108,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
         output, ExitCode::Usage,
         Error{ErrorKind::BadInput, "is there already; name another folder", folder.string()});
   }
-  const auto store = open_whole(arguments.store);
+  const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool with_pdfs = find_program("rsvg-convert").has_value();
   // A program without pages has none to give.
