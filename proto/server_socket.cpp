@@ -160,8 +160,8 @@ struct ServerSocket::Impl {
     if (!swarmsmith::is_of_same_user(peer.connection.descriptor)) return false;
     if (!options.probes_newcomers) return true;
     (void)socket.get(zmq::sockopt::events);  // takes what it has heard, which a sending may put off
-    const RoutingId name = routing_id_of(id);
-    const std::string_view bytes(reinterpret_cast<const char*>(name.data()), name.size());
+    const RoutingId to = routing_id_of(id);
+    const std::string_view bytes(reinterpret_cast<const char*>(to.data()), to.size());
     return send_on(socket, bytes, zmq::send_flags::sndmore) == SendStatus::Sent &&
            send_on(socket, "", zmq::send_flags::none) == SendStatus::Sent;
   }

@@ -157,6 +157,10 @@ class Loop {
                             protocol_.on_taken_back(pool_->take_back(), clock_.now());
                           },
                           [&](DropItems) { pool_->take_back(); },
+                          [&](const Say& say) {
+                            log_event(LogLevel::Warning, "worker", "the coordinator says",
+                                      {{"sentence", say.sentence}});
+                          },
                           [&](Leave& leave) {
                             if (end_) return;
                             end_ = WorkerEnd{leave.code, std::move(leave.reason)};

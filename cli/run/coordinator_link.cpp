@@ -25,6 +25,7 @@ std::string frame_of(const std::string& campaign, const CommandRow& command) {
   wish.set_design(command.design.value);
   wish.set_budget(command.budget);
   wish.set_who(command.who);
+  wish.set_whom(command.whom);
   return encode(message);
 }
 

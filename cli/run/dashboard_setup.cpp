@@ -7,6 +7,7 @@
 #include "base/address.h"
 #include "base/environment.h"
 #include "cli/run/ask_campaign.h"
+#include "coordinator/service/http_address.h"
 #include "storage/store.h"
 
 namespace swarmsmith::cli {

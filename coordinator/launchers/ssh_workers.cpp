@@ -16,6 +16,8 @@ namespace {
 /// A worker that ran so long did not fail at its start.
 constexpr Duration kShortLife = std::chrono::seconds(30);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
+/// Ends without an error of one worker, each after a short life, in a row.
+constexpr int kMostQuickEnds = 5;
 /// Logins under way: at first and after one failed, and at most. Each one that succeeds allows one
 /// more. sshd turns newcomers away from 10 on, where nothing else is set.
 constexpr int kFewLogins = 3;
@@ -215,6 +217,15 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   if (!worker.begun) most_logins_ = kFewLogins;
   worker.trouble = reason(status, worker.said, ships);
   worker.refused = code == kRefused;
+  // A worker ends well only when it is asked to.
+  const bool quick = code == 0 && now - worker.started < kShortLife;
+  worker.quick_ends = quick ? worker.quick_ends + 1 : 0;
+  if (worker.quick_ends >= kMostQuickEnds) {
+    worker.trouble =
+        "the worker there ends as soon as it is started, with code 0; is it "
+        "swarmsmith-worker? It is not started again";
+    worker.refused = true;
+  }
   if (now - worker.started >= kShortLife) worker.backoff.reset();
   worker.start_at = now + worker.backoff.next();
 }

@@ -51,7 +51,7 @@ class SshWorkers final : public Launcher {
   ~SshWorkers() override;
   SshWorkers(SshWorkers&&) noexcept = default;
 
-  /// Trouble: every host has refused its worker for good (another build, no bundle for it).
+  /// Trouble: no host will have a worker (another build, no bundle for it, another program).
   std::string tend(TimePoint now) override;
   std::string stop(Duration grace) override;
   LauncherStatus status() const override;
@@ -66,6 +66,7 @@ class SshWorkers final : public Launcher {
     TimePoint started;
     TimePoint start_at;
     Backoff backoff;
+    int quick_ends = 0;      ///< without an error, after a short life, in a row
     bool begun = false;      ///< the login is over
     bool connected = false;  ///< to the coordinator, as the worker says
     std::string said;        ///< its last line that is for people

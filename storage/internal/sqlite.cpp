@@ -99,6 +99,15 @@ Connection::Connection(const std::string& file, int flags) {
   if (opened == nullptr) throw SqliteError(code, sqlite3_errstr(code));
   sqlite3_extended_result_codes(opened, 1);
   if (code != SQLITE_OK) fail(code, reason_of(opened));
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  allow_views(false);
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMostValueBytes);
+}
+
+void Connection::allow_views(bool allowed) {
+  sqlite3_db_config(handle_.get(), SQLITE_DBCONFIG_ENABLE_VIEW, allowed ? 1 : 0, nullptr);
 }
 
 std::int64_t Connection::file_size() const {

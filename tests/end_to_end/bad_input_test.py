@@ -468,7 +468,8 @@ class BadPeers(BadInput):
                               env={**os.environ, "SWARMSMITH_WORKER": str(program)})
 
     def test_local_workers_that_cannot_work(self):
-        for code, sentence in ((7, "is of another build"), (1, "as soon as they are started")):
+        for code, sentence in ((7, "is of another build"), (1, "as soon as they are started"),
+                               (0, "is it swarmsmith-worker?")):
             done = self.local_worker(code)
             self.assertEqual(done.returncode, 5, done.stderr)
             self.assertIn(sentence, done.stderr)

@@ -131,6 +131,12 @@ TEST_F(Ssh, WhenAllAreRefusedNothingCanBeHad) {
               HasSubstr("ssh: a: the worker there and the coordinator are different builds"));
 }
 
+TEST_F(Ssh, AProgramThatEndsAtOnceWithoutAnErrorIsNoWorker) {
+  SshWorkers workers = start("exit 0\n", {{"a"}});
+  ASSERT_TRUE(eventually(workers, [&] { return !trouble_of(workers).empty(); }));
+  EXPECT_THAT(trouble_of(workers), HasSubstr("is it swarmsmith-worker?"));
+}
+
 TEST(SshProgram, ThatIsMissingIsSaid) {
   const auto workers = SshWorkers::start({.hosts = {{"a"}}, .program = "/w", .ssh = "no-such-ssh"});
   ASSERT_FALSE(workers);
