@@ -130,7 +130,10 @@ void Connection::execute(const std::string& sql) {
 }
 
 void Connection::fail(int code) const {
-  throw SqliteError(code, sqlite3_errmsg(handle_.get()), file_of(handle_.get()));
+  // "disk I/O error" alone: the system's words say which.
+  const bool is_disk = (code & 0xff) == SQLITE_IOERR;
+  throw SqliteError(code, is_disk ? reason_of(handle_.get()) : sqlite3_errmsg(handle_.get()),
+                    file_of(handle_.get()));
 }
 
 void Connection::fail(int code, const std::string& message) const {
