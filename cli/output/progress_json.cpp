@@ -143,6 +143,7 @@ std::string event_json(const Row& row) {
                  [&](const EliminationRow& row_) { return no_event(row_); },
                  [&](const CandidateTotalsRow& row_) { return no_event(row_); },
                  [&](const AttemptRow& row_) { return no_event(row_); },
+                 [&](const ForgivenRow& row_) { return no_event(row_); },
                  [](const CommandRow& command) { return command_json(command); }},
       row);
 }

@@ -12,6 +12,7 @@
 #include "coordinator/campaign/programs.h"
 #include "coordinator/design/plans.h"
 #include "coordinator/launchers/worker_program.h"
+#include "coordinator/pool/principal.h"
 #include "coordinator/service/paused_designs.h"
 #include "proto/access/coordinator_file.h"
 
@@ -50,12 +51,16 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     const std::vector<CommandRow> commands = (*store)->commands();
     for (const CommandRow& command : commands)
       listener.restore(i, command);
-    if ((*store)->trust().distrusted) {
+    if (const StoredTrust trust = (*store)->trust(); trust.distrusted) {
+      const std::string key =
+          trust.quarantined.empty() ? "KEY" : key_of_principal(trust.quarantined.back().principal);
       return fail(output_, ExitCode::Store,
                   {ErrorKind::Conflict,
                    "scores in this store are not reliable (`swarmsmith query STORE \"SELECT "
-                   "text FROM event WHERE severity = 'error'\"` says why); run the campaign again "
-                   "into a new store",
+                   "text FROM event WHERE severity = 'error'\"` says why); `swarmsmith recover " +
+                       campaign.store.string() + " --without-key \"" + key +
+                       "\" -o NEW.db` makes a store without what that key said, and the campaign "
+                       "goes on from there with --store NEW.db",
                    campaign.store.string()});
     }
     if ((*store)->finished() && !waits_for_extension(commands)) continue;

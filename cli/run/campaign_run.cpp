@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <stop_token>
 #include <utility>
 
@@ -55,7 +56,7 @@ class CampaignRun {
     if (options_.bind.empty()) options_.bind = campaigns.front().bind;
     // Workers from other hosts have to reach it; where it is, its file says.
     const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
-    if (options_.bind.empty() && !local) options_.bind = "0.0.0.0:0";
+    if (options_.bind.empty() && !local) options_.bind = "*:0";
   }
 
   std::vector<ExitCode> run() {
@@ -238,6 +239,7 @@ class CampaignRun {
                 worker_trouble = workers->tend(clock_.now());
                 if (worker_trouble.empty()) live.launcher = workers->status();
               }
+              explain_quarantine(live);
               last_ = live;
               if (pages_) pages_->publish(live);
               listener_.update(last_, clock_.now());
@@ -255,6 +257,21 @@ class CampaignRun {
     members_.end(end, worker_trouble);
     if (!worker_trouble.empty()) fail(output_, ExitCode::Unreachable, worker_trouble);
     return ExitCode::Done;
+  }
+
+  /// Once for each: those who wait for workers should know who is turned away.
+  void explain_quarantine(const LiveStatus& live) {
+    for (const QuarantineStatus& one : live.quarantine) {
+      if (!told_of_quarantine_.emplace(one.who, one.worker).second) continue;
+      const std::string store = members_.campaign(members_.running().front()).store.string();
+      print_note(output_, quarantine_line(one) + "; `swarmsmith forgive " + store + " \"" +
+                              one.who + "\"` lets it work again");
+    }
+    std::erase_if(told_of_quarantine_, [&](const auto& told) {
+      return std::ranges::none_of(live.quarantine, [&](const QuarantineStatus& one) {
+        return told == std::pair(one.who, one.worker);
+      });
+    });
   }
 
   void announce(const std::string& endpoint) {
@@ -275,6 +292,7 @@ class CampaignRun {
   std::unique_ptr<HttpServer> pages_;
   Access access_;
   std::string local_secret_;
+  std::set<std::pair<std::string, std::int64_t>> told_of_quarantine_;
 };
 
 /// Lines of several campaigns begin with their names.

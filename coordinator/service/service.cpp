@@ -1,6 +1,8 @@
 #include "coordinator/service/service.h"
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -40,6 +42,18 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
                    .commands = campaign.store->commands(),
                    .searches = campaign.searches});
   return all;
+}
+
+/// UTC, as stores have times.
+std::string time_before(double seconds) {
+  const auto then = std::chrono::system_clock::now() -
+                    std::chrono::duration_cast<std::chrono::system_clock::duration>(
+                        std::chrono::duration<double>(seconds));
+  const std::time_t time = std::chrono::system_clock::to_time_t(then);
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  std::array<char, 32> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
 std::vector<Searches> searches_of(const std::vector<ServiceCampaign>& campaigns) {
@@ -233,6 +247,9 @@ class Loop final : public Service {
   void report(TimePoint now, bool all = false) {
     if (now - looked_ >= kLookAtLogs) look_at_logs(now);
     status_ = telemetry_.status(coordinator_, now, all);
+    for (QuarantineStatus& one : status_.quarantine) {
+      if (one.since.empty()) one.since = time_before(one.for_s);
+    }
     status_.trouble = stores_.trouble();
     status_.insecure_plaintext = options_.insecure_plaintext;
     status_.refused = socket_->refusals().counts;

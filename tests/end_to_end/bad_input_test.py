@@ -478,11 +478,12 @@ class BadPeers(BadInput):
         self.assertEqual(self.digest(self.folder / "x.db"), self.digest(self.store()))
 
     def test_addresses_that_are_none(self):
-        for address in ("foo", "127.0.0.1", ":5", "127.0.0.1:99999", "127.0.0.1:x", "ipc:///x"):
+        for address in ("foo", "127.0.0.1", ":5", "127.0.0.1:99999", "127.0.0.1:x", "ipc:///x", "::1:5555",
+                        "[::1]", "[node1]:5555"):
             with self.subTest(address):
-                self.assert_refused(2, "is not an address", "worker", "--connect", address)
+                self.assert_refused(2, "invalid address", "worker", "--connect", address)
                 self.assert_refused(2, "invalid address", "serve", self.file, "--bind", address)
-        for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555"):
+        for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555", "[::]:0", "[fd00::1]:5555"):
             self.assert_refused(2, "swarmsmith keygen", "serve", self.file, "--bind", address,
                                 "--keys", self.folder / "no-keys")
 

@@ -22,8 +22,10 @@
 #include "base/process/guard.h"
 #include "base/process_limits.h"
 #include "base/shown_text.h"
+#include "base/worker_words.h"
 #include "console/complete.h"
 #include "console/declared.h"
+#include "proto/access/address.h"
 #include "proto/access/find_coordinator.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -85,6 +87,8 @@ struct Arguments {
 /// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
 /// the process does not have to wait for it.
 void watch_input() {
+  // Whoever listened at the other end has gone first: no reason not to drain.
+  std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {
     std::array<char, 256> ignored{};
     ssize_t size = 0;
@@ -132,6 +136,10 @@ Expected<void> check_limits(const Arguments& arguments, int slots) {
   return check_memory(kSpace + number * kSpaceOfSlot, kMemory + number * kMemoryOfSlot, who);
 }
 
+void tell_launcher(bool connected) {
+  std::cout << (connected ? kWorkerConnected : kWorkerAlone) << '\n' << std::flush;
+}
+
 /// How the coordinator is found, again before each try to connect. What a person must mend first is
 /// said at once; a coordinator's file that is not there yet is waited for.
 Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
@@ -143,13 +151,14 @@ Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
   const auto find = [search]() -> Expected<CoordinatorAddress> {
     Expected<FoundCoordinator> found = find_coordinator(search);
     if (!found) return Unexpected(found.error());
-    return CoordinatorAddress{found->endpoint, std::move(found->keys)};
+    return CoordinatorAddress{found->endpoint, std::move(found->keys), std::move(found->others)};
   };
   const auto first = find();
   if (!first && first.error().kind != ErrorKind::NotFound) return Unexpected(first.error());
   return WorkerServiceOptions{
       .endpoint = arguments.connect.empty() ? arguments.coordinator : arguments.connect,
       .find = find,
+      .on_connected = arguments.watch_input ? tell_launcher : nullptr,
       .protocol = {},
       .socket = {}};
 }
@@ -230,7 +239,7 @@ int run_command_line(int argc, char** argv) {
   app.name("swarmsmith-worker");
   CLI::Option_group* where = app.add_option_group("Address of the coordinator, one of");
   where->add_option("--connect", arguments.connect, "Address of the coordinator")
-      ->type_name("tcp://HOST:PORT");
+      ->type_name("HOST:PORT");
   where
       ->add_option("--coordinator", arguments.coordinator,
                    "File that the coordinator writes (STORE.coordinator); read again before each "
@@ -276,9 +285,10 @@ int run_command_line(int argc, char** argv) {
     std::cerr << as_shown(errors.str());  // with the words that it was given
     return code == 0 ? 0 : static_cast<int>(ExitCode::Usage);
   }
-  if (!arguments.connect.empty() && !is_tcp_address(arguments.connect)) {
-    return fail(
-        {ErrorKind::BadInput, "invalid address; expected tcp://HOST:PORT", arguments.connect});
+  if (!arguments.connect.empty()) {
+    const auto endpoint = endpoint_of(arguments.connect, true);
+    if (!endpoint) return fail(endpoint.error());
+    arguments.connect = *endpoint;
   }
   return run(arguments);
 }
