@@ -33,6 +33,11 @@ std::string reason_of(sqlite3* handle) {
                      : fmt::format("{} ({})", sqlite3_errmsg(handle), std::strerror(reason));
 }
 
+/// "disk I/O error" alone does not say which: the system's words do.
+std::string message_of(sqlite3* handle, int code) {
+  return (code & 0xff) == SQLITE_IOERR ? reason_of(handle) : sqlite3_errmsg(handle);
+}
+
 /// Listens to SQLite while it opens a database in this thread, for the descriptor that it does not
 /// tell. SQLite's calls of the system can be replaced (sqlite3_vfs::xSetSystemCall).
 class Listener {
@@ -143,10 +148,7 @@ void Connection::execute(const std::string& sql) {
 }
 
 void Connection::fail(int code) const {
-  // "disk I/O error" alone: the system's words say which.
-  const bool is_disk = (code & 0xff) == SQLITE_IOERR;
-  throw SqliteError(code, is_disk ? reason_of(handle_.get()) : sqlite3_errmsg(handle_.get()),
-                    file_of(handle_.get()));
+  throw SqliteError(code, message_of(handle_.get(), code), file_of(handle_.get()));
 }
 
 void Connection::fail(int code, const std::string& message) const {
@@ -166,7 +168,7 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
   sqlite3* connection = sqlite3_db_handle(handle_.get());
-  const std::string message = sqlite3_errmsg(connection);  // which `reset` takes away
+  const std::string message = message_of(connection, code);  // which `reset` takes away
   reset();
   throw SqliteError(code, message, file_of(connection));
 }
