@@ -33,9 +33,18 @@ std::string reason_of(sqlite3* handle) {
                      : fmt::format("{} ({})", sqlite3_errmsg(handle), std::strerror(reason));
 }
 
-/// "disk I/O error" alone does not say which: the system's words do.
+/// "disk I/O error" alone does not say which: the system's words do. A commit that fails leaves them
+/// with the log's file.
 std::string message_of(sqlite3* handle, int code) {
-  return (code & 0xff) == SQLITE_IOERR ? reason_of(handle) : sqlite3_errmsg(handle);
+  if ((code & 0xff) != SQLITE_IOERR) return sqlite3_errmsg(handle);
+  if (sqlite3_system_errno(handle) != 0) return reason_of(handle);
+  sqlite3_file* log = nullptr;
+  int reason = 0;
+  sqlite3_file_control(handle, "main", SQLITE_FCNTL_JOURNAL_POINTER, static_cast<void*>(&log));
+  if (log != nullptr && log->pMethods != nullptr)
+    log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &reason);
+  const std::string message = sqlite3_errmsg(handle);
+  return reason == 0 ? message : fmt::format("{} ({})", message, std::strerror(reason));
 }
 
 /// Listens to SQLite while it opens a database in this thread, for the descriptor that it does not
