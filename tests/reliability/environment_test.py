@@ -105,7 +105,7 @@ class Limits(Environment):
         self.assert_goes_on()
 
     def test_files_that_may_not_grow_are_full_disks(self):
-        run = self.run_local("--workers", "2", prefix=limited("RLIMIT_FSIZE", 450_000))
+        run = self.run_local("--workers", "2", prefix=limited("RLIMIT_FSIZE", 1_000_000))
         wait_for(lambda: "store cannot be written" in run.log() or not run.alive(),
                  "the word that the store cannot grow")
         self.assertTrue(run.alive(), run.tail())
