@@ -176,7 +176,9 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
   const Ran modules =
       run({"query", "SELECT module, occurrences FROM v_modules ORDER BY module", store_, "--csv"});
   EXPECT_EQ(modules.out, "module,occurrences\nblack_floor,1\nstop,1\n");
-  EXPECT_EQ(run({"figure", "machine", store_, "c1000001", "-o", (folder_ / "t.svg").string()}).code,
+  EXPECT_EQ(run({"figure", "machine", store_, "--candidate", "c1000001", "-o",
+                 (folder_ / "t.svg").string()})
+                .code,
             0);
 }
 
