@@ -2,6 +2,7 @@
 import contextlib
 import os
 import pathlib
+import random
 import shutil
 import signal
 import sqlite3
@@ -19,6 +20,10 @@ class Moving(FaultTest):
     copy is a condition, and no campaign is over before it is copied."""
 
     budget = 3000
+
+    def setUp(self):
+        super().setUp()
+        self.rng = random.Random(45)
 
     def begin(self):
         """A campaign from its start, in a folder of its own."""
@@ -115,11 +120,11 @@ def slowly(names, at, *events):
 
 
 def more(moving):
-    moving.later(moving.budget // 20)
+    moving.later(moving.rng.randrange(moving.budget // 40, moving.budget // 13))
 
 
 def fold(moving):
-    moving.fold()
+    moving.fold(moving.rng.choice(("restart", "restart", "full", "passive")))
 
 
 def truncate(moving):

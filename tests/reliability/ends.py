@@ -1,6 +1,7 @@
 """How a program may end that got something from elsewhere: with the right answer, or with a refusal in words.
 Never by a signal, with an internal error, without an end, or with all of the memory."""
 import collections
+import contextlib
 import os
 import pathlib
 import resource
@@ -24,13 +25,18 @@ MOST_SPACE = 4 << 30
 End = collections.namedtuple("End", "words code out err processor memory hung")
 
 
-def end_of(*words, seconds=120, env=None, cwd=None):
-    """swarmsmith with these words, to its end or for so many seconds."""
+def end_of(*words, processor=60, seconds=600, env=None, cwd=None):
+    """swarmsmith with these words, to its end. It is ended after so many seconds of processor time, and also after so many
+    by the clock."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         process = subprocess.Popen([SWARMSMITH, *map(str, words)], stdin=subprocess.DEVNULL, stdout=out, stderr=err,
                                    start_new_session=True, cwd=cwd, env={**os.environ, **(env or {})})
+        limits = {resource.RLIMIT_CPU: processor * PATIENCE}
         if not SANITIZED:
-            resource.prlimit(process.pid, resource.RLIMIT_AS, (MOST_SPACE, MOST_SPACE))
+            limits[resource.RLIMIT_AS] = MOST_SPACE
+        for what, most in limits.items():
+            with contextlib.suppress(ProcessLookupError):  # it is over already
+                resource.prlimit(process.pid, what, (most, most))
         watch = os.pidfd_open(process.pid)
         hung = not select.select([watch], [], [], seconds * PATIENCE)[0]
         os.close(watch)
@@ -51,6 +57,8 @@ def what_is_wrong_with(end):
     name = " ".join(pathlib.Path(str(word)).name for word in end.words)[:120]
     if end.hung:
         return f"`{name}` has no end"
+    if end.code == -signal.SIGKILL:  # what the limit of processor time ends with
+        return f"`{name}` took {end.processor:.0f} s of processor time and had no end"
     if end.code < 0:
         return f"`{name}` was ended by signal {-end.code}: {said[-300:]}"
     for word in BROKEN:

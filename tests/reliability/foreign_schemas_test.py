@@ -42,7 +42,7 @@ class Foreign(FaultTest):
 
     def ask(self, store, words):
         """What is said of a store, whatever its name."""
-        end = end_of(*(store if word == "STORE" else word for word in words), cwd=store.parent, seconds=60)
+        end = end_of(*(store if word == "STORE" else word for word in words), cwd=store.parent)
         return end._replace(out=end.out.replace(str(store), "STORE"))
 
     def changed(self, name, change):
@@ -57,8 +57,8 @@ class Foreign(FaultTest):
         if what:
             self.wrong.append(f"{name}: {what}")
 
-    def must_refuse(self, name, thing, *words):
-        end = end_of(*words)
+    def must_refuse(self, name, thing, *words, **limits):
+        end = end_of(*words, **limits)
         wrong = what_is_wrong_with(end)
         if not wrong and end.code != REFUSED:
             wrong = f"`{words[0]}` ended with {end.code}: {end.err[-300:]}"
@@ -69,7 +69,7 @@ class Foreign(FaultTest):
     def all_refuse(self, name, thing, store):
         before = store.read_bytes()
         self.must_refuse(name, thing, "run", self.file, "--store", store, "--workers", "1", "--no-dashboard")
-        self.must_refuse(name, thing, "serve", self.file, "--store", store, "--bind", "127.0.0.1:0", "--http", "none")
+        self.must_refuse(name, thing, "serve", self.file, "--store", store, "--bind", "127.0.0.1:0", "--http", "none", seconds=120)
         self.must_refuse(name, thing, "evaluate", "best", "--store", store, "--seeds", "1-2")
         self.must_refuse(name, thing, "pause", store)
         scores = self.folder / "scores.csv"

@@ -9,7 +9,7 @@ import sqlite3
 import subprocess
 
 from copying import WHOLE, copy
-from ends import end_of
+from ends import end_of, what_is_wrong_with
 from foreign_schemas import FOREIGN, make_foreign
 from rig import SWARMSMITH, Coordinator, children_of, send, stored, wait_for
 
@@ -30,6 +30,7 @@ class Life:
         self.store = self.folder / "campaign.db"
         self.running = None
         self.places = 0
+        self.harmed = False
         self.wrong = []
 
     # --- parts of acts ---
@@ -79,6 +80,16 @@ class Life:
         self.ended(self.running)
         self.running = None
 
+    def ask(self, *words):
+        """Whether this was done; it may be refused only after harm."""
+        end = end_of(*words)
+        wrong = what_is_wrong_with(end)
+        if not wrong and end.code != 0 and not self.harmed:
+            wrong = f"`{words[0]}` was refused without harm: {end.err}{end.out}"
+        if wrong:
+            self.wrong.append(wrong)
+        return end.code == 0
+
     def ended(self, program):
         code = program.wait(60)
         if code not in (*ENDS, -signal.SIGKILL) or "internal error" in program.log():
@@ -124,23 +135,21 @@ def stand_still(life):
     """As a laptop that sleeps."""
     life.run()
     life.running.send(signal.SIGSTOP)
-    life.test.assertEqual(end_of("status", life.store).code, 0)
+    life.ask("status", life.store)
     life.running.send(signal.SIGCONT)
 
 
 def two_at_once(life):
     life.run()
     end = end_of("run", life.test.file, "--store", life.store, "--no-dashboard", "--workers", "1")
-    if end.code not in (0, REFUSED):
+    if end.code not in (0, REFUSED) or what_is_wrong_with(end):
         life.wrong.append(f"a second `run`: {end}")
 
 
 def look(life):
     life.run()
     for words in (("status", life.store), ("ls", "elites", life.store), ("digest", life.store), ("verify", life.store)):
-        end = end_of(*words)
-        if end.code != 0:
-            life.wrong.append(f"`{words[0]}` beside a campaign: {end}")
+        life.ask(*words)
 
 
 def rename_at_rest(life):
@@ -179,12 +188,10 @@ def copy_at_rest(life):
 def backup(life):
     life.run()
     new = life.place() / "backup.db"
-    end = end_of("backup", life.store, new)
-    if end.code != 0:
-        life.wrong.append(f"`backup` beside a campaign: {end}")
-        return
+    done = life.ask("backup", life.store, new)
     life.at_rest()
-    life.store = new
+    if done:
+        life.store = new
 
 
 def backup_of_sqlite(life):
@@ -199,11 +206,8 @@ def backup_of_sqlite(life):
 def recover(life):
     life.at_rest()
     new = life.place() / "recovered.db"
-    end = end_of("recover", life.store, "-o", new, "--campaign", life.test.file)
-    if end.code == 0:
+    if life.store.exists() and life.ask("recover", life.store, "-o", new, "--campaign", life.test.file):
         life.store = new
-    elif life.store.exists():
-        life.wrong.append(f"`recover`: {end}")
 
 
 def touch(life):
@@ -302,7 +306,7 @@ def another_store_in_its_place(life):
             life.beside(name).rename(aside / f"campaign.db{name}")
     shutil.copy(OLD_STORE, life.store)
     end = end_of("run", life.test.file, "--store", life.store, "--no-dashboard", "--workers", "1")
-    if end.code == 0 or end.code < 0:
+    if end.code == 0 or what_is_wrong_with(end):
         life.wrong.append(f"`run` of another campaign's store: {end}")
     for name in WHOLE:
         life.beside(name).unlink(missing_ok=True)
@@ -311,6 +315,18 @@ def another_store_in_its_place(life):
 
 
 # --- harmful: what comes may be refused ---
+
+def mend(life):
+    """A store that is refused goes on by what its refusal says, where that can be done."""
+    life.at_rest()
+    ways = [("recover", life.store, "-o"), ("backup", life.store)]
+    life.rng.shuffle(ways)
+    for words in ways:
+        new = life.place() / "mended.db"
+        if life.store.exists() and life.ask(*words, new):
+            life.store = new
+            return
+
 
 def copy_while_it_runs(life):
     life.run()

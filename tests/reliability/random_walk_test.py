@@ -11,7 +11,7 @@ import time
 import unittest
 
 from ends import end_of, what_is_wrong_with
-from ordinary_acts import HARMFUL, HARMLESS, Life, NotHere
+from ordinary_acts import HARMFUL, HARMLESS, Life, NotHere, mend
 from rig import LONG, SWARMSMITH, WORKER, FaultTest
 
 SEED = int(os.environ.get("SWARMSMITH_WALK_SEED", "1"))
@@ -59,26 +59,31 @@ class RandomWalk(FaultTest):
         acts = []
         harmful = rng.random() < 0.6
         for _ in range(rng.randrange(2, MOST_ACTS + 1)):
-            act = rng.choice(HARMFUL) if harmful and rng.random() < 0.3 else rng.choice(HARMLESS)
-            try:
-                act(life)
+            harm = harmful and rng.random() < 0.3
+            chosen = [rng.choice(HARMFUL if harm else HARMLESS)] + ([mend] if harm and rng.random() < 0.6 else [])
+            life.harmed = life.harmed or harm
+            for act in chosen:
                 acts.append(act.__name__)
-                self.count(act.__name__)
-            except NotHere as reason:
-                self.left_out.add(str(reason))
-            except Exception as error:
-                raise AssertionError(f"walk {seed}: {', '.join(acts)}, then {act.__name__}") from error
+                self.do(act, life, f"walk {seed}: {', '.join(acts)}")
         life.at_rest()
-        harmed = {act.__name__ for act in HARMFUL} & set(acts)
-        self.end(life, f"walk {seed}: {', '.join(acts)}", harmed)
+        self.end(life, f"walk {seed}: {', '.join(acts)}")
         shutil.rmtree(life.folder)
 
-    def end(self, life, story, harmed):
+    def do(self, act, life, story):
+        try:
+            act(life)
+            self.count(act.__name__)
+        except NotHere as reason:
+            self.left_out.add(str(reason))
+        except Exception as error:
+            raise AssertionError(story) from error
+
+    def end(self, life, story):
         self.assertEqual(life.wrong, [], story)
         end = end_of("run", self.file, "--store", life.store, "--no-dashboard", "--workers", "2")
         self.assertEqual(what_is_wrong_with(end), "", story)
         if end.code != 0:
-            self.assertTrue(harmed, f"{story}: refused, though nothing was harmed: {end.err}")
+            self.assertTrue(life.harmed, f"{story}: refused, though nothing was harmed: {end.err}")
             return self.mended(life, story, end)
         return self.right(life.store, story, "right")
 
