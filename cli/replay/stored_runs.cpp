@@ -11,6 +11,7 @@
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "sim/files/profile_file.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -110,7 +111,7 @@ std::string in_turn(std::int64_t schema, const std::string& given,
   return fmt::format(
       fmt::runtime(kSql), fmt::arg("seed", wanted.seed), fmt::arg("who", who(schema)),
       fmt::arg("prime", 2'147'483'629), fmt::arg("given", given),
-      fmt::arg("but", wanted.tests ? " AND e.purpose NOT IN ('test', 'transfer')" : ""),
+      fmt::arg("but", wanted.tests ? " AND e.purpose NOT IN " + words_in_sql(is_test) : ""),
       fmt::arg("count", wanted.scores));
 }
 
@@ -238,8 +239,8 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   if (wanted.rejections)
     parts.push_back("SELECT e.id" + given + " AND e.status = 'rejected'" + in_order);
   if (wanted.tests)
-    parts.push_back("SELECT e.id" + given +
-                    " AND e.status = 'ok' AND e.purpose IN ('test', 'transfer')" + in_order);
+    parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose IN " +
+                    words_in_sql(is_test) + in_order);
   if (wanted.scores > 0) parts.push_back(in_turn(store_->schema(), given, wanted));
   std::vector<std::string> all;
   for (const std::string& sql : parts) {
@@ -267,8 +268,7 @@ std::string StoredRuns::of_campaigns() const {
       designs += (designs.empty() ? "" : ",") + std::to_string(design.id.value);
   }
   if (designs.empty()) return {};
-  return "e.purpose IN ('race', 'look-ahead', 'test', 'transfer') AND e.design IN (" + designs +
-         ")";
+  return "e.purpose IN " + words_in_sql(is_simulated) + " AND e.design IN (" + designs + ")";
 }
 
 bool StoredRuns::has_machines() const {
