@@ -1,5 +1,6 @@
 """Stores whose schema is not ours: whoever would write refuses them and names what is foreign; `backup` and `recover` make
 clean stores of them; who reads answers rightly, or refuses."""
+import functools
 import shutil
 import signal
 import unittest
@@ -19,37 +20,39 @@ READERS = (("digest", "STORE"), ("status", "STORE", "--json"), ("verify", "STORE
 
 class Foreign(FaultTest):
     budget = 2000
-    half = None
 
     def setUp(self):
         super().setUp()
         self.wrong = []
-        self.make_half()
 
-    def make_half(self):
+    @functools.cached_property
+    def half(self):
         """A store in the middle of its campaign, which was ended in good order."""
-        kept = self.folder / "half.db"
-        self.store = kept
+        self.store = self.folder / "half.db"
         serve = self.serve()
         worker = self.worker(serve.address())
         self.wait_stored(self.budget // 2)
         serve.send(signal.SIGINT)
         self.assertEqual(serve.wait(60), 130, serve.tail())
         worker.kill()
-        self.assertLess(stored(kept), self.budget, "the campaign was over before its end")
-        self.kept = kept
-        self.answers = {words: self.ask(kept, words).out for words in READERS}
+        self.assertLess(stored(self.store), self.budget, "the campaign was over before its end")
+        return self.store
+
+    @functools.cached_property
+    def answers(self):
+        return {words: self.ask(self.half, words).out for words in READERS}
 
     def ask(self, store, words):
         """What is said of a store, whatever its name."""
         end = end_of(*(store if word == "STORE" else word for word in words), cwd=store.parent)
         return end._replace(out=end.out.replace(str(store), "STORE"))
 
-    def changed(self, name, change):
-        folder = self.folder / name.replace(" ", "-").replace("'", "")
+    def changed(self, name, change, whole=False):
+        """The store in the middle of its campaign, or that of the whole of it, with a foreign schema."""
+        folder = self.folder / (name.replace(" ", "-").replace("'", "") + "-whole" * whole)
         folder.mkdir()
         store = folder / "campaign.db"
-        shutil.copy(self.kept, store)
+        shutil.copy(self.reference() if whole else self.half, store)
         make_foreign(store, change)
         return store
 
@@ -66,17 +69,29 @@ class Foreign(FaultTest):
             wrong = f"`{words[0]}` does not name {thing}: {end.err[-300:]}"
         self.complain(name, wrong)
 
-    def all_refuse(self, name, thing, store):
+    def all_refuse(self, name, store):
+        thing, change = {**FOREIGN, **HEADERS}[name]
         before = store.read_bytes()
         self.must_refuse(name, thing, "run", self.file, "--store", store, "--workers", "1", "--no-dashboard")
-        self.must_refuse(name, thing, "serve", self.file, "--store", store, "--bind", "127.0.0.1:0", "--http", "none", seconds=120)
-        self.must_refuse(name, thing, "evaluate", "best", "--store", store, "--seeds", "1-2")
+        self.must_refuse(name, thing, "serve", self.file, "--store", store, "--bind", "127.0.0.1:0", "--http", "none",
+                         seconds=120)
         self.must_refuse(name, thing, "pause", store)
-        scores = self.folder / "scores.csv"
-        scores.write_text("design,score,source\nd1,0.5,real\n")
-        self.must_refuse(name, thing, "import", scores, "--into", store)
         if store.read_bytes() != before:
             self.complain(name, "a refused store was written")
+        store = self.changed(name, change, whole=True)
+        before = store.read_bytes()
+        self.must_refuse(name, thing, "evaluate", "best", "--store", store, "--seeds", "1-2")
+        self.must_refuse(name, thing, "extend", "d1", store, "--budget", "500")
+        self.must_refuse(name, thing, "import", self.scores(), "--into", store)
+        if store.read_bytes() != before:
+            self.complain(name, "a refused store was written")
+        shutil.rmtree(store.parent)
+
+    def scores(self):
+        """A score of the winner, from elsewhere."""
+        file = self.folder / "scores.csv"
+        file.write_text("design,score,source\nd1,0.5,real\n")
+        return file
 
     def read(self, name, store):
         for words in READERS:
@@ -116,14 +131,10 @@ class Foreign(FaultTest):
 
     def try_all(self, names, *ways):
         for name in names:
-            thing, change = {**FOREIGN, **HEADERS}[name]
-            store = self.changed(name, change)
+            store = self.changed(name, {**FOREIGN, **HEADERS}[name][1])
             self.count("foreign schema")
             for way in ways:
-                if way == self.all_refuse:
-                    way(name, thing, store)
-                else:
-                    way(name, store)
+                way(name, store)
             shutil.rmtree(store.parent)
         print(f"\n  {len({each.split(':')[0] for each in self.wrong})} of {len(names)} wrong", end="")
         self.assertEqual(self.wrong, [], "\n" + "\n".join(self.wrong))
@@ -133,6 +144,14 @@ class Few(Foreign):
     def test_the_most_harmful_are_refused_by_name(self):
         names = ("trigger after insert", "an endless view", "a column more", "a table more", "a unique index")
         self.try_all(names, self.all_refuse)
+
+    def test_nothing_is_refused_without_a_reason(self):
+        """The same words on a store that is as it was made."""
+        store = self.changed("nothing", lambda db: None, whole=True)
+        for words in (("evaluate", "best", "--store", store, "--seeds", "1-2"), ("import", self.scores(), "--into", store),
+                      ("extend", "d1", store, "--budget", "500"), ("pause", store)):
+            end = end_of(*words)
+            self.assertEqual(end.code, 0, end)
 
     def test_statistics_are_no_schema(self):
         """What `analyze` leaves is not ours, and says nothing about rows: the campaign goes on or it is refused by name."""
