@@ -232,6 +232,9 @@ TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
   std::filesystem::remove(path.string() + "-wal");
   std::filesystem::remove(path.string() + "-shm");
   using std::filesystem::perms;
+  // A store belongs to its user alone, until that user gives it to others.
+  std::filesystem::permissions(path, perms::group_read | perms::others_read,
+                               std::filesystem::perm_options::add);
   std::filesystem::permissions(folder.path(),
                                perms::all & ~perms::group_write & ~perms::others_write);
   const pid_t child = ::fork();

@@ -258,7 +258,7 @@ TEST_F(RealRunsTest, OverridesWantAVerdictANameAndAReason) {
   added(synthetic_real_run(1, kWinner));
   const auto store = opened();
   EXPECT_THAT(store->add_override({{1}, "FINE", "ada", "x"}).error().message,
-              HasSubstr("use VALID, DEGRADED or INVALID"));
+              HasSubstr("use one of VALID, DEGRADED, INVALID"));
   EXPECT_EQ(store->add_override({{1}, "VALID", "", "x"}).error().kind, ErrorKind::BadInput);
   EXPECT_EQ(store->add_override({{1}, "VALID", "ada", ""}).error().kind, ErrorKind::BadInput);
   EXPECT_EQ(store->add_override({{2}, "VALID", "ada", "x"}).error().kind, ErrorKind::NotFound);

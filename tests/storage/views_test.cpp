@@ -4,6 +4,7 @@
 
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
+#include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/storage/fixture.h"
@@ -377,7 +378,8 @@ TEST_F(ViewsTest, ShowParametersInLongForm) {
 
 /// What SQLite goes through row by row in a query for some part of a view.
 std::vector<std::string> scans(const std::filesystem::path& path, const std::string& sql) {
-  const sqlite::Connection connection(path.string(), SQLITE_OPEN_READONLY);
+  sqlite::Connection connection(path.string(), SQLITE_OPEN_READONLY);
+  lend_views(connection);  // as every reader has them
   sqlite::Statement plan(connection, "EXPLAIN QUERY PLAN " + sql);
   std::vector<std::string> found;
   while (plan.step()) {
