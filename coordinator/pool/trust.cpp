@@ -380,12 +380,17 @@ std::vector<std::string> Trust::forgive(std::string_view word, const std::string
                                         TimePoint now) {
   book_->now = now;
   std::vector<std::string> names;
+  // A key that is not believed from anywhere is forgiven everywhere.
+  const std::string key = key_of_principal(std::string(word));
+  const Principal* whole = principals_.find(key);
+  const bool is_whole = whole != nullptr && whole->quarantined;
   for (auto& [name, principal] : principals_.all()) {
     if (!principal.quarantined && principal.liars.empty()) continue;
     const bool is_host = std::ranges::any_of(principal.workers, [&](WorkerNumber number) {
       return workers_->of_number(number)->hello.host == word;
     });
-    if (!is_host && !is_named(name, word)) continue;
+    const bool is_of_key = is_whole && key_of_principal(name) == key;
+    if (!is_host && !is_of_key && !is_named(name, word)) continue;
     names.push_back(name);
     principal.quarantined = false;
     principal.cause = {};

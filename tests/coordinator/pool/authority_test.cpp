@@ -451,10 +451,11 @@ TEST_F(Authority, TellsAWorkerThatItIsInQuarantineAndWhenThatIsOver) {
   credit(1, 1);
   ASSERT_GT(given[1].size(), before);
   const std::size_t accepted = all<OutcomeAccepted>().size();
-  answer(1, given[1].back());
+  const std::int64_t candidate = given[1][before];
+  answer(1, candidate);
   EXPECT_EQ(all<OutcomeAccepted>().size(), accepted);
-  EXPECT_EQ(asked(), key(given[1].back()));
-  rule_score(given[1].back());
+  EXPECT_EQ(asked(), key(candidate));
+  rule_score(candidate);
   EXPECT_EQ(all<OutcomeAccepted>().size(), accepted + 1);
   EXPECT_TRUE(scheduler.forgive("node", "a person", now).empty());
 }
@@ -479,6 +480,7 @@ TEST_F(Authority, BlamesAProcessWhereThereAreNoKeys) {
   EXPECT_EQ(scheduler.workers().trusted(), 1U);
   enter(3, "127.0.0.1");
   EXPECT_EQ(scheduler.workers().trusted(), 2U);
+  sequence = 100;  // of the first one's connection
   credit(1, 1);
   want(20, 1);
   EXPECT_EQ(given[1].back(), 20);
