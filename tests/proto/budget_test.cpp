@@ -219,9 +219,10 @@ TEST_F(Budgets, LongFramesWaitForOneAnotherAndShortOnesDoNot) {
   EXPECT_EQ(server->send(to_first, "short"), SendStatus::Sent);
   EXPECT_EQ(server->send(to_second, scenario), SendStatus::Later) << "no room";
   EXPECT_EQ(server->send(to_third, "short"), SendStatus::Sent);
-  first.read();
-  EXPECT_TRUE(eventually([&] { return server->send(to_second, scenario) == SendStatus::Sent; }))
-      << "when the first is there";
+  EXPECT_TRUE(eventually([&] {
+    first.read();  // what has come by now
+    return server->send(to_second, scenario) == SendStatus::Sent;
+  })) << "when the first is there";
   EXPECT_EQ(server->refusals().total(), 0U);
 }
 
