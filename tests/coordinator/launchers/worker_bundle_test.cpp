@@ -245,7 +245,8 @@ class ShippedBySsh : public Bundles {
  protected:
   ShippedBySsh() {
     write("bin/uname", "#!/bin/sh\necho x86_64\n");
-    pack("#!/bin/sh\necho >>" + (folder / "started").string() + "\nexec cat\n");
+    pack("#!/bin/sh\necho >>" + (folder / "started").string() +
+         "\necho swarmsmith-worker: connected\nexec cat\n");
   }
 
   /// The script runs in place of ssh before `host` does, with $host, and $sends for a bundle.
@@ -338,7 +339,7 @@ TEST_F(ShippedBySsh, AFolderThatRunsNoProgramsIsNamed) {
 
 TEST_F(ShippedBySsh, AHostOfAnUnknownKindIsRefused) {
   write("bin/uname", "#!/bin/sh\necho riscv64\n");
-  write("mine", "#!/bin/sh\nexec cat\n");
+  write("mine", "#!/bin/sh\necho swarmsmith-worker: connected\nexec cat\n");
   SshWorkers workers = start({{"a"}, {.name = "b", .program = folder / "mine"}});
   wait_for(workers, [&](const std::string&) {
     return workers.status().note.starts_with("a: there is no bundle for its architecture in " +
