@@ -131,13 +131,17 @@ std::string shared_file_system(const std::filesystem::path& path) {
     struct statfs about {};
     if (::statfs(place.c_str(), &about) != 0) return {};
     const std::optional<Mount> mount = mount_of(place);
-    const std::string kind = kind_of_shared(about.f_type, mount ? mount->type : "");
-    if (!kind.empty()) return kind + shown;
+    const std::string type = mount ? mount->type : "";
+    std::error_code none;
     const bool shows_folder = static_cast<std::uint32_t>(about.f_type) == kFuse && mount &&
                               mount->source.starts_with('/') &&
-                              std::filesystem::path(mount->source) != mount->point;
-    std::error_code none;
-    if (!shows_folder || !std::filesystem::is_directory(mount->source, none)) return {};
+                              std::filesystem::path(mount->source) != mount->point &&
+                              std::filesystem::is_directory(mount->source, none);
+    // bindfs says what it shows, and not its name.
+    const bool says_no_more = shows_folder && type == "fuse";
+    const std::string kind = says_no_more ? "" : kind_of_shared(about.f_type, type);
+    if (!kind.empty()) return kind + shown;
+    if (!shows_folder) return {};
     place = mount->source;
     shown = fmt::format(", which {} shows", mount->type);
   }

@@ -299,6 +299,41 @@ command = ["./program"]
         self.assertIn("no-such-command", done.stderr)
 
 
+class BehindFuse(Environment):
+    """Folders that bindfs shows: real FUSE, under the names that the test gives it."""
+
+    def show(self, *options):
+        """A folder of this disk, behind FUSE."""
+        need_root("mounting bindfs")
+        need("bindfs", "bindfs")
+        behind, shown = self.folder / "behind", self.folder / "shown"
+        behind.mkdir(exist_ok=True)
+        shown.mkdir(exist_ok=True)
+        done = subprocess.run(["bindfs", *options, str(behind), str(shown)], capture_output=True,
+                              text=True, timeout=60, check=False)
+        if done.returncode != 0:
+            self.skipTest("skipped: bindfs cannot be mounted: " + done.stderr.strip())
+        self.addCleanup(subprocess.run, ["umount", "-l", str(shown)], check=False)
+        return shown
+
+    def test_a_local_folder_is_local(self):
+        for options in ((), ("-o", "subtype=gocryptfs")):
+            self.store = self.show(*options) / f"campaign{len(options)}.db"
+            code, words = self.run_here()
+            self.assertEqual(code, 0, words)
+            self.assert_same_answer()
+            self.count("local folders behind FUSE")
+
+    def test_what_may_be_remote_is_refused_by_its_name(self):
+        for name in ("sshfs", "glusterfs", "some-new-thing"):
+            self.store = self.show("-o", f"subtype={name}") / "campaign.db"
+            code, words = self.run_here()
+            self.assertEqual(code, 2, words)
+            self.assertIn(f"fuse.{name}", words)
+            self.assertIn("SWARMSMITH_ALLOW_NETWORK_FS", words)
+            self.count("remote folders behind FUSE")
+
+
 class Outsider(Environment):
     """A container: another user without any right, half a processor, process 1, no home."""
 
