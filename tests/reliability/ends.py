@@ -57,18 +57,20 @@ def what_is_wrong_with(end):
     name = " ".join(pathlib.Path(str(word)).name for word in end.words)[:120]
     if end.hung:
         return f"`{name}` has no end"
-    if end.code == -signal.SIGKILL:  # what the limit of processor time ends with
+    if end.code in (-signal.SIGKILL, 128 + signal.SIGXCPU):  # what the limit of processor time ends with
         return f"`{name}` took {end.processor:.0f} s of processor time and had no end"
     if end.code < 0:
         return f"`{name}` was ended by signal {-end.code}: {said[-300:]}"
     for word in BROKEN:
         if word in end.err:
             return f"`{name}` says `{word}`: {said[-300:]}"
+    if "SELECT " in end.err and "query" not in end.words:
+        return f"`{name}` answers with a statement of its own: {said[-300:]}"
     if end.code == 0:
         return ""
     if end.code not in REFUSALS:
         return f"`{name}` ended with {end.code}: {said[-300:]}"
     # `verify` and `status` answer on standard output what they have found.
-    if len(said.splitlines()[0] if said else "") < 30:
+    if max(map(len, said.splitlines()), default=0) < 30:
         return f"`{name}` ended with {end.code} and no sentence: {said!r}"
     return ""
