@@ -114,8 +114,8 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
   if (end || schema >= kSchemaVersion || !end.error().message.starts_with("no such ")) return end;
   Error error = end.error();
   const std::string file = sqlite3_db_filename(connection_->handle(), "main");
-  error.message =
-      older_schema_text(schema, fs::path(file).filename().string()) + " (" + error.message + ")";
+  const std::string lacks = limits.typed ? " (" + error.message + ")" : "";
+  error.message = older_schema_text(schema, fs::path(file).filename().string()) + lacks;
   error.where = file;
   return Unexpected(error);
 }

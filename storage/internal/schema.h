@@ -15,9 +15,9 @@ namespace swarmsmith {
 /// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). A change of either is a new version.
-inline constexpr std::int64_t kSchemaVersion = 11;
+inline constexpr std::int64_t kSchemaVersion = 12;
 /// The version that changed tables of before last: what came later are other views of the same
-/// tables, and tables of their own.
+/// tables, indexes, and tables of their own.
 inline constexpr std::int64_t kTablesVersion = 6;
 
 /// The step from one version to the next; runs in a transaction of its own. Views need no step:
@@ -34,8 +34,8 @@ std::span<const Migration> migrations();
 /// journal mode are kept in the file.
 void configure_writer(sqlite::Connection& connection);
 void configure_reader(sqlite::Connection& connection);
-/// Of a store that lacks nothing but the newest views: gives them to a reader's connection, until
-/// its temp_store changes.
+/// Gives a reader's connection the newest views, those of lent_views.sql in place of the file's,
+/// until its temp_store changes; unless the store is so old that it lacks tables that they need.
 void lend_views(sqlite::Connection& connection);
 
 /// Makes tables and views in an empty database; the caller holds a transaction.

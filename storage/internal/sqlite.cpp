@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
+#include "storage/internal/spill_place.h"
 
 namespace swarmsmith::sqlite {
 
@@ -89,7 +90,8 @@ thread_local Listener* Listener::now_ = nullptr;
 Connection::Connection(const std::string& file, int flags) {
   sqlite3* opened = nullptr;
   const Listener listener;
-  const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX,
+                                   vfs_that_spills_beside(file));
   handle_.reset(opened);
   if (code == SQLITE_OK && !this->file().empty()) descriptor_ = listener.descriptor();
   if (opened == nullptr) throw SqliteError(code, sqlite3_errstr(code));
