@@ -85,7 +85,7 @@ AnswerCache::SoFar AnswerCache::get_within(const std::string& question, const st
       ++working_;
       std::thread([this, question, stamp, number, promise, make = std::move(make)] {
         const auto answer = std::make_shared<const KeptAnswer>(make());
-        const std::scoped_lock lock(mutex_);
+        const std::scoped_lock at_its_end(mutex_);
         finish(question, stamp, number, answer);
         promise->set_value(answer);
         --working_;
