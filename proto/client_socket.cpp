@@ -1,8 +1,11 @@
+#include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
 #include <zmq.hpp>
 
+#include "base/peer_user.h"
 #include "proto/internal/zmq_support.h"
 #include "proto/socket.h"
 #include "proto/wire.h"
@@ -11,22 +14,122 @@ namespace swarmsmith {
 
 namespace {
 
-/// Each means that there is no connection (any more).
-constexpr int kEvents = ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_CLOSED |
+/// All but the first two mean that there is no connection (any more).
+constexpr int kEvents = ZMQ_EVENT_CONNECTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
+                        ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_CLOSED |
                         ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
                         ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
+
+/// The numbers behind endpoints with names; why there are none, if so.
+Expected<std::vector<Address>> looked_up(const std::vector<std::string>& endpoints) {
+  std::vector<Address> all;
+  Error first{ErrorKind::Unavailable, "no address to connect to", ""};
+  for (const std::string& endpoint : endpoints) {
+    const auto address = address_of(endpoint);
+    if (!address) continue;
+    auto numbers = numbers_of(address->host);
+    if (!numbers) {
+      if (first.where.empty()) first = {ErrorKind::Unavailable, numbers.error().message, endpoint};
+      continue;
+    }
+    for (std::string& number : *numbers) {
+      Address found{std::move(number), address->port};
+      if (std::ranges::find(all, found) == all.end()) all.push_back(std::move(found));
+    }
+  }
+  if (all.empty()) return Unexpected(first);
+  return all;
+}
+
+/// Whose program listens there, where it is another user's. Root's does not let others in, but may
+/// be the end of a tunnel.
+std::string other_owner(const Address& address) {
+  if (!is_loopback(address.host)) return "";
+  const auto user = user_who_listens(address.host, address.port);
+  if (!user || *user == geteuid() || geteuid() == 0) return "";
+  return "the program that listens there belongs to another user of this host (" +
+         name_of_user(*user) +
+         "); without keys a coordinator on loopback answers only its own user (`swarmsmith "
+         "keygen`)";
+}
 
 }  // namespace
 
 struct ClientSocket::Impl {
-  std::string endpoint;
+  std::vector<std::string> endpoints;
   SocketOptions options;
   std::optional<ClientKeys> keys;
   zmq::context_t context{1};
   zmq::socket_t socket;
   zmq::socket_t monitor;
   std::uint64_t connections = 0;
+  std::size_t choices = 0;
+  Address address;  ///< of the last connection
   bool refused = false;
+  bool stood = false;
+  bool lost = false;
+  std::string trouble;
+  int descriptor = -1;  ///< of the connection, while it is made
+
+  /// Whether the kernel is asked who serves.
+  bool asks_for_user() const { return !keys && is_loopback(address.host); }
+
+  void begin() {
+    const auto numbers = looked_up(endpoints);
+    choices = numbers ? numbers->size() : 0;
+    if (!numbers) {
+      lost = true;
+      trouble = to_string(numbers.error());
+      return;
+    }
+    address = (*numbers)[connections++ % choices];
+    if (const auto user =
+            asks_for_user() ? user_who_listens(address.host, address.port) : std::nullopt;
+        user && !is_same_user(*user)) {
+      // Not even a greeting for them.
+      lost = true;
+      trouble = other_owner(address);
+      return;
+    }
+    socket = zmq::socket_t(context, zmq::socket_type::dealer);
+    apply(options, kMaxFrameToWorkerBytes, socket);
+    socket.set(zmq::sockopt::ipv6, address.host.find(':') != std::string::npos);
+    // The worker's protocol decides when to try again.
+    socket.set(zmq::sockopt::reconnect_ivl, -1);
+    if (keys) {
+      socket.set(zmq::sockopt::curve_serverkey, keys->server_key);
+      socket.set(zmq::sockopt::curve_secretkey, keys->secret_key);
+      socket.set(zmq::sockopt::curve_publickey, public_key_of(keys->secret_key));
+    }
+    monitor = watch(context, socket, "monitor-" + std::to_string(connections), kEvents);
+    socket.connect(tcp_endpoint(address));
+  }
+
+  /// Before frames are taken: who sent them is then known.
+  void hear() {
+    MonitorEvent event;
+    while (monitor && receive_event(monitor, event)) {
+      if (event.event == ZMQ_EVENT_CONNECTED) {
+        descriptor = event.value;
+      } else if (event.event != ZMQ_EVENT_HANDSHAKE_SUCCEEDED) {
+        lost = true;
+        if (event.event == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH) refused = true;
+        if (!keys && trouble.empty()) trouble = other_owner(address);
+      } else if (!asks_for_user() || is_served_by_same_user()) {
+        stood = true;
+      } else {
+        lost = true;
+        trouble = other_owner(address);
+        return drop(std::chrono::milliseconds{0});
+      }
+    }
+  }
+
+  /// Who shook hands has taken the connection, so that it is a process's by now.
+  bool is_served_by_same_user() const {
+    static const bool is_known = kernel_names_users();
+    return is_of_same_user(descriptor) || !is_known;
+  }
 
   /// Throws nothing: the destructor calls it.
   void drop(std::chrono::milliseconds linger) {
@@ -46,8 +149,10 @@ ClientSocket::ClientSocket(std::string endpoint, const SocketOptions& options,
   redirect(std::move(endpoint), std::move(keys));
 }
 
-void ClientSocket::redirect(std::string endpoint, std::optional<ClientKeys> keys) {
-  impl_->endpoint = std::move(endpoint);
+void ClientSocket::redirect(std::string endpoint, std::optional<ClientKeys> keys,
+                            std::vector<std::string> others) {
+  impl_->endpoints = std::move(others);
+  impl_->endpoints.insert(impl_->endpoints.begin(), std::move(endpoint));
   impl_->keys = std::move(keys);
 }
 
@@ -57,19 +162,9 @@ ClientSocket::~ClientSocket() {
 
 void ClientSocket::connect() {
   impl_->drop(std::chrono::milliseconds{0});
-  impl_->refused = false;
-  impl_->socket = zmq::socket_t(impl_->context, zmq::socket_type::dealer);
-  apply(impl_->options, kMaxFrameToWorkerBytes, impl_->socket);
-  // The worker's protocol decides when to try again.
-  impl_->socket.set(zmq::sockopt::reconnect_ivl, -1);
-  if (impl_->keys) {
-    impl_->socket.set(zmq::sockopt::curve_serverkey, impl_->keys->server_key);
-    impl_->socket.set(zmq::sockopt::curve_secretkey, impl_->keys->secret_key);
-    impl_->socket.set(zmq::sockopt::curve_publickey, public_key_of(impl_->keys->secret_key));
-  }
-  impl_->monitor = watch(impl_->context, impl_->socket,
-                         "monitor-" + std::to_string(++impl_->connections), kEvents);
-  impl_->socket.connect(impl_->endpoint);
+  impl_->refused = impl_->stood = impl_->lost = false;
+  impl_->trouble.clear();
+  impl_->begin();
 }
 
 void ClientSocket::close(std::chrono::milliseconds linger) {
@@ -82,9 +177,12 @@ SendStatus ClientSocket::send(std::string_view frame) {
 }
 
 bool ClientSocket::receive(std::string& frame) {
+  impl_->hear();
   if (!impl_->socket) return false;
   zmq::message_t message;
-  if (!impl_->socket.recv(message, zmq::recv_flags::dontwait)) return false;
+  do {
+    if (!impl_->socket.recv(message, zmq::recv_flags::dontwait)) return false;
+  } while (message.size() == 0 && !message.more());
   const bool single = !message.more();
   while (message.more())
     (void)impl_->socket.recv(message, zmq::recv_flags::dontwait);
@@ -93,14 +191,20 @@ bool ClientSocket::receive(std::string& frame) {
 }
 
 bool ClientSocket::lost() {
-  if (!impl_->monitor) return false;
-  bool lost = false;
-  MonitorEvent event;
-  while (receive_event(impl_->monitor, event)) {
-    lost = true;
-    if (event.event == ZMQ_EVENT_HANDSHAKE_FAILED_AUTH) impl_->refused = true;
-  }
-  return lost;
+  impl_->hear();
+  return std::exchange(impl_->lost, false);
+}
+
+const std::string& ClientSocket::trouble() const {
+  return impl_->trouble;
+}
+
+std::size_t ClientSocket::choices() const {
+  return impl_->choices;
+}
+
+bool ClientSocket::stood() const {
+  return impl_->stood;
 }
 
 bool ClientSocket::refused() const {
@@ -117,6 +221,7 @@ void ClientSocket::wait(const Wakeup& wakeup, std::chrono::milliseconds timeout)
     items[2].socket = impl_->monitor.handle();
     count = items.size();
   }
+  if (impl_->lost) timeout = std::chrono::milliseconds{0};
   poll(items.data(), count, timeout);
 }
 

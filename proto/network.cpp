@@ -7,10 +7,15 @@
 
 namespace swarmsmith {
 
+std::string plain_number(const std::string& address) {
+  constexpr std::string_view kMapped = "::ffff:";
+  const bool is_mapped = address.starts_with(kMapped) && address.find('.') != std::string::npos;
+  return is_mapped ? address.substr(kMapped.size()) : address;
+}
+
 std::string network_of(const std::string& address) {
   constexpr const char* kLoopback = "loopback";
-  constexpr std::string_view kMapped = "::ffff:";
-  const std::string text = address.starts_with(kMapped) ? address.substr(kMapped.size()) : address;
+  const std::string text = plain_number(address);
   std::array<unsigned char, 16> bytes{};
   if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) {
     return bytes[0] == 127 ? kLoopback : text;

@@ -6,6 +6,7 @@
 #include <zmq.hpp>
 
 #include "base/clock.h"
+#include "base/peer_user.h"
 #include "proto/internal/gate.h"
 #include "proto/internal/tcp_bytes.h"
 #include "proto/internal/zmq_support.h"
@@ -54,6 +55,20 @@ constexpr double kLeastBytesPerSecond = 256U << 10U;
 constexpr Duration kPatience = std::chrono::seconds(5);
 constexpr Duration kLookAgain = std::chrono::milliseconds(50);
 
+/// Where to listen: libzmq looks no host's name up there. What is no such name may be an
+/// interface's, which it knows.
+Expected<Address> address_to_bind(const std::string& endpoint) {
+  auto address = address_of(endpoint);
+  if (!address) return bad_input("invalid address; expected tcp://HOST:PORT", endpoint);
+  if (address->host == "localhost") address->host = "127.0.0.1";
+  if (address->host == "*") return *address;
+  const auto numbers = numbers_of(address->host);
+  if (numbers && !numbers->empty()) address->host = numbers->front();
+  if (!numbers && is_host_number(address->host))
+    return bad_input(numbers.error().message, endpoint);
+  return *address;
+}
+
 std::string property_of(zmq::message_t& frame, const char* name) {
   const char* value = zmq_msg_gets(frame.handle(), name);
   return value != nullptr ? value : "";
@@ -68,16 +83,14 @@ std::uint64_t Refusals::total() const {
   return sum;
 }
 
-bool is_tcp_address(std::string_view endpoint) {
-  constexpr std::string_view kScheme = "tcp://";
-  constexpr int kLargestPort = 65'535;
-  const std::size_t colon = endpoint.rfind(':');
-  if (!endpoint.starts_with(kScheme) || colon <= kScheme.size()) return false;
-  const std::string port(endpoint.substr(colon + 1));
-  if (port == "*") return true;
-  if (port.empty() || port.size() > 5) return false;
-  if (port.find_first_not_of("0123456789") != std::string::npos) return false;
-  return std::stoi(port) <= kLargestPort;
+std::optional<Address> address_of(std::string_view endpoint) {
+  if (!endpoint.starts_with(kTcpScheme)) return std::nullopt;
+  auto address = parse_address(endpoint.substr(kTcpScheme.size()));
+  return address ? std::optional(std::move(*address)) : std::nullopt;
+}
+
+std::string tcp_endpoint(const Address& address) {
+  return std::string(kTcpScheme) + to_string(address);
 }
 
 struct ServerSocket::Impl {
@@ -88,6 +101,7 @@ struct ServerSocket::Impl {
     std::string key;
     std::optional<ListedClient> client;  ///< nothing once it is cut off
     std::string address;
+    bool stranger = false;  ///< another user's
     Connection connection;
     Gate::Taken taken;
     std::uint64_t* unsent_to_host = nullptr;
@@ -103,6 +117,7 @@ struct ServerSocket::Impl {
   zmq::socket_t socket{context, zmq::socket_type::router};
   std::unique_ptr<Gate> gate;
   bool by_key = false;
+  bool asks_for_user = false;
   SocketOptions options;
   SystemClock clock;
   std::unordered_map<PeerId, Peer> peers;
@@ -124,14 +139,31 @@ struct ServerSocket::Impl {
       unsent_to_all = 0;
     }
     Peer& peer = peers[id];
-    peer.address = property_of(frame, "Peer-Address");
+    peer.address = plain_number(property_of(frame, "Peer-Address"));
     peer.connection = connection_at(zmq_msg_get(frame.handle(), ZMQ_SRCFD));
     peer.taken = gate->meter_of(peer.connection);
     peer.unsent_to_host = &unsent_to[network_of(peer.address)];
+    if (asks_for_user && !is_of_same_user(id, peer)) {
+      peer.stranger = true;
+      cut(peer.connection);
+    }
     if (!by_key) return peer;
     peer.key = property_of(frame, "User-Id");
     check(peer);
     return peer;
+  }
+
+  /// The kernel knows whose a connection is, and libzmq that it still stands: only then is the
+  /// descriptor that the message names not another one's by now. libzmq hears of an end before it
+  /// closes the descriptor.
+  bool is_of_same_user(PeerId id, const Peer& peer) {
+    if (!swarmsmith::is_of_same_user(peer.connection.descriptor)) return false;
+    if (!options.probes_newcomers) return true;
+    (void)socket.get(zmq::sockopt::events);  // takes what it has heard, which a sending may put off
+    const RoutingId to = routing_id_of(id);
+    const std::string_view bytes(reinterpret_cast<const char*>(to.data()), to.size());
+    return send_on(socket, bytes, zmq::send_flags::sndmore) == SendStatus::Sent &&
+           send_on(socket, "", zmq::send_flags::none) == SendStatus::Sent;
   }
 
   void change_unsent(Peer& peer, std::uint64_t given, std::uint64_t arrived) {
@@ -215,14 +247,22 @@ ServerSocket::~ServerSocket() = default;
 Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& endpoint,
                                                            const SocketOptions& options,
                                                            std::optional<ServerKeys> keys) {
+  const auto address = address_to_bind(endpoint);
+  if (!address) return Unexpected(address.error());
   auto impl = std::make_unique<Impl>();
   apply(options, kMaxFrameBytes, impl->socket);
+  // "*" is then every interface of both families.
+  const bool both = address->host == "*";
+  impl->socket.set(zmq::sockopt::ipv6, both || address->host.find(':') != std::string::npos);
   impl->socket.set(zmq::sockopt::backlog, kBacklog);
   // Else a message to a peer that has gone vanishes without an error.
   impl->socket.set(zmq::sockopt::router_mandatory, true);
   impl->by_key = keys.has_value();
   impl->options = options;
-  impl->gate = std::make_unique<Gate>(impl->context, impl->socket, impl->by_key, options);
+  impl->asks_for_user = !keys && is_loopback(address->host) && kernel_names_users();
+  impl->gate =
+      std::make_unique<Gate>(impl->context, impl->socket,
+                             Gate::Asks{.key = impl->by_key, .user = impl->asks_for_user}, options);
   if (keys) {
     impl->gate->admit(std::move(keys->clients));
     impl->socket.set(zmq::sockopt::curve_server, true);
@@ -230,7 +270,7 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
     impl->socket.set(zmq::sockopt::zap_domain, "swarmsmith");
   }
   try {
-    impl->socket.bind(endpoint);
+    impl->socket.bind(tcp_endpoint(*address));
   } catch (const zmq::error_t& error) {
     const bool taken = error.num() == EADDRINUSE;
     return unexpected(taken ? ErrorKind::Conflict : ErrorKind::Unavailable,
@@ -246,11 +286,15 @@ const std::string& ServerSocket::endpoint() const {
   return impl_->endpoint;
 }
 
+bool ServerSocket::asks_for_user() const {
+  return impl_->asks_for_user;
+}
+
 SendStatus ServerSocket::send(PeerId peer, std::string_view frame) {
   const auto known = impl_->peers.find(peer);
   const bool is_known = known != impl_->peers.end();
   if (is_known) {
-    if (impl_->by_key && !known->second.client) return SendStatus::Gone;
+    if (known->second.stranger || (impl_->by_key && !known->second.client)) return SendStatus::Gone;
     const SendStatus room = impl_->room_for(known->second, frame.size());
     if (room != SendStatus::Sent) return room;
   }
@@ -285,7 +329,7 @@ bool ServerSocket::receive(Received& received) {
       *peer->taken += impl_->frame.size() + (impl_->by_key ? kBesidesAFrameByKey : kBesidesAFrame);
     }
     if (frames != 1) impl_->frame.rebuild();
-    if (peer == nullptr || (impl_->by_key && !peer->client)) continue;
+    if (peer == nullptr || peer->stranger || (impl_->by_key && !peer->client)) continue;
     received = {.peer = *id,
                 .frame = impl_->frame.to_string_view(),
                 .role = {},

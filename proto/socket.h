@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/address.h"
 #include "base/expected.h"
 #include "proto/curve.h"
 #include "proto/role.h"
@@ -35,6 +36,11 @@ struct SocketOptions {
   std::chrono::milliseconds handshake_timeout{3000};
   std::chrono::milliseconds linger{0};
   int send_queue = 1000;  ///< messages a peer
+  /// On loopback without keys a server sends an empty frame to each newcomer, which tells whether
+  /// the connection that spoke is still the one whose user it knows. Clients of others, who would
+  /// not expect it, may be spared that; they could be taken for each other in the moment in which
+  /// one's connection ends and the next one's begins.
+  bool probes_newcomers = true;
   /// A server closes connections beyond these, half-open ones included (orchestration facts, 5
   /// "Limits"); those without a handshake end by themselves after `handshake_timeout`. Each takes a
   /// descriptor: where the process's limit is lower, libzmq leaves newcomers in the system's queue.
@@ -58,9 +64,9 @@ struct SocketOptions {
 /// Who was kept out since the start, or cut off.
 struct Refusals {
   /// By reason: "unlisted key", "expired key", "revoked key", "plaintext", "wrong server key", "bad
-  /// handshake", "no handshake" (rubbish, silence, or a peer that hung up first), "too many
-  /// connections", "too many connections of one host", "too much at once" (bytes that nobody could
-  /// take), "reads too slowly".
+  /// handshake", "no handshake" (rubbish, silence, or a peer that hung up first), "another user",
+  /// "too many connections", "too many connections of one host", "too much at once" (bytes that
+  /// nobody could take), "reads too slowly".
   std::map<std::string, std::uint64_t> counts;
   std::map<std::string, std::string> last_from;  ///< address or key's name, where it is known
 
@@ -80,8 +86,9 @@ class ServerSocket {
   };
 
   /// `endpoint` as "tcp://127.0.0.1:5555"; port * takes a free one. Unavailable when it is taken.
-  /// With keys, connections are encrypted, and only listed clients come in (orchestration facts,
-  /// 6); without, everybody does, as Role::Anyone.
+  /// A name is looked up first. With keys, connections are encrypted, and only listed clients come
+  /// in (orchestration facts, 6). Without, all come in, as Role::Anyone; but on loopback only
+  /// processes of this one's user, and root's.
   static Expected<std::unique_ptr<ServerSocket>> bind(const std::string& endpoint,
                                                       const SocketOptions& options = {},
                                                       std::optional<ServerKeys> keys = {});
@@ -89,6 +96,9 @@ class ServerSocket {
 
   /// The real one, with its port.
   const std::string& endpoint() const;
+  /// Whether other users of this host are kept out: on loopback without keys, where the kernel says
+  /// whose a connection is.
+  bool asks_for_user() const;
   /// Never blocks.
   SendStatus send(PeerId peer, std::string_view frame);
   /// Takes a message if there is one; false if not. Over-long messages never arrive: their
@@ -108,26 +118,34 @@ class ServerSocket {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The worker's end. Never connects again by itself: `lost` tells, and `connect` starts anew. One
-/// thread.
+/// The worker's end. Never connects again by itself: `lost` tells, and `connect` starts anew. On
+/// loopback without keys it talks only to its own user's process, or root's. One thread.
 class ClientSocket {
  public:
   explicit ClientSocket(std::string endpoint, const SocketOptions& options = {},
                         std::optional<ClientKeys> keys = {});
   ~ClientSocket();
 
-  /// Where the next `connect` goes, and with which keys.
-  void redirect(std::string endpoint, std::optional<ClientKeys> keys);
-  /// Drops the old connection, if any, and what it had not sent, and begins a new one.
+  /// Where the next `connect` goes, and with which keys. `others`: where the same server may be
+  /// found, too.
+  void redirect(std::string endpoint, std::optional<ClientKeys> keys,
+                std::vector<std::string> others = {});
+  /// Drops the old connection, if any, and what it had not sent, and begins a new one. It looks the
+  /// host's name up, which may take seconds; each time the next one of its numbers is tried.
   void connect();
   /// Drops the connection; what was sent goes out within `linger`.
   void close(std::chrono::milliseconds linger);
   /// Never blocks; frames sent before the connection stands are queued. Gone when not connected.
   SendStatus send(std::string_view frame);
-  /// Takes a frame if there is one; false if not.
+  /// Takes a frame if there is one; false if not. Empty ones are left out.
   bool receive(std::string& frame);
   /// Whether the connection broke, or could not be made, since the last call.
   bool lost();
+  /// Why, in a sentence, where that is known: an unknown name, another user's port.
+  const std::string& trouble() const;
+  /// How many numbers the last `connect` had to choose from, and whether it got through.
+  std::size_t choices() const;
+  bool stood() const;
   /// Whether the last connection ended because the server does not want this client's key.
   bool refused() const;
   void wait(const Wakeup& wakeup, std::chrono::milliseconds timeout);
@@ -137,8 +155,9 @@ class ClientSocket {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether the text is tcp://HOST:PORT, with a number up to 65535 for the port, or * for a free
-/// one.
-bool is_tcp_address(std::string_view endpoint);
+inline constexpr std::string_view kTcpScheme = "tcp://";
+/// Of tcp://HOST:PORT; nothing for other texts.
+std::optional<Address> address_of(std::string_view endpoint);
+std::string tcp_endpoint(const Address& address);
 
 }  // namespace swarmsmith

@@ -145,7 +145,7 @@ bool is_fine(const pb::Heartbeat& heartbeat) {
 
 bool is_fine(const pb::Command& command) {
   return command.campaign().size() <= kMaxTextBytes && command.who().size() <= kMaxTextBytes &&
-         command.design() >= 0 && command.budget() >= 0;
+         command.whom().size() <= kMaxTextBytes && command.design() >= 0 && command.budget() >= 0;
 }
 
 bool is_fine(const pb::ToCoordinator& message) {
@@ -180,6 +180,8 @@ bool is_fine(const pb::ToWorker& message) {
       return all(message.acknowledged().keys(), is_key);
     case pb::ToWorker::kReject:
       return message.reject().sentence().size() <= kMaxTextBytes;
+    case pb::ToWorker::kNotice:
+      return message.notice().sentence().size() <= kMaxTextBytes;
     case pb::ToWorker::kHeartbeat:
       return is_fine(message.heartbeat());
     case pb::ToWorker::kWelcome:

@@ -20,7 +20,7 @@ namespace swarmsmith {
 inline constexpr std::string_view kFrameMagic = "SWRM";
 inline constexpr std::size_t kFrameHeaderBytes = 8;
 inline constexpr std::uint16_t kProtocolMajor = 4;
-inline constexpr std::uint16_t kProtocolMinor = 0;
+inline constexpr std::uint16_t kProtocolMinor = 1;
 
 /// What a receiver puts up with; senders keep far below.
 inline constexpr std::size_t kMaxFrameBytes = 1U << 20U;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "base/overloaded.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -98,6 +99,7 @@ void visit_fields(const Row& row, Field&& field) {
             field("design", r.design), field("step", r.step), field("kind", word_of(r.kind));
             field("budget", r.budget);
           },
+          [&](const ForgivenRow& r) { field("principal", r.principal); },
       },
       row);
 }
@@ -178,8 +180,16 @@ std::string title(const Row& row) {
           [](const EventRow&) { return std::string("event"); },
           [](const AttemptRow& r) { return "attempt at evaluation " + to_string(r.key); },
           [](const CommandRow&) { return std::string("command"); },
+          [](const ForgivenRow&) { return std::string("forgiven"); },
       },
       row);
+}
+
+using Replay = PurposeFacts::Replay;
+
+Replay replay_of(Purpose purpose) {
+  const auto facts = facts_of(purpose);
+  return facts ? facts->replay : Replay::None;
 }
 
 Digest digest_of(const Row& row) {
@@ -194,14 +204,11 @@ bool in_answer(const Row& row) {
   return std::visit(Overloaded{
                         [](const auto&) { return true; },
                         [](const EvaluationRow& r) {
-                          return is_of_tests(r.key.purpose) ||
-                                 r.key.purpose == Purpose::Evaluator ||
-                                 (r.key.purpose == Purpose::Race && r.iteration != 0);
+                          const Replay replay = replay_of(r.key.purpose);
+                          return replay != Replay::None &&
+                                 (replay != Replay::Race || r.iteration != 0);
                         },
-                        [](const PairRow& r) {
-                          return is_of_tests(r.purpose) || r.purpose == Purpose::Race ||
-                                 r.purpose == Purpose::Evaluator;
-                        },
+                        [](const PairRow& r) { return replay_of(r.purpose) != Replay::None; },
                         [](const UnusedRow&) { return false; },
                         [](const CampaignStateRow&) { return false; },
                         [](const WorkerRow&) { return false; },
@@ -210,6 +217,7 @@ bool in_answer(const Row& row) {
                         [](const EventRow&) { return false; },
                         [](const AttemptRow&) { return false; },
                         [](const CommandRow& r) { return r.step && is_of_race(r.kind); },
+                        [](const ForgivenRow&) { return false; },
                     },
                     row);
 }
@@ -233,9 +241,9 @@ std::string describe(const Row& row) {
 }
 
 std::string to_string(const EvaluationKey& key) {
-  constexpr std::string_view kLetters[] = {"", "l", "t", "a", "s", "v"};
+  const auto facts = facts_of(key.purpose);
   return fmt::format("e{}{}", key.candidate.value * kPairsPerCandidate + key.pair,
-                     kLetters[static_cast<std::size_t>(key.purpose)]);
+                     facts ? facts->letter : "?");
 }
 
 }  // namespace swarmsmith

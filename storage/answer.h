@@ -26,8 +26,7 @@ void add_answer(Digest& digest, const Row& row);
 std::string describe(const Row& row);
 
 /// How people see an evaluation: e<candidate * 100,000 + pair>, and a letter after it when it was
-/// not made for a race: l look-ahead, t test, a audit, s score, v a call of a
-/// targetEvaluator. (Column `id` of v_evaluations.)
+/// not made for a race (PurposeFacts::letter). (Column `id` of v_evaluations.)
 std::string to_string(const EvaluationKey& key);
 
 }  // namespace swarmsmith

@@ -7,7 +7,9 @@
 #include "storage/internal/new_file.h"
 #include "storage/internal/reading.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/schema.h"
+#include "storage/internal/schema_check.h"
 #include "storage/store.h"
 
 namespace swarmsmith {
@@ -31,6 +33,16 @@ void copy_pages(const Connection& from, const Connection& to, const OnCopied& on
   }
   sqlite3_backup_finish(copying);
   if (code != SQLITE_DONE) to.fail(code, sqlite3_errstr(code));
+}
+
+/// All rows of our tables, into an empty database: nothing else that stands in the file comes
+/// along.
+void copy_our_rows(const Connection& from, Connection& to, std::int64_t schema) {
+  sqlite::Transaction transaction(to);
+  create_tables(to, schema);
+  copy_rows(from, to);
+  finish_schema(to, schema);
+  transaction.commit();
 }
 
 }  // namespace
@@ -57,8 +69,20 @@ Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnC
     const Snapshot snapshot(original);
     const std::int64_t schema = schema_of(original);  // the snapshot begins with the first reading
     Connection copy(to.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-    copy_pages(original, copy, on_copied);
-    configure_writer(copy);
+    const bool is_ours = foreign_objects(original, schema).empty();
+    if (is_ours) {
+      copy_pages(original, copy, on_copied);
+      configure_writer(copy);
+    } else {
+      configure_writer(copy);
+      copy.execute("PRAGMA foreign_keys = OFF");
+      copy_our_rows(original, copy, schema);
+    }
+    // A migration counts the rows anew.
+    if (const std::string changed = schema == kSchemaVersion ? "" : changed_rows(copy);
+        !changed.empty()) {
+      return damaged(store, changed);
+    }
     upgrade(copy, migrations());
     forget_secret(copy);  // copies are given away while the campaign goes on
     if (const auto faults = faults_of(copy); !faults.empty()) return damaged(store, faults.front());

@@ -10,6 +10,7 @@
 #include "storage/internal/new_file.h"
 #include "storage/internal/reading.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
 #include "storage/renumber.h"
@@ -198,6 +199,7 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
         return Unexpected(taken.error());
       }
     }
+    RowSums::found(connection).write(connection);
     if (const auto faults = faults_of(connection); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt, "what was merged is damaged: " + faults.front(),
                         into.string());

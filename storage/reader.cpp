@@ -4,14 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/closed_file.h"
 #include "storage/internal/file_checks.h"
 #include "storage/internal/query.h"
 #include "storage/internal/reading.h"
 #include "storage/internal/real_run_reader.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/schema.h"
+#include "storage/internal/schema_check.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store.h"
+#include "storage/whole.h"
 
 namespace swarmsmith {
 namespace {
@@ -28,6 +32,11 @@ Unexpected no_such_run(RealRunId id, const std::vector<RealRunHead>& known) {
                   known.size(), to_string(known.front().id), to_string(known.back().id)));
 }
 
+/// Within a Snapshot.
+std::string changes_since_closed(const Connection& connection) {
+  return is_as_closed(connection) ? "" : changed_rows(connection);
+}
+
 class SqliteReader final : public StoreReader {
  public:
   explicit SqliteReader(std::shared_ptr<Connection> connection,
@@ -40,7 +49,7 @@ class SqliteReader final : public StoreReader {
   std::vector<DesignRow> designs() override { return read_designs(*connection_, part()); }
   std::vector<StoredScore> scores() override { return read_scores(*connection_, part()); }
   std::vector<CommandRow> commands() override { return read_commands(*connection_, part()); }
-  std::vector<RealRunHead> real_runs() override { return read_real_runs(*connection_, part()); }
+  std::vector<RealRunHead> real_runs() override;
   Expected<RealRunRows> real_run(RealRunId id) override;
   bool finished() override {
     return std::ranges::all_of(campaigns(), [](const StoredCampaign& each) {
@@ -58,6 +67,11 @@ class SqliteReader final : public StoreReader {
  private:
   /// The designs that are looked at.
   Part part();
+  /// Ours; of a store of an early schema those that it has.
+  void show_views() {
+    lend_views(*connection_);
+    connection_->allow_views(!has_our_views(*connection_));
+  }
 
   std::shared_ptr<Connection> connection_;
   std::optional<std::int64_t> only_;  ///< the campaign that is looked at; none: all
@@ -88,7 +102,13 @@ void SqliteReader::each_answer_row(const std::function<void(const Row&)>& on_row
   read_answer(*connection_, part(), on_row);
 }
 
+std::vector<RealRunHead> SqliteReader::real_runs() {
+  show_views();
+  return read_real_runs(*connection_, part());
+}
+
 Expected<RealRunRows> SqliteReader::real_run(RealRunId id) {
+  show_views();
   const Snapshot snapshot(*connection_);
   const std::vector<RealRunHead> known = read_real_runs(*connection_, part());
   const auto head = std::ranges::find(known, id, &RealRunHead::id);
@@ -100,6 +120,8 @@ Expected<RealRunRows> SqliteReader::real_run(RealRunId id) {
 
 std::string SqliteReader::digest() {
   const Snapshot snapshot(*connection_);
+  if (const std::string changed = changes_since_closed(*connection_); !changed.empty())
+    connection_->fail(SQLITE_CORRUPT, changed);
   const std::vector<StoredCampaign> all = campaigns();
   return all.size() == 1 ? digest_of_campaign(*connection_, all.front())
                          : digest_of_store(*connection_);
@@ -121,7 +143,26 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
 }
 
 std::vector<std::string> SqliteReader::integrity() {
+  const Snapshot snapshot(*connection_);
   return faults_of(*connection_);
+}
+
+/// Names stand in every table and figure: of a store of others they may be of any length.
+Expected<void> check_names(const Connection& connection, const fs::path& path) {
+  for (const auto& [column, table] : {std::pair{"name", "campaign"},
+                                      {"name", "source"},
+                                      {"mission", "design"},
+                                      {"method", "design"}}) {
+    const std::int64_t longest = sqlite::integer_of(
+        connection, fmt::format("SELECT max(length({})) FROM {}", column, table));
+    if (longest <= kLongestName) continue;
+    return unexpected(ErrorKind::Corrupt,
+                      fmt::format("a {} in the store's table {} has {} characters; a store has "
+                                  "names of {} at most",
+                                  column, table, longest, kLongestName),
+                      path.string());
+  }
+  return {};
 }
 
 Unexpected refused(const sqlite::SqliteError& error, const fs::path& path) {
@@ -170,7 +211,26 @@ Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& named) 
                         path.string());
     }
     if (auto ours = check_identity(*connection, path); !ours) return Unexpected(ours.error());
+    if (auto tables = check_tables(*connection, path); !tables) return Unexpected(tables.error());
+    if (auto names = check_names(*connection, path); !names) return Unexpected(names.error());
     return std::make_unique<SqliteReader>(std::make_shared<Connection>(std::move(*connection)));
+  } catch (const sqlite::SqliteError& error) {
+    return refused(error, path);
+  }
+}
+
+Expected<void> check_rows(const fs::path& store) {
+  const fs::path path = real_store(store);
+  try {
+    auto connection = connect_for_reading(path);
+    if (!connection || is_blank(*connection) || !check_identity(*connection, path) ||
+        !check_tables(*connection, path)) {
+      return {};
+    }
+    const Snapshot snapshot(*connection);
+    const std::string changed = changes_since_closed(*connection);
+    if (changed.empty()) return {};
+    return unexpected(ErrorKind::Corrupt, damaged_text(changed), path.string());
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);
   }

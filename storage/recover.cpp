@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -11,10 +12,12 @@
 #include "storage/internal/reading.h"
 #include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/salvage.h"
 #include "storage/internal/schema.h"
 #include "storage/renumber.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -25,17 +28,23 @@ using sqlite::SqliteError;
 using sqlite::Statement;
 
 /// Ids that only damage can have made, and what no column's type forbids.
-constexpr std::array kNonsense{
-    "DELETE FROM design WHERE id < 1 OR state NOT BETWEEN 0 AND 4",
-    "DELETE FROM candidate WHERE id < 1 OR iteration < 0",
-    "DELETE FROM pair WHERE number < 1 OR purpose NOT BETWEEN 0 AND 5",
-    "DELETE FROM evaluation WHERE pair < 1 OR purpose NOT BETWEEN 0 AND 5"
-    " OR status NOT BETWEEN 0 AND 1 OR (status = 0) <> (score IS NOT NULL)",
-    "DELETE FROM race_step WHERE step < 1",
-    "DELETE FROM real_run WHERE id < 1",
-    "DELETE FROM real_score WHERE verdict NOT IN ('VALID', 'DEGRADED', 'INVALID')",
-    "DELETE FROM real_override WHERE verdict NOT IN ('VALID', 'DEGRADED', 'INVALID')",
-};
+std::vector<std::string> nonsense() {
+  const std::string other_purpose = "purpose NOT IN " + numbers_in_sql(is_any);
+  const std::string other_verdict = "verdict NOT IN " + verdicts_in_sql();
+  return {
+      "DELETE FROM design WHERE id < 1 OR state NOT IN " + numbers_in_sql(all_design_states()),
+      "DELETE FROM candidate WHERE id < 1 OR iteration < 0",
+      "DELETE FROM pair WHERE number < 1 OR " + other_purpose,
+      "DELETE FROM evaluation WHERE pair < 1 OR " + other_purpose + " OR status NOT IN " +
+          numbers_in_sql(all_statuses()) +
+          fmt::format(" OR (status = {}) <> (score IS NOT NULL)",
+                      static_cast<int>(EvaluationStatus::Ok)),
+      "DELETE FROM race_step WHERE step < 1",
+      "DELETE FROM real_run WHERE id < 1",
+      "DELETE FROM real_score WHERE " + other_verdict,
+      "DELETE FROM real_override WHERE " + other_verdict,
+  };
+}
 
 /// What names something that is lost. Each may make others so: they are repeated until nothing
 /// more goes.
@@ -82,7 +91,7 @@ class SqliteRecovery final : public Recovery {
     for (const TableFind& table : found.tables)
       found_.tables.push_back(
           {table.name, table.rows, table.lost_pages, table.broken, table.tree_is_lost});
-    for (const char* statement : kNonsense)
+    for (const std::string& statement : nonsense())
       remove(statement);
     // Before anything is written: new phrases may get the numbers of lost ones, and candidates
     // that are derived anew do not replace those that are there.
@@ -97,6 +106,7 @@ class SqliteRecovery final : public Recovery {
     return read_campaigns(connection_);
   }
 
+  Expected<Without> drop_words_of(const std::string& key) override;
   void put_campaign(const CampaignRow& campaign) override { write_campaign(connection_, campaign); }
   Expected<void> put_designs(const StoredCampaign& campaign,
                              const std::vector<DesignRow>& designs) override;
@@ -127,12 +137,68 @@ class SqliteRecovery final : public Recovery {
     connection_.execute(statement);
     orphans_ += connection_.changes();
   }
+  void remove_underived(const StoredCampaign& campaign, const DerivedRows& derived,
+                        const Shift& shift);
 
   NewFile file_;
   Connection connection_;
   Salvaged found_;
   std::int64_t orphans_ = 0;
+  bool is_trusted_again_ = false;  ///< what made the store unreliable is out of it
 };
+
+Expected<Recovery::Without> SqliteRecovery::drop_words_of(const std::string& key) {
+  const std::string theirs = "(SELECT id FROM worker WHERE client = ?1 OR principal = ?1)";
+  const auto run = [&](const std::string& statement) {
+    Statement(connection_, statement).run(key);
+    return connection_.changes();
+  };
+  Without without;
+  {
+    Statement count(connection_, "SELECT count(*) FROM worker WHERE id IN " + theirs);
+    count.bind(key);
+    count.step();
+    without.workers = count.integer(0);
+  }
+  if (without.workers == 0) {
+    std::string known;
+    Statement name(connection_,
+                   "SELECT DISTINCT iif(client <> '', client, principal) FROM worker"
+                   " WHERE principal <> '' AND principal NOT LIKE 'local %' ORDER BY 1 LIMIT 20");
+    while (name.step())
+      known += (known.empty() ? "" : ", ") + name.text(0);
+    return unexpected(
+        ErrorKind::NotFound,
+        "no worker of this store has that key; " +
+            (known.empty() ? "all of them were started by the coordinator itself"
+                           : "the keys, and addresses of workers without one, are: " + known),
+        key);
+  }
+  sqlite::Transaction transaction(connection_);
+  // A word of a later worker on the same evaluation is one of its own: what was said of the dropped
+  // one says nothing of it.
+  for (const char* table : {"attempt", "failure", "conflict"}) {
+    run(fmt::format(
+        "DELETE FROM {} WHERE (candidate, purpose, pair) IN (SELECT candidate, purpose,"
+        " pair FROM evaluation WHERE worker IN {}) OR {} IN {}",
+        table, theirs, std::string_view(table) == "conflict" ? "other_worker" : "worker", theirs));
+  }
+  // Nor can what nobody answers for be believed now.
+  without.evaluations = run("DELETE FROM evaluation WHERE worker IN " + theirs +
+                            " OR worker <> 0 AND worker NOT IN (SELECT id FROM worker)");
+  const std::string reason =
+      fmt::format("`recover --without-key` took away the {} evaluations that its {} workers gave",
+                  without.evaluations, without.workers);
+  // The principal of a key alone is that key at every address.
+  run("UPDATE worker SET principal = ?1, state = 'quarantined' WHERE id IN " + theirs);
+  const EventRow event =
+      event_row("error", "workers in quarantine", {{"who", key}, {"reason", reason}});
+  Statement(connection_, "INSERT INTO event (severity, kind, text) VALUES (?, ?, ?)")
+      .run(event.severity, event.kind, event.text);
+  transaction.commit();
+  is_trusted_again_ = true;
+  return without;
+}
 
 Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
                                            const std::vector<DesignRow>& designs) {
@@ -154,6 +220,61 @@ Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
   return {};
 }
 
+/// A lie may have turned the race: from there on the same numbers are of other machines, and
+/// whoever evaluated those said nothing of the ones to come. Only what the races reach without the
+/// dropped words stays.
+void SqliteRecovery::remove_underived(const StoredCampaign& campaign, const DerivedRows& derived,
+                                      const Shift& shift) {
+  const Bounds bounds(campaign);
+  std::map<CandidateId, std::pair<std::string, std::string>> stored;
+  read_candidates(connection_, {}, [&](const Row& row) {
+    const auto& candidate = std::get<CandidateRow>(row);
+    stored[candidate.id] = {candidate.machine, candidate.parameters};
+  });
+  connection_.execute(
+      "CREATE TEMP TABLE kept_candidate (id INTEGER PRIMARY KEY);"
+      "CREATE TEMP TABLE kept_pair (design, purpose, number, PRIMARY KEY (design, purpose,"
+      " number))");
+  {
+    Statement candidate(connection_, "INSERT OR IGNORE INTO kept_candidate VALUES (?)");
+    Statement pair(connection_, "INSERT OR IGNORE INTO kept_pair VALUES (?, ?, ?)");
+    for (const Row& derived_row : derived.rows) {
+      const Row row = shifted(derived_row, shift);
+      if (const auto* r = std::get_if<CandidateRow>(&row)) {
+        const auto found = stored.find(r->id);
+        if (found != stored.end() && found->second == std::pair(r->machine, r->parameters))
+          candidate.run(r->id.value);
+      } else if (const auto* p = std::get_if<PairRow>(&row)) {
+        pair.run(p->design.value, static_cast<std::int64_t>(p->purpose), p->number);
+      }
+    }
+  }
+  const auto run = [&](const std::string& statement, std::int64_t first, std::int64_t last) {
+    Statement(connection_, statement).run(first, last);
+  };
+  const std::string of_replay = "purpose IN " + numbers_in_sql(is_of_replay);
+  run("DELETE FROM evaluation WHERE candidate BETWEEN ? AND ? AND (candidate NOT IN (SELECT id FROM"
+      " kept_candidate) OR " +
+          of_replay +
+          fmt::format(" AND ((candidate - 1) / {} + 1, purpose, pair) NOT IN (SELECT design,"
+                      " purpose, number FROM kept_pair))",
+                      kCandidatesPerDesign),
+      bounds.first_candidate, bounds.last_candidate);
+  for (const char* table : {"attempt", "failure", "conflict"}) {
+    run(fmt::format("DELETE FROM {} WHERE candidate BETWEEN ? AND ? AND (candidate, purpose, pair)"
+                    " NOT IN (SELECT candidate, purpose, pair FROM evaluation)",
+                    table),
+        bounds.first_candidate, bounds.last_candidate);
+  }
+  run("DELETE FROM candidate WHERE id BETWEEN ? AND ? AND id NOT IN (SELECT id FROM "
+      "kept_candidate)",
+      bounds.first_candidate, bounds.last_candidate);
+  run("DELETE FROM pair WHERE design BETWEEN ? AND ? AND " + of_replay +
+          " AND (design, purpose, number) NOT IN (SELECT design, purpose, number FROM kept_pair)",
+      bounds.first_design, bounds.last_design);
+  connection_.execute("DROP TABLE kept_candidate; DROP TABLE kept_pair");
+}
+
 void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
                                      const std::string& source) {
   const Bounds bounds(campaign);
@@ -169,13 +290,16 @@ void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const Deriv
     run(fmt::format("DELETE FROM {} WHERE candidate BETWEEN ? AND ?", table).c_str(),
         bounds.first_candidate, bounds.last_candidate);
   }
-  run("DELETE FROM pair WHERE purpose IN (2, 5, 6) AND design BETWEEN ? AND ?", bounds.first_design,
-      bounds.last_design);
+  run(("DELETE FROM pair WHERE purpose IN " + numbers_in_sql(always_counts) +
+       " AND design BETWEEN ? AND ?")
+          .c_str(),
+      bounds.first_design, bounds.last_design);
   run("UPDATE design SET state = 0, used = 0, iteration = 0, best = NULL, best_mean = 0,"
       " reason = '' WHERE id BETWEEN ? AND ?",
       bounds.first_design, bounds.last_design);
-  RowWriter writer(connection_);
   const Shift shift{.designs = campaign.designs_before};
+  if (is_trusted_again_) remove_underived(campaign, derived, shift);
+  RowWriter writer(connection_);
   for (const Row& row : derived.rows)
     writer.write(shifted(row, shift));
   for (const EvaluationKey& key : derived.ahead)
@@ -186,21 +310,24 @@ void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const Deriv
     const EvaluationKey stored = shifted(key, shift);
     gone.run(stored.candidate.value, static_cast<std::int64_t>(stored.purpose), stored.pair);
   }
+  // What is not reliable does not become so by being copied.
   Statement(connection_,
-            "UPDATE campaign SET state = iif((SELECT count(*) FROM design"
-            " WHERE campaign = ?1 AND state <> 3) = 0, state, 'running') WHERE id = ?1")
-      .run(campaign.id);
+            fmt::format("UPDATE campaign SET state = 'running' WHERE id = ?1"
+                        " AND (?2 OR state <> 'distrusted' AND EXISTS (SELECT 1 FROM design"
+                        " WHERE campaign = ?1 AND state <> {}))",
+                        static_cast<int>(DesignState::Finished)))
+      .run(campaign.id, is_trusted_again_);
   // A number that stands without a name was the campaign's own source, of which there is one.
   if (!source.empty()) {
+    const std::string nameless = " WHERE source NOT IN (SELECT id FROM source) AND purpose IN " +
+                                 numbers_in_sql(has_own_source) +
+                                 " AND candidate BETWEEN ?1 AND ?2";
     Statement(connection_,
-              "INSERT OR IGNORE INTO source (id, name) SELECT DISTINCT source, ?3 FROM evaluation"
-              " WHERE source NOT IN (SELECT id FROM source) AND purpose IN (0, 1, 2, 3)"
-              " AND candidate BETWEEN ?1 AND ?2")
+              "INSERT OR IGNORE INTO source (id, name) SELECT DISTINCT source, ?3 FROM evaluation" +
+                  nameless)
         .run(bounds.first_candidate, bounds.last_candidate, source);
     Statement(connection_,
-              "UPDATE evaluation SET source = (SELECT id FROM source WHERE name = ?3)"
-              " WHERE source NOT IN (SELECT id FROM source) AND purpose IN (0, 1, 2, 3)"
-              " AND candidate BETWEEN ?1 AND ?2")
+              "UPDATE evaluation SET source = (SELECT id FROM source WHERE name = ?3)" + nameless)
         .run(bounds.first_candidate, bounds.last_candidate, source);
   }
   transaction.commit();
@@ -231,6 +358,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
         "UPDATE design SET best = NULL WHERE best NOT IN (SELECT id FROM candidate)");
     orphans_ += mend_real_runs(connection_);
     write_maker(connection_);
+    RowSums::found(connection_).write(connection_);
     if (const auto faults = faults_of(connection_); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt,
                         "the recovered rows are not a whole store: " + faults.front());

@@ -54,6 +54,15 @@ class Recovery {
   virtual const Salvaged& found() const = 0;
   /// Campaigns whose row was found; may be none.
   virtual std::vector<StoredCampaign> campaigns() = 0;
+  /// Takes away what workers of a key said (of a host without keys: of its address), and all that
+  /// rests on it alone: `replace_derived` derives the rest anew. The key is in quarantine from then
+  /// on, at every address. Before `scores`. NotFound with the names that there are when none of
+  /// them said anything.
+  struct Without {
+    std::int64_t evaluations = 0;  ///< that were taken away
+    std::int64_t workers = 0;      ///< that said them
+  };
+  virtual Expected<Without> drop_words_of(const std::string& key) = 0;
   /// Gives the store the row of its only campaign, if that is lost.
   virtual void put_campaign(const CampaignRow& campaign) = 0;
   /// Gives a campaign the rows of its designs that are lost. Conflict when designs were found that

@@ -27,6 +27,7 @@ class Mover {
     move(row.design);
     row.number += shift_.commands;
   }
+  void operator()(ForgivenRow&) const {}
 
   void move(EvaluationKey& key) const { move(key.candidate); }
 

@@ -5,15 +5,14 @@
 
 #include "base/overloaded.h"
 #include "base/text/toml_text.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
 
 /// By the enum's number.
-constexpr std::array<std::string_view, 5> kStates = {"waiting", "racing", "testing", "finished",
-                                                     "stopped"};
-constexpr std::array<std::string_view, 5> kCommands = {"unknown", "pause", "resume", "cancel",
-                                                       "extend"};
+constexpr std::array<std::string_view, 6> kCommands = {"unknown", "pause",  "resume",
+                                                       "cancel",  "extend", "forgive"};
 
 void append_string(std::string& out, std::string_view text) {
   static constexpr std::string_view kDigits = "0123456789abcdef";
@@ -34,13 +33,25 @@ void append_string(std::string& out, std::string_view text) {
 }  // namespace
 
 std::string_view word_of(DesignState state) {
-  return kStates.at(static_cast<std::size_t>(state));
+  switch (state) {
+    case DesignState::Waiting:
+      return "waiting";
+    case DesignState::Racing:
+      return "racing";
+    case DesignState::Testing:
+      return "testing";
+    case DesignState::Finished:
+      return "finished";
+    case DesignState::Stopped:
+      return "stopped";
+  }
+  return {};
 }
 
 std::optional<DesignState> design_state_of(std::string_view word) {
-  const auto found = std::ranges::find(kStates, word);
-  if (found == kStates.end()) return std::nullopt;
-  return static_cast<DesignState>(found - kStates.begin());
+  const std::vector<DesignState> all = all_design_states();
+  const auto found = std::ranges::find(all, word, [](DesignState state) { return word_of(state); });
+  return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
 std::string_view word_of(CommandKind kind) {
@@ -51,6 +62,16 @@ CommandKind command_kind_of(std::string_view word) {
   const auto found = std::ranges::find(kCommands, word);
   return found == kCommands.end() ? CommandKind::Unknown
                                   : static_cast<CommandKind>(found - kCommands.begin());
+}
+
+bool is_blamed_by_process(std::string_view principal) {
+  return principal.find('@') == std::string_view::npos && !principal.starts_with("local ");
+}
+
+std::optional<Quarantine> quarantine_of(const WorkerRow& row) {
+  if (row.state != WorkerState::Quarantined || row.principal.empty()) return std::nullopt;
+  const bool is_one = row.client.empty() && is_blamed_by_process(row.principal);
+  return Quarantine{.principal = row.principal, .identity = is_one ? row.identity : ""};
 }
 
 EventRow event_row(std::string severity, std::string kind, std::vector<EventField> fields) {

@@ -56,9 +56,10 @@ std::optional<DesignState> design_state_of(std::string_view word);
 
 /// What a person can ask of a campaign. Stores, messages and files keep the word. Unknown: of a
 /// version that this one does not know; nothing comes of it.
-enum class CommandKind : std::int8_t { Unknown, Pause, Resume, Cancel, Extend };
+/// Forgive is about workers, and no row of the table of commands.
+enum class CommandKind : std::int8_t { Unknown, Pause, Resume, Cancel, Extend, Forgive };
 
-/// "pause", "resume", "cancel", "extend"; "unknown".
+/// "pause", "resume", "cancel", "extend", "forgive"; "unknown".
 std::string_view word_of(CommandKind kind);
 /// Unknown for any other word.
 CommandKind command_kind_of(std::string_view word);
@@ -96,6 +97,9 @@ constexpr DesignId design_of(CandidateId id) {
 constexpr std::int64_t number_of(CandidateId id) {
   return (id.value - 1) % kCandidatesPerDesign + 1;
 }
+
+/// Characters of a name in a store: of campaigns, missions, methods, designs, sources.
+inline constexpr std::int64_t kLongestName = 1000;
 
 struct CampaignRow {
   std::string name;
@@ -233,7 +237,7 @@ struct CampaignStateRow {
   std::string state;
 };
 
-/// A worker of a principal in quarantine is quarantined whether it is there or not.
+/// One in quarantine is quarantined whether it is there or not.
 enum class WorkerState : std::int8_t { Connected, Lost, Left, Refused, Quarantined };
 
 /// As in stores, logs and JSON.
@@ -258,6 +262,25 @@ struct WorkerRow {
   std::string client;  ///< name of its key in the allow-list; empty without keys
   std::int64_t connections = 1;
   std::string principal{};  ///< key's name and address, by which it is trusted or not
+};
+
+/// Workers that get nothing, as a store remembers them.
+struct Quarantine {
+  std::string principal;  ///< as in WorkerRow; the name of a key alone: at every address
+  std::string identity;   ///< of one process; empty: all workers of the principal
+  std::string since;      ///< as stores have times; empty: not known
+  std::string reason;
+};
+
+/// Whether a principal has neither a key nor this host's secret, so that one lie is blamed on a
+/// process of it and not on all (docs/decisions/0023-forgiveness.md).
+bool is_blamed_by_process(std::string_view principal);
+/// What a worker's row says of it, if it is in quarantine; without cause.
+std::optional<Quarantine> quarantine_of(const WorkerRow& row);
+
+/// The principal's workers are in quarantine no longer. Not part of the answer.
+struct ForgivenRow {
+  std::string principal;
 };
 
 enum class AttemptOutcome : std::int8_t {
@@ -297,6 +320,7 @@ struct CommandRow {
   std::optional<std::int64_t> step;
   std::int64_t budget = 0;  ///< experiments more, of "extend"
   std::string who;          ///< user@host; not part of the answer
+  std::string whom{};       ///< of "forgive": a key or a host
 };
 
 /// Two results of one evaluation with different bits: the campaign is not deterministic. Both are
@@ -338,7 +362,7 @@ EventRow event_row(std::string severity, std::string kind, std::vector<EventFiel
 using Row =
     std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,
                  EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow, CampaignStateRow,
-                 WorkerRow, ConflictRow, FailureRow, EventRow, AttemptRow, CommandRow>;
+                 WorkerRow, ConflictRow, FailureRow, EventRow, AttemptRow, CommandRow, ForgivenRow>;
 
 /// The part of an evaluation that a resumed campaign needs.
 struct StoredScore {

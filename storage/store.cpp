@@ -85,6 +85,7 @@ void write_birth(Connection& connection, const CampaignRow& campaign,
   write_empty_store(connection);
   write_campaign(connection, campaign);
   write_designs(connection, designs);
+  keep_sums(connection);
   transaction.commit();
 }
 
@@ -98,6 +99,7 @@ Expected<void> prepare(Connection& connection, const fs::path& path, const Campa
   migrate(connection, path, migrations());
   if (auto same = check_campaign(connection, path, campaign); !same) return same;
   name_flavours(connection, designs);
+  keep_sums(connection);
   return {};
 }
 

@@ -54,9 +54,9 @@ struct StoreOptions {
 /// A store's record of the workers that gave its scores.
 struct StoredTrust {
   std::map<std::int64_t, std::string> principals;  ///< by worker
-  std::vector<std::string> quarantined;            ///< principals
-  std::set<EvaluationKey> audited;                 ///< made again, with the same bits
-  bool distrusted = false;                         ///< its scores are wrong, or may be
+  std::vector<Quarantine> quarantined;
+  std::set<EvaluationKey> audited;  ///< made again, with the same bits
+  bool distrusted = false;          ///< its scores are wrong, or may be
 };
 
 /// The one writer of a store: an SQLite file in WAL mode, synchronous=FULL, with its own thread,
@@ -184,6 +184,8 @@ class StoreReader {
     /// Somebody typed the statement: errors say what is wrong with it, and repeat it. Errors of
     /// other statements are about the store, and name its file: their text is nobody's answer.
     bool typed = false;
+    /// Views that somebody has added to the file can be read: for statements of a person's own.
+    bool views_of_file = false;
   };
   struct Cell {
     enum class Type { Null, Integer, Real, Text } type = Type::Null;
@@ -206,6 +208,10 @@ std::filesystem::path real_store(const std::filesystem::path& named);
 /// Whether a process writes the store now, by its lock file: false without one, and when it names
 /// an ended process of this host. A process of another host is assumed to run.
 bool has_writer(const std::filesystem::path& named);
+
+/// In this process, says in a sentence when a store takes longer than two seconds to be checked as
+/// a whole, before it is written. Called by the thread that opens it.
+void set_check_listener(std::function<void(const std::string&)> on_long_check);
 
 /// Whether a file begins like an SQLite file; false when it cannot be read. Reads it through
 /// SQLite, as all code must that may be reading a store (decision 18).

@@ -1,5 +1,6 @@
 #include "storage/store_at_rest.h"
 
+#include <algorithm>
 #include <functional>
 #include <system_error>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -55,7 +57,6 @@ class SqliteAtRest final : public StoreAtRest {
   Expected<void> check_candidate(CandidateId candidate) const;
   Expected<RealRunRows> stored_run(RealRunId id) const;
   Expected<void> add_campaign(const Addition& addition);
-  void remove(const EvaluationKey& key);
 
   Writer writer_;
   fs::path path_;
@@ -67,11 +68,12 @@ Expected<void> SqliteAtRest::add(const Addition& addition) {
     require_finite(row);
   return in_one_go([&]() -> Expected<void> {
     if (auto added = add_campaign(addition); !added) return added;
-    for (const EvaluationKey& key : addition.removed)
-      remove(key);
     RowWriter writer(writer_.connection);
+    for (const EvaluationKey& key : addition.removed)
+      writer.remove(key);
     for (const Row& row : addition.rows)
       writer.write(row);
+    writer.write_sums({RowSums::Table::Campaign, RowSums::Table::Design});
     return {};
   });
 }
@@ -81,6 +83,7 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
     sqlite::Transaction transaction(writer_.connection);
     if (is_new_) write_empty_store(writer_.connection);
     if (auto changed = change(); !changed) return changed;
+    keep_sums(writer_.connection);
     transaction.commit();
   } catch (const sqlite::SqliteError& error) {
     return unexpected(
@@ -151,9 +154,9 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
 }
 
 Expected<void> SqliteAtRest::add_override(const RealOverrideRow& row) {
-  if (row.verdict != "VALID" && row.verdict != "DEGRADED" && row.verdict != "INVALID") {
-    return bad_input(
-        fmt::format("'{}' is not a verdict; use VALID, DEGRADED or INVALID", row.verdict));
+  if (std::ranges::find(kVerdicts, row.verdict) == kVerdicts.end()) {
+    return bad_input(fmt::format("'{}' is not a verdict; use one of {}", row.verdict,
+                                 fmt::join(kVerdicts, ", ")));
   }
   if (row.who.empty() || row.reason.empty()) {
     return bad_input(row.who.empty() ? "the person who overrides the verdict is not named"
@@ -175,6 +178,11 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
   Statement insert(writer_.connection, kDesign);
   for (const auto& [row, name] : addition.designs) {
+    for (const std::string& each : {row.mission, row.method, name}) {
+      if (std::ssize(each) <= kLongestName) continue;
+      return bad_input(fmt::format("a name of design {} has {} characters; {} is the most",
+                                   to_string(row.id), each.size(), kLongestName));
+    }
     if (row.id.value != ++designs) {
       return unexpected(
           ErrorKind::Conflict,
@@ -185,12 +193,6 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
                row.budget, name);
   }
   return {};
-}
-
-void SqliteAtRest::remove(const EvaluationKey& key) {
-  Statement(writer_.connection,
-            "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?")
-      .run(key.candidate.value, static_cast<std::int64_t>(key.purpose), key.pair);
 }
 
 }  // namespace
@@ -216,6 +218,7 @@ Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& named,
     if (!blank) {
       migrate(writer->connection, path, migrations());
       name_flavours(writer->connection, designs);
+      keep_sums(writer->connection);
     }
     writer->lock.set_suspect(false);
     return std::make_unique<SqliteAtRest>(std::move(*writer), path, blank);

@@ -125,6 +125,9 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
     case pb::ToWorker::kWhoAreYou:
       if (state_ == State::Active) greet(now);
       return;
+    case pb::ToWorker::kNotice:
+      if (current) actions_.emplace_back(Say{message.notice().sentence()});
+      return;
     case pb::ToWorker::kHeartbeat:
     // For people's programs.
     case pb::ToWorker::kCommandReply:

@@ -64,13 +64,17 @@ struct RunItems {
 struct TakeBack {};
 /// Another campaign runs now: drop all items.
 struct DropItems {};
+/// A person at the worker should read it.
+struct Say {
+  std::string sentence;
+};
 /// The process is to end.
 struct Leave {
   ExitCode code = ExitCode::Done;
   std::string reason;
 };
 using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
-                                  TakeBack, DropItems, Leave>;
+                                  TakeBack, DropItems, Say, Leave>;
 
 /// A worker's side of the protocol. Pure: events in with the time, actions out.
 ///

@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "base/log.h"
 #include "base/overloaded.h"
@@ -28,6 +29,7 @@ class Loop {
         protocol_(identity, options.protocol, Rng(std::random_device{}())),
         endpoint_(options.endpoint),
         find_(options.find),
+        on_connected_(options.on_connected),
         pool_(&pool),
         wakeup_(&wakeup) {}
 
@@ -64,7 +66,7 @@ class Loop {
     if (drain.load()) protocol_.on_drain(now);
     take_events(now);
     if (is_lost) {
-      tell_when_refused();
+      tell_why();
       protocol_.on_connection_lost(now);
     }
     protocol_.on_tick(now);
@@ -82,7 +84,7 @@ class Loop {
         return;
       }
       endpoint_ = found->endpoint;
-      socket_.redirect(found->endpoint, found->keys);
+      socket_.redirect(found->endpoint, found->keys, found->others);
     }
     socket_.connect();
   }
@@ -94,7 +96,8 @@ class Loop {
     log_event(LogLevel::Warning, "worker", "cannot connect; trying on", {{"reason", trouble}});
   }
 
-  void tell_when_refused() {
+  void tell_why() {
+    if (!socket_.trouble().empty()) return tell_trouble(socket_.trouble());
     if (!socket_.refused()) return;
     tell_trouble(
         endpoint_ +
@@ -103,6 +106,8 @@ class Loop {
 
   /// Once each time that nobody answers.
   void tell_when_alone(TimePoint now) {
+    if (std::exchange(connected_, protocol_.active()) != protocol_.active() && on_connected_)
+      on_connected_(connected_);
     if (protocol_.active()) {
       active_ = now;
       told_ = false;
@@ -152,8 +157,15 @@ class Loop {
                             protocol_.on_taken_back(pool_->take_back(), clock_.now());
                           },
                           [&](DropItems) { pool_->take_back(); },
+                          [&](const Say& say) {
+                            log_event(LogLevel::Warning, "worker", "the coordinator says",
+                                      {{"sentence", say.sentence}});
+                          },
                           [&](Leave& leave) {
-                            if (!end_) end_ = WorkerEnd{leave.code, std::move(leave.reason)};
+                            if (end_) return;
+                            end_ = WorkerEnd{leave.code, std::move(leave.reason)};
+                            const bool alone = leave.code == ExitCode::Unreachable;
+                            if (alone && !trouble_.empty()) end_->reason += ": " + trouble_;
                           }},
                action);
   }
@@ -169,6 +181,8 @@ class Loop {
   WorkerProtocol protocol_;
   std::string endpoint_;
   std::function<Expected<CoordinatorAddress>()> find_;
+  std::function<void(bool)> on_connected_;
+  bool connected_ = false;
   std::string trouble_;  ///< that was told
   TimePoint active_ = clock_.now();
   bool told_ = false;

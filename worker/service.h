@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "proto/socket.h"
 #include "worker/pool.h"
@@ -15,6 +16,7 @@ namespace swarmsmith {
 struct CoordinatorAddress {
   std::string endpoint;  ///< tcp://host:port
   std::optional<ClientKeys> keys;
+  std::vector<std::string> others{};  ///< endpoints where it may be found, too
 };
 
 struct WorkerServiceOptions {
@@ -23,6 +25,8 @@ struct WorkerServiceOptions {
   /// Asked before each try to connect, if it is there: a coordinator may move, and keys may change.
   /// An error is a try that failed.
   std::function<Expected<CoordinatorAddress>()> find{};
+  /// Told when the coordinator has welcomed this worker, and when it is lost.
+  std::function<void(bool connected)> on_connected{};
   WorkerOptions protocol;
   SocketOptions socket;
 };

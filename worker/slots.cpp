@@ -1,6 +1,5 @@
 #include "worker/slots.h"
 
-#include <sched.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
@@ -10,6 +9,8 @@
 #include <fstream>
 #include <random>
 #include <string_view>
+
+#include "base/usable_processors.h"
 
 namespace swarmsmith {
 namespace {
@@ -66,10 +67,7 @@ int available_slots() {
   if (const int slots = number_in(environment("SLURM_CPUS_PER_TASK")); slots > 0) {
     return in_limits(slots);
   }
-  cpu_set_t mask;
-  CPU_ZERO(&mask);
-  if (sched_getaffinity(0, sizeof mask, &mask) != 0) return 1;
-  return in_limits(CPU_COUNT(&mask));
+  return in_limits(usable_processors());
 }
 
 WorkerIdentity identity_of_this_process(int slots, std::string build) {

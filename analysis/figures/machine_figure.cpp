@@ -48,6 +48,9 @@ Expected<std::vector<CandidateId>> chosen_candidates(StoreReader& store,
                                          "one has to end first");
 }
 
+/// Before it stores did not say the flavour of their machines.
+constexpr std::int64_t kFlavoursSchema = 4;
+
 /// A controller drawn for a figure.
 struct Drawn {
   MachineRecord record;
@@ -58,7 +61,7 @@ struct Drawn {
 Expected<Drawn> drawn(StoreReader& store, CandidateId id, double width) {
   auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  auto stored = controller_of(*record);
+  auto stored = controller_of(*record, store.schema());
   if (!stored) return Unexpected(stored.error());
   ControllerDrawing drawing =
       drawing_of(stored->controller, *stored->flavour, width, title_of(*record));
@@ -163,10 +166,15 @@ Svg with_heading(const Drawn& machine, const FigureOptions& options) {
 
 }  // namespace
 
-Expected<StoredController> controller_of(const MachineRecord& candidate) {
+Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema) {
   const std::string id = to_string(candidate.candidate);
-  if (!architecture_of_text(candidate.machine))
-    return bad_input(id + " is a configuration of a program, not a machine");
+  // A program's parameters may have the switches of machines.
+  const bool is_machine = architecture_of_text(candidate.machine).has_value();
+  if (!is_machine || (candidate.flavour.empty() && schema >= kFlavoursSchema)) {
+    return bad_input(id +
+                     " is a configuration of a program, not a machine: the method's candidates are "
+                     "the parameters of its file");
+  }
   if (candidate.flavour.empty()) {
     return bad_input(
         "the store has an older version without the flavour of its machines; `swarmsmith backup "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "analysis/records/records.h"
@@ -16,8 +17,8 @@ struct StoredController {
 
 /// Reads a candidate's text in its design's flavour. Errors: BadInput when it is no control
 /// software but a program's configuration, when the store does not say the flavour (with how to
-/// make it), or the text is damaged.
-Expected<StoredController> controller_of(const MachineRecord& candidate);
+/// make it), or the text is damaged. `schema` is the store's.
+Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema);
 
 /// What a picture of it shows, with values as they are: a row for each state and transition, each
 /// subtree, or each input.

@@ -82,7 +82,9 @@ Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, c
 
 Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
   return read<CampaignRecord>(
-      store, "SELECT campaign, name, seed, digest, file FROM v_campaigns ORDER BY campaign",
+      store,  // An imported one has no file that could be run.
+      "SELECT campaign, name, seed, digest, iif(state = 'imported', '', file) FROM v_campaigns "
+      "ORDER BY campaign",
       [](const Cells& row) {
         return CampaignRecord{.campaign = integer(row[0]),
                               .name = row[1].text,

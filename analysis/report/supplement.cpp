@@ -93,7 +93,7 @@ Expected<void> add_controllers(Files& files, StoreReader& store, const Supplemen
     if (!design.best) continue;
     const auto record = candidate(store, *design.best);
     if (!record) return Unexpected(record.error());
-    const auto stored = controller_of(*record);
+    const auto stored = controller_of(*record, store.schema());
     if (!stored) return Unexpected(stored.error());
     files.push_back(
         {path + ".dot",

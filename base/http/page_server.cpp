@@ -14,6 +14,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::string_view kUnclear =
+    "HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 constexpr std::string_view kBusy =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 
@@ -95,6 +97,11 @@ class DeadlineStream final : public HeadStream {
   std::optional<Clock::time_point> deadline_;
 };
 
+/// It is short, so that the system takes all of it, whether it is read or not.
+void send_at_once(int socket, std::string_view text) {
+  (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+}
+
 /// What came after the head is taken first: else the system would throw the answer away.
 void close_connection(int socket) {
   constexpr int kMostReads = 16;
@@ -116,9 +123,32 @@ bool has_name(std::string_view line, std::string_view name) {
 }
 
 bool is_read_by_pages(std::string_view line) {
-  constexpr std::array<std::string_view, 5> kNames = {
-      "host:", "authorization:", "origin:", "sec-fetch-site:", "if-none-match:"};
+  constexpr std::array<std::string_view, 6> kNames = {
+      "host:", "authorization:", "origin:", "referer:", "sec-fetch-site:", "if-none-match:"};
   return std::ranges::any_of(kNames, [&](std::string_view name) { return has_name(line, name); });
+}
+
+/// Whether a request has one meaning for all who read it: a proxy may take the second of two
+/// headers, where this program takes the first.
+bool is_clear(std::string_view head) {
+  constexpr std::array<std::string_view, 7> kOnce = {
+      "host:",           "authorization:",  "origin:",           "referer:",
+      "sec-fetch-site:", "content-length:", "transfer-encoding:"};
+  std::array<int, kOnce.size()> seen{};
+  head.remove_prefix(std::min(head.find('\n'), head.size() - 1) + 1);
+  while (!head.empty()) {
+    const std::size_t end = head.find('\n');
+    const std::string_view line = head.substr(0, end);
+    head.remove_prefix(end == std::string_view::npos ? head.size() : end + 1);
+    if (line.empty() || line == "\r") continue;
+    // A line that goes on, or a name that does not end at its colon.
+    const std::size_t name = line.find_first_of(" \t:");
+    if (name == 0 || name == std::string_view::npos || line[name] != ':') return false;
+    for (std::size_t i = 0; i < kOnce.size(); ++i) {
+      if (has_name(line, kOnce[i]) && ++seen[i] > 1) return false;
+    }
+  }
+  return seen[kOnce.size() - 2] + seen.back() < 2;
 }
 
 /// The request line and the headers that pages read.
@@ -170,9 +200,12 @@ void PageServer::serve(ListeningSocket listening) {
   // The library ends its streams when it has no socket.
   svr_sock_ = listening.descriptor;
   pool_ = std::make_unique<httplib::ThreadPool>(options_.threads);
-  door_ = std::make_unique<RequestDoor>(
-      listening, options_.door,
-      [this](int socket, const std::string& head) { on_request(socket, bare(head)); });
+  door_ = std::make_unique<RequestDoor>(listening, options_.door,
+                                        [this](int socket, const std::string& head) {
+                                          if (is_clear(head)) return on_request(socket, bare(head));
+                                          send_at_once(socket, kUnclear);
+                                          close_connection(socket);
+                                        });
 }
 
 void PageServer::stop_serving() {
@@ -188,7 +221,7 @@ void PageServer::on_request(int socket, std::string head) {
     return answer_at_once(socket, std::move(head));
   }
   if (waiting_ >= options_.waiting) {
-    (void)!::send(socket, kBusy.data(), kBusy.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    send_at_once(socket, kBusy);
     return close_connection(socket);
   }
   ++waiting_;
@@ -198,14 +231,12 @@ void PageServer::on_request(int socket, std::string head) {
   });
 }
 
-/// It is short, so that the system takes all of it, whether it is read or not.
 void PageServer::answer_at_once(int socket, std::string head) {
   const Asked asked(socket);
   HeadStream stream(socket, std::move(head));
   bool closed = false;
   process_request(stream, true, closed, nullptr);
-  const std::string& text = stream.written();
-  (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  send_at_once(socket, stream.written());
   close_connection(socket);
 }
 

@@ -31,9 +31,10 @@ struct PageServerOptions {
 };
 
 /// The library's routing behind a RequestDoor: one request per connection, without a body. Pages
-/// see the headers Host, Authorization, Origin, Sec-Fetch-Site and If-None-Match, and
+/// see the headers Host, Authorization, Origin, Referer, Sec-Fetch-Site and If-None-Match, and
 /// Accept-Encoding under the name of `kAccepts`; no other header has an effect: no ranges, which
-/// multiply an answer, no compression by the library.
+/// multiply an answer, no compression by the library. A request with two meanings (two Host
+/// headers, a header that goes on in the next line) gets 400.
 class PageServer : public httplib::Server {
  public:
   explicit PageServer(PageServerOptions options);

@@ -16,6 +16,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kLongestLine = 500;
+constexpr std::size_t kMostLines = 50;
 
 void close_one(int& descriptor) {
   if (descriptor >= 0) close(descriptor);
@@ -74,7 +75,8 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
       output_(std::exchange(other.output_, -1)),
       errors_(std::exchange(other.errors_, -1)),
       line_(std::move(other.line_)),
-      last_line_(std::move(other.last_line_)) {}
+      last_line_(std::move(other.last_line_)),
+      lines_(std::move(other.lines_)) {}
 
 ChildProcess::~ChildProcess() {
   finish_by({});
@@ -85,6 +87,7 @@ Expected<void> ChildProcess::start(const std::vector<std::string>& words, Stream
   close_streams();
   line_.clear();
   last_line_.clear();
+  lines_.clear();
   int failed = 0;
   if (streams == Streams::Inherited) {
     failed = spawn(words, nullptr, variables, pid_);
@@ -148,10 +151,16 @@ const std::string& ChildProcess::last_line() {
         if (line_.size() < kLongestLine) line_ += letter;
       } else if (!line_.empty()) {
         last_line_ = std::exchange(line_, {});
+        if (lines_.size() < kMostLines) lines_.push_back(last_line_);
       }
     }
   }
   return last_line_;
+}
+
+std::vector<std::string> ChildProcess::take_lines() {
+  last_line();
+  return std::exchange(lines_, {});
 }
 
 void ChildProcess::finish_by(TimePoint until) {

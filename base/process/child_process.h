@@ -44,6 +44,8 @@ class ChildProcess {
   int output() const { return output_; }
   /// The last line of its error output so far; empty for none.
   const std::string& last_line();
+  /// The lines of it since the last call, of many at once the first ones.
+  std::vector<std::string> take_lines();
   /// Waits for its end until then; after that kills it with SIGKILL.
   void finish_by(TimePoint until);
 
@@ -56,6 +58,7 @@ class ChildProcess {
   int errors_ = -1;
   std::string line_;       ///< the one that is being written
   std::string last_line_;  ///< not blank
+  std::vector<std::string> lines_;
 };
 
 /// Pauses before a retry: doubling from `first` to `longest`, plus or minus a random quarter, so

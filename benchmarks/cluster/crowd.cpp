@@ -106,7 +106,7 @@ class Member {
                             waiting_.clear();
                             protocol_.on_taken_back(keys, now);
                           },
-                          [&](DropItems) { waiting_.clear(); },
+                          [&](DropItems) { waiting_.clear(); }, [](const Say&) {},
                           [&](const Leave& leave) {
                             left_ = true;
                             if (leave.code != ExitCode::Done)

@@ -7,6 +7,7 @@
 #include "proto/access/address.h"
 #include "proto/access/key_file.h"
 #include "proto/access/key_folder.h"
+#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -37,13 +38,14 @@ void AccessFlags::declare(Options& options) {
   options.text("--coordinator-file FILE", coordinator_file,
                "File for the coordinator's address (default: STORE.coordinator)");
   options.text("--advertise HOST", advertise,
-               "Host name in this file (default: the address of --bind, or this host's name)");
+               "Host in this file, a name or a number (default: the address of --bind; for all "
+               "interfaces this host's name, or its number where other hosts cannot use the name)");
 }
 
 tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,
                                                      const std::string& bind) {
   const auto address = address_of(bind);
-  const bool beyond = address && !is_loopback(*address);
+  const bool beyond = address && !is_loopback(address->host);
   Access access;
   access.insecure_plaintext = flags.insecure_plaintext && beyond;
   if (flags.insecure_plaintext && !flags.keys.empty()) {
@@ -68,6 +70,7 @@ tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,
 CoordinatorFile coordinator_file(const AccessFlags& flags, const Access& access,
                                  const std::string& endpoint) {
   return {.endpoint = advertised_endpoint(endpoint, flags.advertise),
+          .others = advertised_numbers(endpoint, flags.advertise),
           .public_key = access.public_key,
           .insecure_plaintext = access.insecure_plaintext,
           .pid = getpid(),

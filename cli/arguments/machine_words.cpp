@@ -1,5 +1,6 @@
 #include "cli/arguments/machine_words.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -9,17 +10,22 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The first word of a text.
+/// The first word of a text, or all of one, which may have options of another program before it.
 bool begins_machine(std::string_view word) {
-  return architecture_of_text(word).has_value();
+  if (!word.starts_with("--")) return false;
+  const bool is_whole = word.find(' ') != std::string_view::npos;
+  return architecture_of_text(word).has_value() ||
+         (is_whole && find_controller(word) != std::string_view::npos);
 }
 
 /// Whether the word is a switch of one of the grammars: a known stem, and then digits or
 /// DIGITSxDIGITS; or a word that only trees and networks have.
 bool is_machine_switch(std::string_view word) {
-  static constexpr std::array<std::string_view, 11> kStems = {
-      "s", "rwm", "att", "rep", "nchild", "n", "c", "p", "w", "l", "a"};
-  if (begins_machine(word) || word == "--nchildroot" || word == "--weights") return true;
+  static constexpr std::array<std::string_view, 12> kStems = {
+      "s", "rwm", "att", "rep", "nchild", "nc", "n", "c", "p", "w", "l", "a"};
+  static constexpr std::array<std::string_view, 3> kWhole = {"--nchildroot", "--nchildsroot",
+                                                             "--weights"};
+  if (begins_machine(word) || std::ranges::find(kWhole, word) != kWhole.end()) return true;
   if (!word.starts_with("--")) return false;
   word.remove_prefix(2);
   for (const std::string_view stem : kStems) {

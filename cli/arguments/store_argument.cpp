@@ -2,6 +2,7 @@
 
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
+#include "storage/whole.h"
 
 namespace swarmsmith::cli {
 
@@ -22,6 +23,13 @@ Expected<std::unique_ptr<StoreReader>> StoreArgument::open() const {
   const auto where = path();
   if (!where) return Unexpected(where.error());
   return StoreReader::open(*where);
+}
+
+Expected<std::unique_ptr<StoreReader>> StoreArgument::open_whole() const {
+  auto store = open();
+  if (!store) return store;
+  if (auto whole = check_rows(*path()); !whole) return Unexpected(whole.error());
+  return store;
 }
 
 Expected<std::unique_ptr<StoreAtRest>> open_at_rest(const std::string& path,

@@ -21,6 +21,9 @@ struct StoreArgument {
   Expected<std::string> path() const;
   /// Opens it; every error means exit code 3, except one of `path`.
   Expected<std::unique_ptr<StoreReader>> open() const;
+  /// The same, for numbers that leave the store: refuses one whose rows are not those of one commit
+  /// (storage/whole.h).
+  Expected<std::unique_ptr<StoreReader>> open_whole() const;
 };
 
 /// Opens a store, whose first campaign's file tells what an old schema does not, to add to it.

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "storage/rows.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith::cli {
 
@@ -13,8 +13,7 @@ std::optional<ThingId> parse_thing_id(std::string_view text) {
   ThingId id{.letter = text.front(), .digits = {}, .purpose = {}};
   if (std::string_view("dcer").find(id.letter) == std::string_view::npos) return std::nullopt;
   text.remove_prefix(1);
-  if (id.letter == 'e' && !text.empty() &&
-      std::string_view("ltasvp").find(text.back()) != std::string_view::npos) {
+  if (id.letter == 'e' && !text.empty() && purpose_of_letter(text.substr(text.size() - 1))) {
     id.purpose = text.back();
     text.remove_suffix(1);
   }

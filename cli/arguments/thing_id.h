@@ -12,7 +12,7 @@ namespace swarmsmith::cli {
 struct ThingId {
   char letter = '\0';   ///< d, c, r or e
   std::string digits;   ///< 1 to 18
-  std::string purpose;  ///< of an evaluation that was made for no race: l, t, a or s
+  std::string purpose;  ///< letter of an evaluation that was made for no race
 };
 
 /// Nothing when the text is no id.

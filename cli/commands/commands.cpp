@@ -79,6 +79,15 @@ continue when the campaign is run again.
 Example:
   swarmsmith extend d1 demo.db --budget 5_000 && swarmsmith run)";
 
+constexpr std::string_view kForgiveDetails =
+    R"(Lets workers work again that are in quarantine, because results of theirs were wrong or because they
+failed where others did not. `status` lists them, with the reason. Mend the host first: their first results are
+checked as those of new workers, and one wrong result brings them back. The scores in the store stay as they are.
+
+Examples:
+  swarmsmith forgive demo.db node7
+  swarmsmith forgive demo.db 10.0.0.7)";
+
 constexpr std::string_view kVerifyDetails =
     R"(Replays every race of the store from its scores, and compares candidates, tests, eliminations, budget
 and winner with the stored ones. Checks the file itself. Evaluates a part of it again: all rejections
@@ -297,7 +306,8 @@ on the new store: it evaluates what was lost, and comes to the same answer.
 
 Examples:
   swarmsmith recover demo.db -o rescued.db && swarmsmith run --store rescued.db
-  swarmsmith recover thesis.db -o rescued.db --campaign thesis.toml)";
+  swarmsmith recover thesis.db -o rescued.db --campaign thesis.toml
+  swarmsmith recover thesis.db -o honest.db --without-key node7 && swarmsmith serve thesis.toml --store honest.db)";
 
 constexpr std::string_view kIraceDetails =
     R"(Replaces irace: it reads the same scenario, parameter, instance and configuration files, calls the same
@@ -326,6 +336,7 @@ constexpr std::array kCommands = {
     Command{"resume", "Resume paused designs", kResumeDetails, declare_resume},
     Command{"cancel", "Stop a design after its current step", kCancelDetails, declare_cancel},
     Command{"extend", "Give a design more budget", kExtendDetails, declare_extend},
+    Command{"forgive", "Let workers in quarantine work again", kForgiveDetails, declare_forgive},
     Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
             declare_keygen},
     Command{"irace", "Configure an algorithm from irace's files, as irace does", kIraceDetails,

@@ -26,6 +26,7 @@ Run declare_pause(Options& options);
 Run declare_resume(Options& options);
 Run declare_cancel(Options& options);
 Run declare_extend(Options& options);
+Run declare_forgive(Options& options);
 Run declare_keygen(Options& options);
 Run declare_evaluate(Options& options);
 Run declare_replay(Options& options);

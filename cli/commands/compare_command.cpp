@@ -110,7 +110,7 @@ ExitCode run_compare(CompareArguments& arguments, Output& output) {
     return fail(output, ExitCode::Usage, "--table says which table --csv writes: give both");
   if (!arguments.paper.empty() && (arguments.csv || output.json))
     return fail(output, ExitCode::Usage, "--paper writes sentences: leave --csv and --json out");
-  const auto store = arguments.store.open();
+  const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   arguments.options.by = by_of(arguments.by);
   arguments.options.choice = score_choice(arguments.purpose, arguments.per);

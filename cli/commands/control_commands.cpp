@@ -1,4 +1,5 @@
-// pause, resume, cancel and extend: what people ask of a campaign, whether somebody runs it or not.
+// pause, resume, cancel, extend and forgive: what people ask of a campaign, whether somebody runs
+// it or not.
 
 #include <sys/types.h>
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "cli/run/command_at_rest.h"
 #include "cli/run/coordinator_link.h"
 #include "coordinator/campaign/campaign.h"
+#include "coordinator/service/live_status.h"
 #include "proto/access/address.h"
 #include "proto/access/coordinator_file.h"
 
@@ -39,6 +41,7 @@ struct Arguments {
 struct Wish {
   std::string store;  ///< empty: only the coordinator is named
   std::vector<DesignId> designs;
+  std::vector<std::string> whom{};  ///< of `forgive`
 };
 
 std::optional<DesignId> design_in(const std::string& word) {
@@ -47,9 +50,28 @@ std::optional<DesignId> design_in(const std::string& word) {
   return DesignId{std::stoll(id->digits)};
 }
 
+/// STORE KEY..., without STORE where the store or the coordinator is named otherwise.
+void sort_names(const Arguments& arguments, Wish& wish) {
+  std::error_code none;
+  const bool is_named = !wish.store.empty() || arguments.coordinator.is_named() ||
+                        !store_of_environment().empty() ||
+                        !environment("SWARMSMITH_COORDINATOR").empty();
+  for (const std::string& word : arguments.words) {
+    const bool is_store = wish.store.empty() && wish.whom.empty() &&
+                          (!is_named || std::filesystem::is_regular_file(word, none));
+    if (is_store) {
+      wish.store = word;
+    } else {
+      wish.whom.push_back(word);
+    }
+  }
+}
+
 Expected<Wish> wish_of(const Arguments& arguments) {
   Wish wish{.store = arguments.store, .designs = {}};
-  for (const std::string& word : arguments.words) {
+  const bool of_workers = arguments.kind == CommandKind::Forgive;
+  if (of_workers) sort_names(arguments, wish);
+  for (const std::string& word : of_workers ? std::vector<std::string>{} : arguments.words) {
     if (const auto design = design_in(word)) {
       wish.designs.push_back(*design);
     } else if (wish.store.empty()) {
@@ -70,6 +92,11 @@ Expected<Wish> wish_of(const Arguments& arguments) {
 Expected<void> check(const Arguments& arguments, const Wish& wish) {
   if (is_of_race(arguments.kind) && wish.designs.empty()) {
     return bad_input("no design given: name at least one, such as d1");
+  }
+  if (arguments.kind == CommandKind::Forgive && wish.whom.empty()) {
+    return bad_input(
+        "nobody to forgive is given: name a key, an address or a host, as `swarmsmith status` "
+        "has them under quarantine");
   }
   if (arguments.kind == CommandKind::Extend && !arguments.budget) {
     return bad_input("no budget given: name the number of further experiments with --budget N");
@@ -155,17 +182,17 @@ class Control {
   /// All that were named, whatever becomes of one; the first that fails makes the exit code.
   template <class Ask>
   ExitCode each(const Ask& ask) {
-    std::vector<DesignId> designs = wish_.designs;
-    if (designs.empty()) designs.emplace_back();
     ExitCode code = ExitCode::Done;
-    for (const DesignId design : designs) {
-      const Expected<std::string> done = ask(CommandRow{.kind = arguments_.kind,
-                                                        .design = design,
-                                                        .step = std::nullopt,
-                                                        .budget = arguments_.budget.value_or(0),
-                                                        .who = user_and_host()});
+    for (const CommandRow& command : commands()) {
+      const Expected<std::string> done = ask(command);
       if (done) {
-        write(design, *done);
+        write(command, *done);
+        continue;
+      }
+      // A coordinator answers with a sentence alone.
+      if (done.error().message.find(kNotInQuarantine) != std::string::npos) {
+        fail(output_, ExitCode::NoSuchId, done.error());
+        if (code == ExitCode::Done) code = ExitCode::NoSuchId;
         continue;
       }
       const ErrorKind kind = done.error().kind;
@@ -176,17 +203,38 @@ class Control {
     return code;
   }
 
-  void write(DesignId design, const std::string& sentence) {
+  /// One for each design, key or host that is named; one for all.
+  std::vector<CommandRow> commands() const {
+    CommandRow command{.kind = arguments_.kind,
+                       .step = std::nullopt,
+                       .budget = arguments_.budget.value_or(0),
+                       .who = user_and_host()};
+    std::vector<CommandRow> all;
+    for (const std::string& whom : wish_.whom) {
+      command.whom = whom;
+      all.push_back(command);
+    }
+    for (const DesignId design : wish_.designs) {
+      command.design = design;
+      all.push_back(command);
+    }
+    if (all.empty()) all.push_back(command);
+    return all;
+  }
+
+  void write(const CommandRow& command, const std::string& sentence) {
     if (!output_.json) {
       output_.out << sentence << "\n";
       return;
     }
-    output_.out << JsonObject()
-                       .add("command", word_of(arguments_.kind))
-                       .add("design", design)
-                       .add("done", sentence)
-                       .text()
-                << "\n";
+    JsonObject object;
+    object.add("command", word_of(command.kind));
+    if (command.kind == CommandKind::Forgive) {
+      object.add("whom", command.whom);
+    } else {
+      object.add("design", command.design);
+    }
+    output_.out << object.add("done", sentence).text() << "\n";
   }
 
   Output& output_;
@@ -198,9 +246,15 @@ class Control {
 Run declare(CommandKind kind, Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->kind = kind;
-  options.words("STORE DESIGN|STORE", arguments->words,
-                std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +
-                    (is_of_leases(kind) ? "; without any, all unfinished ones" : ""));
+  if (kind == CommandKind::Forgive) {
+    options.words("STORE WHO|STORE", arguments->words,
+                  "The campaign's store (else SWARMSMITH_STORE), and keys, addresses or hosts in "
+                  "quarantine, as `status` has them");
+  } else {
+    options.words("STORE DESIGN|STORE", arguments->words,
+                  std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +
+                      (is_of_leases(kind) ? "; without any, all unfinished ones" : ""));
+  }
   options.text("--store STORE", arguments->store, "The campaign's store");
   if (kind == CommandKind::Extend) {
     options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Further experiments");
@@ -242,6 +296,10 @@ Run declare_cancel(Options& options) {
 
 Run declare_extend(Options& options) {
   return declare(CommandKind::Extend, options);
+}
+
+Run declare_forgive(Options& options) {
+  return declare(CommandKind::Forgive, options);
 }
 
 }  // namespace swarmsmith::cli

@@ -16,6 +16,7 @@
 #include "cli/run/dashboard_setup.h"
 #include "cli/run/run_signals.h"
 #include "console/counter.h"
+#include "coordinator/service/http_address.h"
 #include "coordinator/service/http_server.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/find_coordinator.h"
@@ -148,7 +149,7 @@ ExitCode show(const DashboardArguments& arguments, Output& output) {
                 stores.error());
   }
   const bool named = !arguments.http.empty();
-  const auto address = parse_http_address(named ? arguments.http : "127.0.0.1:8347");
+  const auto address = parse_address(named ? arguments.http : "127.0.0.1:8347");
   if (!address) return fail(output, ExitCode::Usage, address.error());
   HttpOptions http{.address = *address, .next_port = !named, .token = {}};
   http.names = arguments.names;

@@ -240,13 +240,12 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
 
 Run declare_evaluate(Options& options) {
   auto arguments = std::make_shared<EvaluateOptions>();
-  options.text(
-      "MACHINE BEST|CANDIDATE|FILE", arguments->machine,
-      "Text that begins with --nstates, --fsm-config, --nroot, --bt-config or --network, a file "
-      "of such texts, a candidate "
-      "(c812), or best: "
-      "the winner of each finished design",
-      Options::Need::Required);
+  options.text("MACHINE BEST|CANDIDATE|FILE", arguments->machine,
+               "Text that begins with --nstates, --fsm-config, --nroot, --rootnode, --bt-config or "
+               "--network, a file of such texts or of genomes, a candidate "
+               "(c812), or best: "
+               "the winner of each finished design",
+               Options::Need::Required);
   options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's or the file's)");

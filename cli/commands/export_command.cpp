@@ -256,18 +256,18 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
                         arguments.file, output);
   }
   if (arguments.format == "rdata") {
-    const auto store = arguments.store.open();
+    const auto store = arguments.store.open_whole();
     if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
     return export_rdata(**store, arguments.design, arguments.file, output);
   }
   if (asks_for_table(arguments)) {
-    const auto store = arguments.store.open();
+    const auto store = arguments.store.open_whole();
     if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
     return write_table(arguments, **store, output);
   }
   const auto sql = statement(arguments);
   if (!sql) return fail(output, ExitCode::Usage, sql.error());
-  const auto store = arguments.store.open();
+  const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   auto rows = select(**store, *sql,
                      {.rows = 1'000'000'000,

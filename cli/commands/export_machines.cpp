@@ -17,6 +17,7 @@
 #include "console/terminal.h"
 #include "coordinator/campaign/argos_experiment.h"
 #include "coordinator/campaign/campaign_file.h"
+#include "coordinator/results/imported_world.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -52,7 +53,13 @@ Expected<std::string> picture_of(const MachineRecord& candidate, const StoredCon
 Expected<Mission> mission_of(StoreReader& store, DesignId design, const std::string& name) {
   const auto stored = store.campaign_of(design);
   if (!stored) return Unexpected(stored.error());
-  if (stored->row.file.empty()) return built_in_mission(name);  // imported machines
+  if (stored->row.file.empty() || is_imported_text(stored->row.file)) {
+    const auto world = read_imported_world(stored->row.file);
+    if (!world) return Unexpected(world.error());
+    for (const MissionEntry& entry : world->missions)
+      if (entry.mission.name == name) return entry.mission;
+    return built_in_mission(name);
+  }
   const auto campaign = parse_campaign(stored->row.file, "campaign.toml");
   if (!campaign) return Unexpected(campaign.error().front());
   const auto found = std::ranges::find_if(
@@ -86,7 +93,7 @@ Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineEx
                              double width) {
   const auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  const auto stored = controller_of(*record);
+  const auto stored = controller_of(*record, store.schema());
   if (!stored) return Unexpected(stored.error());
   auto bytes = what.format == "argos" ? experiment_of(store, *record, *stored, what)
                                       : picture_of(*record, *stored, what, width);

@@ -91,7 +91,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
                 Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file",
                       options->paper ? "--paper" : "--font"});
   }
-  auto store = arguments.store.open();
+  auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if (const auto missing = missing_in(**store, *options))
     return fail(output, exit_code_of(*missing), *missing);

@@ -103,7 +103,7 @@ Run declare_import(Options& options) {
   auto arguments = std::make_shared<ImportOptions>();
   options.text("FILE", arguments->file,
                "A scenario of irace; with --into scores or machines (.csv), machines (a text a "
-               "line), or a log of irace (.Rdata)",
+               "line, or genomes), or a log of irace (.Rdata)",
                Options::Need::Required);
   options.text("-o,--output FILE", arguments->out,
                "Campaign file to write from a scenario (default: standard output)");
@@ -113,8 +113,9 @@ Run declare_import(Options& options) {
   options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of machines whose file names none, or of a log's configurations: "
                "watermelon, watermelon-argos3, chocolate");
-  options.texts("--mission MISSION", arguments->missions,
-                "Mission of rows that name none; OLD=NEW renames one; may be repeated");
+  options.texts("--mission MISSION|FILE", arguments->missions,
+                "Mission of rows that name none; OLD=NEW renames one; a mission file in place of a "
+                "name says what the mission is, alone that of all rows; may be repeated");
   options.text("--method METHOD", arguments->method,
                "Method of machines that name none (default: the flavour), or of a log (irace)");
   options.text("--name NAME", arguments->name,

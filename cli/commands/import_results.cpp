@@ -4,15 +4,20 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/irace_converter.h"
+#include "cli/replay/design_worlds.h"
+#include "console/terminal.h"
+#include "coordinator/results/imported_world.h"
 #include "coordinator/results/irace_log_rows.h"
 #include "coordinator/results/machine_import.h"
 #include "coordinator/results/score_import.h"
+#include "sim/control/foreign_text.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith::cli {
@@ -111,9 +116,45 @@ std::string campaign_name(const ImportArguments& arguments) {
   return is_name(stem) ? stem : "imported";
 }
 
+/// Says so when a design of the store has a mission of an imported one's name that is another.
+Expected<void> compare_missions(const Addition& addition, StoreReader& store, Output& output) {
+  const auto worlds = DesignWorlds::read(store);
+  if (!worlds) return Unexpected(worlds.error());
+  const auto imported = read_imported_world(addition.campaign->file);
+  if (!imported) return Unexpected(imported.error());
+  std::set<std::string> told;
+  for (const KnownDesign& known : worlds->designs()) {
+    const auto is_same = [&](const ImportedDesign& design) {
+      return design.row.mission == known.mission;
+    };
+    if (told.contains(known.mission) || std::ranges::none_of(addition.designs, is_same)) continue;
+    const auto world = worlds->of(known.id);
+    if (!world || !*world || !(*world)->mission) continue;
+    const auto entry = std::ranges::find_if(imported->missions, [&](const MissionEntry& each) {
+      return each.mission.name == known.mission;
+    });
+    const auto mission = entry == imported->missions.end() ? built_in_mission(known.mission)
+                                                           : Expected<Mission>(entry->mission);
+    if (!mission || *mission == (*world)->mission->mission) continue;
+    print_note(output, "warning: " + to_string(known.id) + " of the store has another mission " +
+                           known.mission +
+                           ", so that scores cannot be compared; rename it with "
+                           "--mission " +
+                           known.mission + "=NEW");
+    told.insert(known.mission);
+  }
+  return {};
+}
+
 ExitCode import_machines_into(const ImportArguments& arguments,
                               OrErrors<std::vector<MachineText>> machines, Output& output) {
   if (!machines) return fail_all(output, machines.error());
+  for (const MachineText& machine : *machines) {
+    const auto remark = remark_about(machine.text);
+    if (!remark) continue;
+    print_note(output, machine.place + ": " + *remark);
+    break;
+  }
   const auto named = flavour_of(*machines, arguments.flavour);
   if (!named) return fail(output, ExitCode::Usage, named.error());
   const auto flavour = find_flavour(*named);
@@ -122,7 +163,7 @@ ExitCode import_machines_into(const ImportArguments& arguments,
                 Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
   }
   const auto missions = read_mission_words(arguments.missions);
-  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions) return fail_all(output, missions.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Make);
   if (!target) return fail(output, ExitCode::Store, target.error());
   auto addition =
@@ -132,6 +173,10 @@ ExitCode import_machines_into(const ImportArguments& arguments,
                                   .method = arguments.method.empty() ? *named : arguments.method,
                                   .designs = target->designs});
   if (!addition) return fail_all(output, addition.error());
+  if (target->reader) {
+    if (const auto compared = compare_missions(*addition, *target->reader, output); !compared)
+      return fail(output, ExitCode::Store, compared.error());
+  }
   return add_campaign(arguments, std::move(*target), std::move(*addition), "machines", output);
 }
 
@@ -147,7 +192,7 @@ ExitCode import_log_into(const ImportArguments& arguments,
     known.flavour = **flavour;
   }
   const auto missions = read_mission_words(arguments.missions);
-  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions) return fail_all(output, missions.error());
   if (!missions->of_all.empty()) known.mission = missions->of_all;
   if (!arguments.method.empty()) known.method = arguments.method;
   const auto log = read_irace_log(texts);
@@ -157,13 +202,16 @@ ExitCode import_log_into(const ImportArguments& arguments,
   known.designs = target->designs;
   auto addition = irace_log_addition(*log, known);
   if (!addition) return fail_all(output, addition.error());
+  if (const MissionEntry* described = missions->of_file(known.mission)) {
+    addition->campaign->file = imported_text({.missions = {*described}, .profile = {}});
+  }
   return add_campaign(arguments, std::move(*target), std::move(*addition), "irace log", output);
 }
 
 ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& table,
                             Output& output) {
   const auto missions = read_mission_words(arguments.missions);
-  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions) return fail_all(output, missions.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Refuse);
   if (!target) return fail(output, ExitCode::Store, target.error());
   auto ledger = ScoreLedger::read(*target->reader);

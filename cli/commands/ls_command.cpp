@@ -5,6 +5,7 @@
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_quarantine.h"
 #include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
@@ -52,10 +53,15 @@ struct LsArguments {
 
 /// The person's own words go into the statement: it may only read.
 std::string statement(const Kind& kind, const LsArguments& arguments, bool all_columns,
-                      bool several_campaigns) {
+                      bool several_campaigns, bool has_principals) {
   std::string columns(all_columns ? "*" : kind.columns);
+  std::string from(kind.from);
+  if (kind.name == "workers" && has_principals) {
+    from = workers_with_quarantine();
+    if (!all_columns) columns += ", quarantined_since, quarantined_for";
+  }
   if (!all_columns && several_campaigns && kind.name == "designs") columns += ", campaign";
-  std::string sql = "SELECT " + columns + " FROM " + std::string(kind.from);
+  std::string sql = "SELECT " + columns + " FROM " + from;
   if (!arguments.where.empty()) sql += " WHERE " + arguments.where;
   sql += " ORDER BY " + (arguments.sort.empty() ? std::string(kind.order) : arguments.sort);
   return sql;
@@ -72,8 +78,9 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool several = (*store)->campaigns().size() > 1;
   const std::int64_t limit = arguments.limit.value_or(output.json ? 0 : kShown);
-  auto rows = select(**store, statement(*kind, arguments, output.json, several),
-                     {.rows = limit == 0 ? kAll : limit});
+  auto rows =
+      select(**store, statement(*kind, arguments, output.json, several, (*store)->schema() >= 6),
+             {.rows = limit == 0 ? kAll : limit});
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   letter_ids(*rows);
   const auto stages = StoredStages::read(**store);

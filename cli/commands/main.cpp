@@ -1,14 +1,17 @@
 #include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "base/process/begin_program.h"
 #include "cli/commands/commands.h"
+#include "console/fault.h"
 #include "storage/store.h"
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
+  swarmsmith::set_check_listener([&](const std::string& text) { print_note(output, text); });
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const ExitCode code = run_program(arguments, output);
@@ -23,12 +26,8 @@ int main(int argc, char** argv) {
                                 "new store of what can be read";
     return static_cast<int>(
         fail(output, ExitCode::Store, {swarmsmith::ErrorKind::Corrupt, message, failure.file()}));
-  } catch (const std::bad_alloc&) {
-    return static_cast<int>(fail(output, ExitCode::Failed,
-                                 "there is not enough memory for this; try it with a smaller "
-                                 "budget, fewer seeds or fewer rows"));
   } catch (const std::exception& error) {
     // What the environment refused: a full disk, no memory, a store that goes away under us.
-    return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));
+    return static_cast<int>(fail(output, ExitCode::Failed, sentence_of_fault(error)));
   }
 }

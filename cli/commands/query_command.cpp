@@ -21,7 +21,7 @@ struct QueryArguments {
   std::optional<std::int64_t> seconds;
 
   StoreReader::QueryLimits limits() const {
-    StoreReader::QueryLimits limits;
+    StoreReader::QueryLimits limits{.views_of_file = true};
     if (limit) limits.rows = *limit;
     if (seconds) limits.seconds = static_cast<double>(*seconds);
     return limits;

@@ -3,6 +3,7 @@
 #include "storage/recover.h"
 
 #include <memory>
+#include <optional>
 
 #include "cli/commands/commands.h"
 #include "coordinator/campaign/campaign_file.h"
@@ -17,12 +18,14 @@ struct RecoverArguments {
   std::string damaged;
   std::string out;
   std::string campaign;
+  std::string without_key;
 };
 
 /// What is told at the end.
 struct Report {
   std::vector<Rebuilt::Design> designs;  ///< by the ids of the new store
   std::vector<std::string> complaints;
+  std::optional<Recovery::Without> without;
 };
 
 /// "100 whole rows; 3 pages and 2 rows cannot be read".
@@ -75,9 +78,10 @@ JsonObject design_json(const Rebuilt::Design& design) {
 void write(Output& output, const Salvaged& found, const Report& report, const Recovery::End& end,
            const std::string& file) {
   if (output.json) {
-    output.out << JsonObject()
-                      .add("store", file)
-                      .add("digest", end.digest)
+    JsonObject object;
+    object.add("store", file);
+    if (report.without) object.add("without", report.without->evaluations);
+    output.out << object.add("digest", end.digest)
                       .add("evaluations", end.evaluations)
                       .add("schema", found.schema)
                       .add("header_damaged", found.header_is_damaged)
@@ -101,6 +105,10 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
   if (end.orphans > 0) {
     output.out << end.orphans << " rows belong to lost data and were left out\n";
   }
+  if (report.without) {
+    output.out << report.without->evaluations << " evaluations of " << report.without->workers
+               << " workers were taken away\n";
+  }
   for (const Rebuilt::Design& design : report.designs)
     output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
   for (const std::string& complaint : report.complaints)
@@ -121,6 +129,11 @@ Expected<void> put_campaign(Recovery& recovery, const std::string& file) {
 Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored, Report& report) {
   if (stored.state == "imported") return {};
   auto plans = plans_of(stored.row);
+  if (!plans && report.without) {
+    Error error = plans.error();
+    error.message = "what follows from the other scores cannot be derived: " + error.message;
+    return Unexpected(error);
+  }
   if (!plans) {
     report.complaints.push_back(stored.row.name + ": " + to_string(plans.error()) +
                                 "; its rows are kept as found");
@@ -160,6 +173,11 @@ ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
     return fail(output, ExitCode::Usage, put.error());
   }
   Report report;
+  if (!arguments.without_key.empty()) {
+    const auto without = (*recovery)->drop_words_of(arguments.without_key);
+    if (!without) return fail(output, ExitCode::NoSuchId, without.error());
+    report.without = *without;
+  }
   for (const StoredCampaign& campaign : (*recovery)->campaigns()) {
     if (const auto rebuilt = rebuild_campaign(**recovery, campaign, report); !rebuilt) {
       return fail(output, ExitCode::Store, rebuilt.error());
@@ -168,6 +186,8 @@ ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
   const auto end = (*recovery)->finish();
   if (!end) return fail(output, ExitCode::Store, end.error());
   write(output, (*recovery)->found(), report, *end, arguments.out);
+  if (report.without)
+    print_note(output, "the campaign goes on from there with `--store " + arguments.out + "`");
   return ExitCode::Done;
 }
 
@@ -178,6 +198,9 @@ Run declare_recover(Options& options) {
   options.text("DAMAGED STORE", arguments->damaged, "The damaged store's file",
                Options::Need::Required);
   options.text("-o,--output STORE", arguments->out, "The new store's file");
+  options.text("--without-key KEY", arguments->without_key,
+               "Leave out what workers of that key said (the key's name; of workers without one "
+               "their address), and never believe it again");
   options.text("--campaign FILE", arguments->campaign,
                "The campaign's file, if the store has lost its own copy");
   return [arguments](Output& output) { return run_recover(*arguments, output); };

@@ -42,7 +42,7 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
         Error{ErrorKind::BadInput,
               "standard output has the answer of --json; name a file for the report", "-o"});
   }
-  const auto store = arguments.store.open();
+  const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   Counter counter(output, "wrote", "parts of the report");
   std::int64_t parts = 0;

@@ -14,12 +14,13 @@
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
 #include "cli/output/status_text.h"
+#include "cli/output/stored_quarantine.h"
 #include "cli/output/stored_stages.h"
 #include "cli/run/coordinator_link.h"
 #include "console/terminal.h"
+#include "proto/access/address.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/find_coordinator.h"
-#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -59,6 +60,8 @@ struct Status {
   Rows failures;
   Rows commands;
   Rows paused;
+  std::vector<QuarantineStatus> quarantine;
+  std::string store;  ///< as it was named
 
   std::string of_campaign(std::size_t row, const std::string& column) const {
     for (std::size_t i = 0; i < campaign.columns.size(); ++i) {
@@ -121,6 +124,9 @@ Expected<Status> read_status(StoreReader& store) {
     *rows = std::move(*found);
   }
   if (auto asked = read_commands(store, status); !asked) return Unexpected(asked.error());
+  auto quarantine = stored_quarantine(store);
+  if (!quarantine) return Unexpected(quarantine.error());
+  status.quarantine = std::move(*quarantine);
   if (status.campaign.cells.empty()) return unexpected(ErrorKind::Corrupt, "the store is empty");
   return status;
 }
@@ -147,6 +153,10 @@ void write_text(Output& output, const Status& status) {
     output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
   if (!status.paused.cells.empty()) output.out << "\n";
   if (!status.commands.cells.empty()) output.out << "\n" << rows_as_text(status.commands);
+  const std::vector<std::string> quarantine = quarantine_lines(status.quarantine, status.store);
+  if (!quarantine.empty()) output.out << "\n";
+  for (const std::string& line : quarantine)
+    output.out << as_shown(line, Layout::Escaped) << "\n";
   if (status.workers.cells.empty()) return;
   output.out << "\n" << rows_as_text(status.workers);
 }
@@ -157,6 +167,7 @@ void write_json(Output& output, const Status& status) {
   if (status.campaign.cells.size() > 1) object.add("campaigns", rows_as_json(status.campaign));
   output.out << object.add("designs", rows_as_json(status.designs))
                     .add("workers", rows_as_json(status.workers))
+                    .add("quarantine", JsonPiece{quarantine_json(status.quarantine)})
                     .add("paused", rows_as_json(status.paused))
                     .add("commands", rows_as_json(status.commands))
                     .add("failures", JsonPiece{status.failures.cells.front().front().text})
@@ -177,10 +188,10 @@ Expected<FoundCoordinator> coordinator_of(const StatusArguments& arguments) {
     const auto store = arguments.store.path();
     if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
     search.file = coordinator_file_of(real_store(*store));
-  } else if (const std::string endpoint =
-                 (named.find("://") == std::string::npos ? "tcp://" : "") + named;
-             is_tcp_address(endpoint)) {
-    search.endpoint = endpoint;
+  } else if (const auto endpoint = endpoint_of(named, true)) {
+    search.endpoint = *endpoint;
+  } else if (!arguments.connect.empty() && !std::filesystem::exists(named)) {
+    return Unexpected(endpoint.error());
   } else {
     search.file = named;
   }
@@ -238,6 +249,7 @@ ExitCode show_stored(const StatusArguments& arguments, Output& output, bool& run
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   auto status = read_status(**store);
   if (!status) return fail(output, ExitCode::Store, status.error());
+  status->store = *arguments.store.path();
   if (!has_writer(*arguments.store.path())) correct_states(*status);
   if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
   const auto stages = StoredStages::read(**store);

@@ -108,7 +108,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
         output, ExitCode::Usage,
         Error{ErrorKind::BadInput, "is there already; name another folder", folder.string()});
   }
-  const auto store = arguments.store.open();
+  const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool with_pdfs = find_program("rsvg-convert").has_value();
   // A program without pages has none to give.

@@ -5,7 +5,7 @@
 
 #include "cli/commands/commands.h"
 #include "coordinator/launchers/worker_program.h"
-#include "proto/socket.h"
+#include "proto/access/address.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -19,15 +19,9 @@ Expected<std::vector<std::string>> where_words(const std::string& connect,
         "FILE)");
   }
   if (!coordinator.empty()) return std::vector<std::string>{"--coordinator", coordinator};
-  const bool has_scheme = connect.find("://") != std::string::npos;
-  const std::string endpoint = (has_scheme ? "" : "tcp://") + connect;
-  if (is_tcp_address(endpoint) && !endpoint.ends_with("*")) {
-    return std::vector<std::string>{"--connect", endpoint};
-  }
-  return bad_input("`" + connect +
-                       "` is not an address; write host and port, such as 127.0.0.1:5555, as "
-                       "`serve` prints them",
-                   "--connect");
+  const auto endpoint = endpoint_of(connect, true);
+  if (endpoint) return std::vector<std::string>{"--connect", *endpoint};
+  return bad_input("`" + connect + "`: " + endpoint.error().message, "--connect");
 }
 
 }  // namespace

@@ -32,6 +32,9 @@ constexpr std::array kStoredKinds = {
     StoredKind{"CANDIDATE",
                "SELECT DISTINCT 'c' || candidate, 'elite of d' || design FROM v_convergence "
                "ORDER BY design, candidate"},
+    StoredKind{"WHO",
+               "SELECT DISTINCT principal, 'in quarantine' FROM v_workers "
+               "WHERE state = 'quarantined' ORDER BY principal"},
     StoredKind{"RUN", "SELECT id, mission || ', ' || verdict FROM v_real_runs ORDER BY run"},
     StoredKind{"MISSION", "SELECT DISTINCT mission, '' FROM v_designs ORDER BY mission"},
     StoredKind{"METHOD", "SELECT DISTINCT method, '' FROM v_designs ORDER BY method"},

@@ -36,6 +36,7 @@
 #include "cli/dashboard/run_answers.h"
 #include "cli/dashboard/sql_answers.h"
 #include "cli/dashboard/store_answers.h"
+#include "cli/output/stored_quarantine.h"
 #include "coordinator/campaign/campaign.h"
 #include "proto/access/address.h"
 #include "sim/engine/simulate.h"
@@ -632,17 +633,26 @@ class Dashboard final : public HttpSite {
   Expected<Answer> workers() {
     const auto now = published();
     if (now && Clock::now() - now->when < kStale)
-      return json_answer(answer_object().add("workers", JsonPiece{fleet_json(now->status)}));
+      return json_answer(
+          answer_object()
+              .add("workers", JsonPiece{fleet_json(now->status)})
+              .add("quarantine", JsonPiece{quarantine_json(now->status.quarantine)}));
     std::string all;
+    std::vector<QuarantineStatus> quarantine;
     for (const DashboardStore& store : options_.stores) {
       const auto reader = readers_.take(store);
       if (!reader) return Unexpected(reader.error());
       const auto workers = stored_workers(**reader, has_writer(store.file));
       if (!workers) return Unexpected(workers.error());
+      auto its = stored_quarantine(**reader);
+      if (!its) return Unexpected(its.error());
+      std::ranges::move(*its, std::back_inserter(quarantine));
       const std::string list = workers->text.substr(1, workers->text.size() - 2);
       if (!list.empty()) all += (all.empty() ? "" : ",") + list;
     }
-    return json_answer(answer_object().add("workers", JsonPiece{"[" + all + "]"}));
+    return json_answer(answer_object()
+                           .add("workers", JsonPiece{"[" + all + "]"})
+                           .add("quarantine", JsonPiece{quarantine_json(quarantine)}));
   }
 
   Expected<Answer> history(const SiteRequest& request) {

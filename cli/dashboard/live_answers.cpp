@@ -154,7 +154,8 @@ std::vector<Look> looks_of(const LiveStatus& status) {
   say(!status.trouble.empty(), status.trouble);
   some(status.conflicts, "conflict", ": two results of one evaluation differ in their bits");
   say(status.insecure_plaintext, "other hosts can connect without keys");
-  some(status.quarantined, "worker", " in quarantine");
+  for (const QuarantineStatus& one : status.quarantine)
+    say(true, quarantine_line(one));
   say(status.workers == 0, "no worker is connected");
   some(status.lost_workers, "worker", " lost");
   some(status.rejected, "evaluation", " rejected", "c1");

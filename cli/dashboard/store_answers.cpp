@@ -373,7 +373,8 @@ Expected<Answer> views_answer(const Question& question) {
   const auto rows =
       rows_of(question,
               "SELECT v.name AS view, c.name AS column FROM (SELECT name, type FROM "
-              "sqlite_master UNION SELECT name, type FROM sqlite_temp_master) AS v JOIN "
+              "sqlite_temp_master UNION SELECT name, type FROM sqlite_master WHERE NOT EXISTS "
+              "(SELECT 1 FROM sqlite_temp_master)) AS v JOIN "
               "pragma_table_info(v.name) AS c WHERE v.type = 'view' AND v.name GLOB 'v_*' "
               "ORDER BY v.name, c.cid");
   if (!rows) return Unexpected(rows.error());

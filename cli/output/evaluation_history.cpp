@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "storage/stored_enums.h"
+
 namespace swarmsmith::cli {
 
 bool EvaluationHistory::is_race() const {
@@ -65,7 +67,7 @@ Expected<EvaluationHistory> read_history(StoreReader& store, const ThingId& id) 
        &history.failures},
       {"SELECT time AS at, kept_score, other_score, other_worker FROM conflict WHERE candidate = " +
            candidate + " AND pair = " + pair + " AND purpose = " +
-           (id.purpose.empty() ? "0" : std::to_string(1 + std::string("ltasvp").find(id.purpose))) +
+           std::to_string(static_cast<int>(purpose_of_letter(id.purpose).value_or(Purpose::Race))) +
            " ORDER BY time",
        &history.conflicts},
       {"SELECT w.worker, w.host, w.pid, w.job, w.client, w.build, w.state FROM v_workers AS w "
@@ -89,13 +91,11 @@ Expected<EvaluationHistory> read_history(StoreReader& store, const ThingId& id) 
 
 std::string why(const EvaluationHistory& history) {
   const std::string purpose = cell_text(history.evaluation, "purpose");
-  if (purpose == "transfer") return "a test of its candidate under a further profile";
   if (purpose == "test")
     return history.is_race() ? "a test of its candidate after the race, outside of the budget"
                              : "a test of its candidate after the search, outside of the budget";
-  if (purpose == "audit") return "an audit: a second worker, bits compared";
-  if (purpose == "score") return "a person scored the candidate";
-  if (purpose == "evaluator") return "a call of the targetEvaluator";
+  const auto known = purpose_of_word(purpose);
+  if (known && !facts_of(*known)->why.empty()) return std::string(facts_of(*known)->why);
   const std::string iteration = cell_text(history.evaluation, "iteration");
   if (iteration.empty()) return "looked ahead: no race has wanted it";
   const std::string step = cell_text(history.steps, "step");

@@ -143,6 +143,7 @@ std::string event_json(const Row& row) {
                  [&](const EliminationRow& row_) { return no_event(row_); },
                  [&](const CandidateTotalsRow& row_) { return no_event(row_); },
                  [&](const AttemptRow& row_) { return no_event(row_); },
+                 [&](const ForgivenRow& row_) { return no_event(row_); },
                  [](const CommandRow& command) { return command_json(command); }},
       row);
 }
@@ -176,6 +177,7 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live, st
       .add("conflicts", live.conflicts)
       .add("unleased", live.unleased)
       .add("malformed", live.malformed)
+      .add("uncommitted", live.uncommitted)
       .add("trouble", live.trouble)
       .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
       .text();

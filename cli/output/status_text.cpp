@@ -225,6 +225,8 @@ std::vector<std::string> status_lines(const LiveStatus& status, const Screen& sc
   add_head(lines, status);
   if (!status.trouble.empty()) lines.push_back("NOTHING IS STORED: " + status.trouble);
   if (const std::string text = troubles(status); !text.empty()) lines.push_back("look at" + text);
+  for (const QuarantineStatus& one : status.quarantine)
+    lines.push_back(quarantine_line(one) + " (`swarmsmith forgive` lets it work again)");
   const std::vector<std::string> designs = design_lines(status);
   const std::vector<std::string> hosts = host_lines(status);
   const std::size_t room = screen.height > lines.size() ? screen.height - lines.size() : 0;

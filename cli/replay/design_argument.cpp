@@ -31,6 +31,8 @@ Expected<Campaign> campaign_of(const std::string& file, Output& output) {
                           " campaigns; name a campaign file, or the store of one campaign",
                       file);
   }
+  if (campaigns.front().state == "imported")
+    return bad_input("its designs were imported, and there is no campaign file of them", file);
   return campaign_or_last(parse_campaign(campaigns.front().row.file, file), output);
 }
 

@@ -8,6 +8,7 @@
 #include "base/text/csv.h"
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
+#include "coordinator/results/imported_world.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -65,7 +66,7 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   if (known == designs_.end()) return std::optional<DesignWorld>();
   DesignWorld world{.design = *known};
   const auto file = files_.find(known->campaign);
-  if (file != files_.end() && !file->second.text.empty()) {
+  if (file != files_.end() && !file->second.text.empty() && !is_imported_text(file->second.text)) {
     world.engine_version = file->second.engine_version;
     const auto campaign = parse_campaign(file->second.text, "the store's campaign file");
     if (!campaign) return Unexpected(campaign.error().front());
@@ -74,7 +75,15 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   }
   world.flavour = known->flavour;
   world.has_parameters = known->flavour.empty();
-  if (!world.has_parameters) world.mission = built_in(known->mission);
+  if (world.has_parameters) return world;
+  world.mission = built_in(known->mission);
+  if (file == files_.end()) return world;
+  auto imported = read_imported_world(file->second.text);
+  if (!imported) return Unexpected(imported.error());
+  for (MissionEntry& entry : imported->missions) {
+    if (entry.mission.name == known->mission) world.mission = CampaignMission{std::move(entry), {}};
+  }
+  world.profile = std::move(imported->profile);
   return world;
 }
 

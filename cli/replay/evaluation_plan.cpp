@@ -13,6 +13,7 @@
 #include "cli/replay/design_worlds.h"
 #include "console/seeds.h"
 #include "sim/control/controller.h"
+#include "sim/control/foreign_text.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/instance_csv.h"
 
@@ -245,6 +246,12 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
   EvaluationPlan plan;
   const auto machines = machines_of(arguments, output);
   if (!machines) return Unexpected(machines.error());
+  for (const NamedMachine& named : *machines) {
+    const auto remark = remark_about(named.text);
+    if (!remark) continue;
+    print_note(output, named.place + ": " + *remark);
+    break;
+  }
   plan.of_store = static_cast<bool>(machines->front().candidate);
   plan.stores = plan.of_store && !arguments.no_store;
   for (const NamedMachine& named : *machines) {

@@ -31,9 +31,8 @@ Expected<std::vector<NamedMachine>> machines_of_file(const std::string& file, Ou
   const auto text = read_file(file, "machine");
   if (!text && text.error().kind == ErrorKind::NotFound) {
     return bad_input(
-        "not a machine: expected a text that begins with --nstates, --nroot or --network, a file, "
-        "or a candidate such as "
-        "c812",
+        "not a machine: expected a text that begins with --nstates, --nroot or --network, a file "
+        "that exists, or a candidate such as c812",
         file);
   }
   if (!text) return Unexpected(text.error());

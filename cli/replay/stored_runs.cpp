@@ -15,6 +15,7 @@
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "sim/files/profile_file.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -299,7 +300,7 @@ Expected<std::vector<std::string>> StoredRuns::drawn(const std::string& given,
                [&](const auto& cells) { who_answers[integer_of(cells[0])] = cells[1].text; });
   if (!read_workers) return Unexpected(read_workers.error());
   Draw draw(wanted);
-  const std::string but = wanted.tests ? " AND e.purpose NOT IN ('test', 'transfer')" : "";
+  const std::string but = wanted.tests ? " AND e.purpose NOT IN " + words_in_sql(is_test) : "";
   const auto read =
       each_row(*store_,
                "SELECT e.id, e.worker, e.candidate * 100003 + e.pair * 7 + (e.purpose = 'test')" +
@@ -322,8 +323,8 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   if (wanted.rejections)
     parts.push_back("SELECT e.id" + given + " AND e.status = 'rejected'" + in_order);
   if (wanted.tests)
-    parts.push_back("SELECT e.id" + given +
-                    " AND e.status = 'ok' AND e.purpose IN ('test', 'transfer')" + in_order);
+    parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose IN " +
+                    words_in_sql(is_test) + in_order);
   std::vector<std::string> all;
   for (const std::string& sql : parts) {
     const auto ids = ids_of(sql);
@@ -354,8 +355,7 @@ std::string StoredRuns::of_campaigns() const {
       designs += (designs.empty() ? "" : ",") + std::to_string(design.id.value);
   }
   if (designs.empty()) return {};
-  return "e.purpose IN ('race', 'look-ahead', 'test', 'transfer') AND e.design IN (" + designs +
-         ")";
+  return "e.purpose IN " + words_in_sql(is_simulated) + " AND e.design IN (" + designs + ")";
 }
 
 bool StoredRuns::has_machines() const {

@@ -12,6 +12,7 @@
 #include "coordinator/campaign/programs.h"
 #include "coordinator/design/plans.h"
 #include "coordinator/launchers/worker_program.h"
+#include "coordinator/pool/principal.h"
 #include "coordinator/service/paused_designs.h"
 #include "proto/access/coordinator_file.h"
 
@@ -50,12 +51,16 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     const std::vector<CommandRow> commands = (*store)->commands();
     for (const CommandRow& command : commands)
       listener.restore(i, command);
-    if ((*store)->trust().distrusted) {
+    if (const StoredTrust trust = (*store)->trust(); trust.distrusted) {
+      const std::string key =
+          trust.quarantined.empty() ? "KEY" : key_of_principal(trust.quarantined.back().principal);
       return fail(output_, ExitCode::Store,
                   {ErrorKind::Conflict,
                    "scores in this store are not reliable (`swarmsmith query STORE \"SELECT "
-                   "text FROM event WHERE severity = 'error'\"` says why); run the campaign again "
-                   "into a new store",
+                   "text FROM event WHERE severity = 'error'\"` says why); `swarmsmith recover " +
+                       campaign.store.string() + " --without-key \"" + key +
+                       "\" -o NEW.db` makes a store without what that key said, and the campaign "
+                       "goes on from there with --store NEW.db",
                    campaign.store.string()});
     }
     if ((*store)->finished() && !waits_for_extension(commands)) continue;
@@ -106,6 +111,7 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
 void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     Member& member = members_[running_[i]];
+    member.unwritten = end.unwritten[i];
     if (!end.lost[i].empty()) {
       member.end = lose(member, end.lost[i]);
     } else if (end.distrusted[i]) {
@@ -126,7 +132,14 @@ ExitCode CampaignMembers::end_of(const Member& member, const std::string& reason
   }
   if (member.store->finished()) return ExitCode::Done;
   if (!trouble.empty()) return ExitCode::Unreachable;
+  if (ending_signal() == SIGXCPU) {
+    print_error(output_, {ErrorKind::Unavailable,
+                          "stopped: this process has used the processor time that it may use "
+                          "(ulimit -t)",
+                          member.campaign->store.string()});
+  }
   print_resume(member);
+  if (ending_signal() == SIGXCPU) return ExitCode::Terminated;
   return ending_signal() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
 }
 
@@ -149,8 +162,19 @@ std::string CampaignMembers::in_front(const Member& member, const std::string& m
 
 void CampaignMembers::print_resume(const Member& member) {
   if (!keeps_store_) return;
-  print_note(output_, "everything so far is in " + member.campaign->store.string() +
-                          "; the same command continues from there");
+  const std::string store = member.campaign->store.string();
+  if (member.unwritten == 0) {
+    print_note(output_,
+               "everything so far is in " + store + "; the same command continues from there");
+    return;
+  }
+  // Even when quiet: work is lost.
+  print_error(output_, {ErrorKind::Unavailable,
+                        std::to_string(member.store->scores().size()) +
+                            " evaluations are stored; " + std::to_string(member.unwritten) +
+                            " more could not be written, and are made again when the same command "
+                            "continues",
+                        store});
 }
 
 std::vector<ServiceCampaign> CampaignMembers::served() const {

@@ -55,6 +55,7 @@ class CampaignMembers {
     std::string name;                ///< that no other has
     std::unique_ptr<Store> store{};  ///< closed when the campaign was finished before
     std::unique_ptr<CampaignRunner> runner{};
+    std::int64_t unwritten = 0;  ///< evaluations that the store could not write
     ExitCode end = ExitCode::Done;
   };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 #include <variant>
 
 #include "base/text/json.h"
+#include "base/usable_processors.h"
 #include "cli/run/campaign_warnings.h"
 #include "console/output.h"
 #include "coordinator/campaign/campaign_rows.h"
@@ -138,7 +138,7 @@ CampaignPlan plan_of(const Campaign& campaign) {
   const auto worlds = static_cast<std::int64_t>(1 + campaign.test_profiles.size());
   for (const CampaignMission& mission : campaign.missions)
     plan.tests += mission.test_count * tested * worlds;
-  const auto cores = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+  const std::int64_t cores = usable_processors();
   plan.slots = std::max<std::int64_t>(1, campaign.local_workers.value_or(cores));
   const auto evaluations = static_cast<double>(plan.experiments + plan.tests);
   plan.disk_bytes = evaluations * kBytesPerEvaluation;

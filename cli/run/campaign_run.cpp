@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <stop_token>
 #include <utility>
 
-#include "base/descriptor_limit.h"
+#include "base/process_limits.h"
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/output/progress.h"
@@ -22,8 +23,13 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Of the process, besides its connections: stores, logs, workers' pipes.
-constexpr int kOtherDescriptors = 1'000;
+// Of the process, besides its connections: stores, logs, workers' pipes, pages.
+constexpr std::int64_t kOtherDescriptors = 1'000;
+constexpr std::int64_t kLeastDescriptors = 48;
+// Measured: libraries, stacks of threads, and a small campaign; the second is what is in use.
+constexpr std::uint64_t kAddressSpace = std::uint64_t{400} << 20U;
+constexpr std::uint64_t kMemory = std::uint64_t{48} << 20U;
+constexpr std::uint64_t kMemoryOfWorker = std::uint64_t{16} << 20U;
 
 /// How much worse than others an end is: a campaign that cannot go on outweighs one that can.
 int gravity(ExitCode code) {
@@ -50,11 +56,12 @@ class CampaignRun {
     if (options_.bind.empty()) options_.bind = campaigns.front().bind;
     // Workers from other hosts have to reach it; where it is, its file says.
     const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
-    if (options_.bind.empty() && !local) options_.bind = "0.0.0.0:0";
+    if (options_.bind.empty() && !local) options_.bind = "*:0";
   }
 
   std::vector<ExitCode> run() {
-    ExitCode begun = members_.open_stores(listener_);
+    ExitCode begun = check_limits();
+    if (begun == ExitCode::Done) begun = members_.open_stores(listener_);
     if (begun == ExitCode::Done && !members_.running().empty()) begun = begin();
     std::vector<ExitCode> ends;
     for (std::size_t i = 0; i < members_.size(); ++i)
@@ -63,6 +70,22 @@ class CampaignRun {
   }
 
  private:
+  /// Before there is a store: one that cannot be filled would be left behind.
+  ExitCode check_limits() {
+    const LaunchOptions launch = launch_of(members_.campaign(0), options_);
+    const std::int64_t workers = launch.kind == LaunchOptions::Kind::Local ? launch.processes : 0;
+    const std::string who = "a campaign with " + std::to_string(workers) +
+                            (workers == 1 ? " worker process" : " worker processes") +
+                            " of this host";
+    auto enough = provide_descriptors(kLeastDescriptors + 2 * workers,
+                                      SocketOptions().max_connections + kOtherDescriptors, who);
+    if (enough) {
+      enough = check_memory(kAddressSpace,
+                            kMemory + static_cast<std::uint64_t>(workers) * kMemoryOfWorker, who);
+    }
+    return enough ? ExitCode::Done : fail(output_, ExitCode::Failed, enough.error());
+  }
+
   ExitCode begin() {
     catch_ending_signals();
     if (const ExitCode begun = members_.begin(); begun != ExitCode::Done) return begun;
@@ -138,7 +161,6 @@ class CampaignRun {
 
   /// Keys and clients, or plaintext; false after having said what is wrong.
   bool open_door() {
-    raise_descriptor_limit(SocketOptions().max_connections + kOtherDescriptors);
     auto access = open_access(options_.access, bind_of(options_));
     if (access) {
       access_ = std::move(*access);
@@ -217,6 +239,7 @@ class CampaignRun {
                 worker_trouble = workers->tend(clock_.now());
                 if (worker_trouble.empty()) live.launcher = workers->status();
               }
+              explain_quarantine(live);
               last_ = live;
               if (pages_) pages_->publish(live);
               listener_.update(last_, clock_.now());
@@ -234,6 +257,21 @@ class CampaignRun {
     members_.end(end, worker_trouble);
     if (!worker_trouble.empty()) fail(output_, ExitCode::Unreachable, worker_trouble);
     return ExitCode::Done;
+  }
+
+  /// Once for each: those who wait for workers should know who is turned away.
+  void explain_quarantine(const LiveStatus& live) {
+    for (const QuarantineStatus& one : live.quarantine) {
+      if (!told_of_quarantine_.emplace(one.who, one.worker).second) continue;
+      const std::string store = members_.campaign(members_.running().front()).store.string();
+      print_note(output_, quarantine_line(one) + "; `swarmsmith forgive " + store + " \"" +
+                              one.who + "\"` lets it work again");
+    }
+    std::erase_if(told_of_quarantine_, [&](const auto& told) {
+      return std::ranges::none_of(live.quarantine, [&](const QuarantineStatus& one) {
+        return told == std::pair(one.who, one.worker);
+      });
+    });
   }
 
   void announce(const std::string& endpoint) {
@@ -254,6 +292,7 @@ class CampaignRun {
   std::unique_ptr<HttpServer> pages_;
   Access access_;
   std::string local_secret_;
+  std::set<std::pair<std::string, std::int64_t>> told_of_quarantine_;
 };
 
 /// Lines of several campaigns begin with their names.

@@ -4,6 +4,7 @@
 
 #include "base/text/json.h"
 #include "sim/control/flavour.h"
+#include "sim/engine/kept_constants.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -54,11 +55,27 @@ void warn_about_light(const Method& method, const Campaign& campaign,
   }
 }
 
+/// A mission gives robots another shape, and nothing else.
+void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings) {
+  const auto kept = kept_constants(mission.body);
+  if (!kept) return;
+  warnings.push_back("mission " + mission.name +
+                     ": its robot has a shape of its own, and all else of the RVR: " +
+                     json_number(kept->mass_kg) + " kg, a drive of " + json_number(kept->drive_N) +
+                     " N, treads " + json_number(kept->treads_m) + " m apart, the ground sensor " +
+                     json_number(kept->ground_sensor_m) + " m ahead of the centre" +
+                     (kept->ground_sensor_is_outside ? " (outside of this body)" : "") +
+                     ", a height of " + json_number(kept->height_m) + " m, neighbours up to " +
+                     json_number(kept->neighbours_m) + " m");
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_about(const Campaign& campaign) {
   std::vector<std::string> warnings;
   if (campaign.target) return warnings;  // what its programs do of modules is theirs
+  for (const CampaignMission& mission : campaign.missions)
+    warn_about_robot(mission.mission, warnings);
   for (const Method& method : campaign.methods) {
     const Flavour& flavour = **find_flavour(method.flavour);
     warn_about_black(method, flavour, campaign.profile, warnings);

@@ -5,6 +5,8 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
+#include "coordinator/pool/principal.h"
+#include "coordinator/service/live_status.h"
 #include "coordinator/service/paused_designs.h"
 
 namespace swarmsmith::cli {
@@ -70,11 +72,30 @@ Expected<void> write(Store& store, std::vector<CommandRow> commands, std::int64_
   return store.flush();
 }
 
+Expected<std::string> forgive(Store& store, const CommandRow& command) {
+  std::vector<std::string> names, known;
+  std::vector<Row> rows;
+  for (const Quarantine& one : store.trust().quarantined) {
+    if (std::ranges::find(known, one.principal) != known.end()) continue;
+    known.push_back(one.principal);
+    if (!is_named(one.principal, command.whom)) continue;
+    names.push_back(one.principal);
+    rows.emplace_back(ForgivenRow{one.principal});
+    rows.emplace_back(
+        event_row("info", "workers forgiven", {{"who", one.principal}, {"by", command.who}}));
+  }
+  if (names.empty()) return not_in_quarantine(command.whom, known);
+  store.append(std::move(rows));
+  if (auto written = store.flush(); !written) return Unexpected(written.error());
+  return sentence_of_forgiven(names);
+}
+
 }  // namespace
 
 Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
                                       const std::filesystem::path& path,
                                       const CommandRow& command) {
+  if (command.kind == CommandKind::Forgive) return forgive(store, command);
   const std::vector<CommandRow> commands = store.commands();
   const std::int64_t last = commands.empty() ? 0 : commands.back().number;
   if (is_of_leases(command.kind)) {

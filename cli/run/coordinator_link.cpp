@@ -2,6 +2,7 @@
 
 #include <pwd.h>
 #include <unistd.h>
+#include <utility>
 
 #include "base/clock.h"
 #include "coordinator/service/messages.h"
@@ -24,6 +25,7 @@ std::string frame_of(const std::string& campaign, const CommandRow& command) {
   wish.set_design(command.design.value);
   wish.set_budget(command.budget);
   wish.set_who(command.who);
+  wish.set_whom(command.whom);
   return encode(message);
 }
 
@@ -43,6 +45,35 @@ std::optional<Answer> answer_in(const std::string& frame) {
   return std::nullopt;
 }
 
+/// A frame that is said once, by the first of the server's numbers that answers: of a command that
+/// arrives twice the second could act, too.
+class Tries {
+ public:
+  Tries(ClientSocket& socket, std::string frame) : socket_(&socket), frame_(std::move(frame)) {
+    begin();
+  }
+
+  /// Goes on to the next number, if nothing has answered yet and there is one.
+  bool another() {
+    if (socket_->stood() || ++tried_ >= socket_->choices()) return false;
+    begin();
+    return true;
+  }
+  std::string why(const std::string& otherwise) const {
+    return socket_->trouble().empty() ? otherwise : socket_->trouble();
+  }
+
+ private:
+  void begin() {
+    socket_->connect();
+    socket_->send(frame_);
+  }
+
+  ClientSocket* socket_;
+  std::string frame_;
+  std::size_t tried_ = 0;
+};
+
 }  // namespace
 
 CoordinatorSearch CoordinatorArgument::search(const std::string& file) const {
@@ -52,17 +83,17 @@ CoordinatorSearch CoordinatorArgument::search(const std::string& file) const {
                            .role = "operator",
                            .insecure_plaintext = insecure_plaintext};
   if (connect.empty()) return search;
-  const bool has_scheme = connect.find("://") != std::string::npos;
-  search.endpoint = (has_scheme ? "" : "tcp://") + connect;
+  // What is no address is refused when it is connected to.
+  search.endpoint = endpoint_of(connect, true).value_or(connect);
   search.file.clear();
   return search;
 }
 
 Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std::string& campaign,
                                       const CommandRow& command, std::chrono::seconds patience) {
-  if (!search.endpoint.empty() && !is_tcp_address(search.endpoint)) {
-    return bad_input("invalid address; expected host and port, such as 127.0.0.1:5555",
-                     search.endpoint);
+  if (!search.endpoint.empty()) {
+    if (const auto good = endpoint_of(search.endpoint, true); !good)
+      return Unexpected(good.error());
   }
   auto found = find_coordinator(search);
   if (!found) return Unexpected(found.error());
@@ -70,9 +101,8 @@ Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std
   const TimePoint until = clock.now() + patience;
   const Wakeup wakeup;
   ClientSocket socket(found->endpoint, {}, found->keys);
-  socket.connect();
-  // Said once: of a command that is sent twice the second could act, too.
-  socket.send(frame_of(campaign, command));
+  socket.redirect(found->endpoint, found->keys, found->others);
+  Tries tries(socket, frame_of(campaign, command));
   std::string received;
   while (clock.now() < until) {
     while (socket.receive(received)) {
@@ -84,8 +114,9 @@ Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std
           "(`swarmsmith keygen --client NAME --role operator`)",
           found->endpoint);
     }
-    if (socket.lost()) {
-      return unexpected(ErrorKind::Unavailable, "no coordinator answers there", found->endpoint);
+    if (socket.lost() && !tries.another()) {
+      return unexpected(ErrorKind::Unavailable, tries.why("no coordinator answers there"),
+                        found->endpoint);
     }
     socket.wait(wakeup, kLookAgain);
   }
@@ -104,10 +135,10 @@ Expected<std::string> ask_status(const FoundCoordinator& coordinator,
     return unexpected(ErrorKind::Unavailable, how, coordinator.endpoint);
   };
   ClientSocket socket(coordinator.endpoint, {}, coordinator.keys);
-  socket.connect();
+  socket.redirect(coordinator.endpoint, coordinator.keys, coordinator.others);
   pb::ToCoordinator question;
   question.mutable_want_status();
-  socket.send(encode(question));
+  Tries tries(socket, encode(question));
   google::protobuf::Arena arena;
   const Wakeup nobody;
   std::string frame;
@@ -121,7 +152,8 @@ Expected<std::string> ask_status(const FoundCoordinator& coordinator,
         return bad_input((*answer)->reject().sentence(), coordinator.endpoint);
     }
     if (socket.refused()) return unreachable("the coordinator does not know this key");
-    if (socket.lost()) return unreachable("no coordinator runs there");
+    if (socket.lost() && !tries.another())
+      return unreachable(tries.why("no coordinator runs there"));
     const auto left = std::chrono::ceil<milliseconds>(until - Clock::now());
     if (left.count() <= 0) return unreachable("the coordinator does not answer");
     socket.wait(nobody, left);

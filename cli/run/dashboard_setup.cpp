@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/address.h"
 #include "base/environment.h"
 #include "cli/run/ask_campaign.h"
 #include "coordinator/service/http_address.h"
@@ -51,8 +52,8 @@ DashboardSetup::~DashboardSetup() {
 void DashboardSetup::announce(Output& output, const std::string& address) const {
   const std::string secret = output.err_is_terminal && !token_.empty() ? "#t=" + token_ : "";
   print_note(output, "dashboard: http://" + address + "/" + secret);
-  const auto parsed = parse_http_address(address);
-  if (environment("SSH_CONNECTION").empty() || !parsed || !is_loopback(*parsed)) return;
+  const auto parsed = parse_address(address);
+  if (environment("SSH_CONNECTION").empty() || !parsed || !is_loopback(parsed->host)) return;
   print_note(output, "from your desk: ssh -NL " + std::to_string(parsed->port) + ":" + address +
                          " " + user_and_host());
 }

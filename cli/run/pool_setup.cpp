@@ -1,7 +1,10 @@
 #include "cli/run/pool_setup.h"
 
 #include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/service/http_address.h"
+#include "proto/access/address.h"
 #include "proto/scenario/scenario.h"
+#include "proto/socket.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 
@@ -42,8 +45,8 @@ CampaignPolicy policy_of(const Campaign& campaign) {
 
 std::string bind_of(const RunOptions& options) {
   if (options.bind.empty()) return "tcp://127.0.0.1:*";
-  const bool has_scheme = options.bind.find("://") != std::string::npos;
-  return (has_scheme ? "" : "tcp://") + options.bind;
+  // What is no address is refused by who listens.
+  return endpoint_of(options.bind, false).value_or(options.bind);
 }
 
 ServiceOptions service_options(const std::vector<const Campaign*>& campaigns,
@@ -110,8 +113,9 @@ Expected<std::unique_ptr<Service>> open_service(ServiceOptions options,
     auto service = Service::open(options, campaigns);
     const bool taken = !service && service.error().kind == ErrorKind::Conflict;
     if (!taken || !next_port || next == kPorts) return service;
-    const std::size_t colon = bind.rfind(':') + 1;
-    options.bind = bind.substr(0, colon) + std::to_string(std::stoi(bind.substr(colon)) + next);
+    auto address = address_of(bind);
+    address->port += next;
+    options.bind = tcp_endpoint(*address);
   }
 }
 
@@ -119,7 +123,7 @@ Expected<std::unique_ptr<HttpServer>> open_pages(const RunOptions& options,
                                                  std::shared_ptr<HttpSite> site,
                                                  const std::string& act_token) {
   if (options.http.empty()) return std::unique_ptr<HttpServer>();
-  auto address = parse_http_address(options.http);
+  auto address = parse_address(options.http);
   if (!address) return Unexpected(address.error());
   HttpOptions http{.address = *address,
                    .next_port = options.http_next_port,

@@ -16,6 +16,12 @@ void on_ending(int signal) {
   if (g_ending.exchange(signal) != 0) _exit(128 + signal);
 }
 
+/// Comes again with each second of processor time.
+void on_processor_limit(int signal) {
+  int none = 0;
+  g_ending.compare_exchange_strong(none, signal);
+}
+
 void on_hangup(int) {
   g_hangup = true;
 }
@@ -28,6 +34,8 @@ void catch_ending_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = on_processor_limit;
+  sigaction(SIGXCPU, &action, nullptr);
 }
 
 int ending_signal() {

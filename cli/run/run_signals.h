@@ -4,7 +4,8 @@ namespace swarmsmith::cli {
 
 // What a person or a batch system says to a run by signals; of the whole process.
 
-/// SIGINT and SIGTERM are taken note of from now on; a second one ends the process at once.
+/// SIGINT, SIGTERM and SIGXCPU are taken note of from now on; a second one of the first two ends
+/// the process at once.
 void catch_ending_signals();
 /// The signal that asked for the end, or 0.
 int ending_signal();

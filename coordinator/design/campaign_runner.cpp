@@ -254,12 +254,8 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
     const DesignId id = design_of(score.key.candidate);
     if (skipped(id)) continue;
     StoredDesign& design = designs[id];
-    auto* known = score.key.purpose == Purpose::Race        ? &design.race_scores
-                  : is_of_tests(score.key.purpose)          ? &design.test_scores
-                  : score.key.purpose == Purpose::Evaluator ? &design.evaluator_scores
-                                                            : nullptr;
-    if (known == nullptr) continue;
-    known->emplace(packed_key(score.key), score);
+    if (auto* known = scores_of(design, score.key.purpose))
+      known->emplace(packed_key(score.key), score);
   }
   for (const StoredStep& step : steps) {
     if (skipped(step.design)) continue;

@@ -8,25 +8,25 @@ namespace swarmsmith {
 namespace {
 
 template <class Design>
-auto& scores_of(Design& stored, Purpose purpose) {
+auto& asked_scores_of(Design& stored, Purpose purpose) {
+  auto* scores = scores_of(stored, purpose);
   SWARMSMITH_ASSERT(
-      purpose == Purpose::Race || is_of_tests(purpose) || purpose == Purpose::Evaluator,
+      scores != nullptr,
       "a design asks for runs of its race and its tests, and for calls of a targetEvaluator");
-  if (purpose == Purpose::Race) return stored.race_scores;
-  return is_of_tests(purpose) ? stored.test_scores : stored.evaluator_scores;
+  return *scores;
 }
 
 }  // namespace
 
 const StoredScore* KnownScores::stored(const EvaluationKey& key) const {
-  const auto& scores = scores_of(stored_, key.purpose);
+  const auto& scores = asked_scores_of(stored_, key.purpose);
   const auto found = scores.find(packed_key(key));
   return found == scores.end() ? nullptr : &found->second;
 }
 
 std::optional<StoredScore> KnownScores::take(const EvaluationKey& key) {
   const std::uint64_t packed = packed_key(key);
-  if (auto score = scores_of(stored_, key.purpose).extract(packed)) {
+  if (auto score = asked_scores_of(stored_, key.purpose).extract(packed)) {
     if (is_of_tests(key.purpose)) return tested_.insert(std::move(score)).position->second;
     return score.mapped();
   }

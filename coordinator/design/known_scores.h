@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "storage/rows.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 
@@ -26,6 +26,24 @@ struct StoredDesign {
   /// Digest of step n at index n - 1.
   std::vector<std::uint64_t> step_digests;
 };
+
+/// Those that hold what was made for the purpose; null for one that no design asks for.
+template <class Design>
+auto* scores_of(Design& design, Purpose purpose) {
+  using Replay = PurposeFacts::Replay;
+  const auto facts = facts_of(purpose);
+  switch (facts ? facts->replay : Replay::None) {
+    case Replay::Race:
+      return &design.race_scores;
+    case Replay::Tests:
+      return &design.test_scores;
+    case Replay::Evaluator:
+      return &design.evaluator_scores;
+    case Replay::None:
+      break;
+  }
+  return decltype(&design.race_scores)(nullptr);
+}
 
 /// Scores that are there before a design asks for them. One of the race is here or with the race,
 /// never both: `take` hands it over, and `keep` takes it back when the race did not use it. One of

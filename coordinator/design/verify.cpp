@@ -51,7 +51,8 @@ std::optional<DesignId> design_of(const Row& row) {
                  [](const FailureRow&) { return std::optional<DesignId>(); },
                  [](const EventRow&) { return std::optional<DesignId>(); },
                  [](const AttemptRow&) { return std::optional<DesignId>(); },
-                 [](const CommandRow& r) { return std::optional(r.design); }},
+                 [](const CommandRow& r) { return std::optional(r.design); },
+                 [](const ForgivenRow&) { return std::optional<DesignId>(); }},
       row);
 }
 

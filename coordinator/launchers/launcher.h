@@ -7,8 +7,8 @@
 
 namespace swarmsmith {
 
-/// How a launcher's workers are, for people. A worker is a process here: one of this host, one
-/// behind ssh, or one job of a batch system.
+/// How a launcher's workers are, for people. A worker is here a process of this host, one behind
+/// ssh that is connected, or one job of a batch system.
 struct LauncherStatus {
   std::string name;  ///< "local", "ssh" or "slurm"
   std::int64_t wanted = 0;

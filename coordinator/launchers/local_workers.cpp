@@ -1,6 +1,5 @@
 #include "coordinator/launchers/local_workers.h"
 
-#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "base/local_secret.h"
+#include "base/usable_processors.h"
 #include "coordinator/launchers/worker_program.h"
 
 namespace swarmsmith {
@@ -23,12 +23,6 @@ constexpr int kMostFailures = 5;
 /// swarmsmith-worker's exit code for a coordinator that does not want it.
 constexpr int kRefused = 7;
 
-int available_cpus() {
-  cpu_set_t mask;
-  CPU_ZERO(&mask);
-  return sched_getaffinity(0, sizeof mask, &mask) == 0 ? CPU_COUNT(&mask) : 1;
-}
-
 }  // namespace
 
 Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
@@ -40,7 +34,8 @@ Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
     program = std::move(*found);
   }
   const int processes = std::max(1, options.processes);
-  const int slots = options.slots > 0 ? options.slots : std::max(1, available_cpus() / processes);
+  const int slots =
+      options.slots > 0 ? options.slots : std::max(1, usable_processors() / processes);
   workers.command_ = {
       program.string(),      "--connect",         options.endpoint, "--slots",
       std::to_string(slots), "--die-with-parent", "--parent",       std::to_string(getpid())};
@@ -83,12 +78,15 @@ void LocalWorkers::on_ended(Worker& worker, int status, TimePoint now) {
         "the coordinator refuses its own workers (" + command_.front() + " is of another build)";
   }
   const bool lived = now - worker.started >= kShortLife;
-  // Being killed is an accident; ending by oneself, again and again, is not.
-  const bool failed = WIFEXITED(status) && WEXITSTATUS(status) != 0 && !lived;
+  // Being killed is an accident; ending by oneself, again and again, is not, whatever the code: a
+  // worker ends well only when it is asked to.
+  const bool failed = WIFEXITED(status) && !lived;
   worker.failures = failed ? worker.failures + 1 : 0;
   if (worker.failures >= kMostFailures && trouble_.empty()) {
+    const int code = WEXITSTATUS(status);
     trouble_ = "workers end as soon as they are started (" + command_.front() + ", exit code " +
-               std::to_string(WEXITSTATUS(status)) + "); install it again, or see what it says";
+               std::to_string(code) + "); " +
+               (code == 0 ? "is it swarmsmith-worker?" : "install it again, or see what it says");
   }
   if (lived) worker.backoff.reset();
   worker.start_at = lived ? now : now + worker.backoff.next();

@@ -15,7 +15,7 @@ namespace swarmsmith {
 struct LocalWorkersOptions {
   std::string endpoint;  ///< of the coordinator
   int processes = 1;
-  int slots = 0;  ///< of each process; 0: as many as CPUs, shared among the processes
+  int slots = 0;  ///< of each process; 0: as many as usable processors, shared among them
   std::filesystem::path program;       ///< empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the program
   std::string secret{};                ///< by which the coordinator knows them; empty for none
@@ -43,7 +43,7 @@ class LocalWorkers final : public Launcher {
     TimePoint started;
     TimePoint start_at;
     Backoff backoff;
-    int failures = 0;  ///< ended at once by itself, in a row
+    int failures = 0;  ///< ended at once by itself, well or not, in a row
   };
 
   LocalWorkers() = default;

@@ -8,6 +8,10 @@
 namespace swarmsmith {
 namespace {
 
+/// A job that ran so long was a worker.
+constexpr Duration kShortLife = std::chrono::seconds(30);
+constexpr int kMostQuickEnds = 5;
+
 enum class Phase { Pending, Running, Leaving, Cancelled, Failed, Ended };
 
 /// States as squeue(1) lists them. An unknown one is a job that is still there.
@@ -85,7 +89,31 @@ SlurmJobs::Action SlurmJobs::next(TimePoint now) {
   return LookAtQueue{};
 }
 
-void SlurmJobs::count(const std::vector<QueuedJob>& jobs) {
+/// Of each job that ran or has just ended.
+void SlurmJobs::note_life(const std::vector<QueuedJob>& jobs, TimePoint now) {
+  for (const QueuedJob& job : jobs) {
+    const auto since = running_since_.find(job.id);
+    const bool lived = since != running_since_.end() && now - since->second >= kShortLife;
+    if (phase_of(job.state) == Phase::Running) {
+      running_since_.try_emplace(job.id, now);
+      if (lived) quick_ends_ = 0;
+      continue;
+    }
+    const auto before = states_.find(job.id);
+    const bool was_live = before == states_.end() ? seen_ : is_live(phase_of(before->second));
+    if (was_live && job.state == "COMPLETED" && !lived) {
+      ++quick_ends_;
+      if (quick_ends_ == kMostQuickEnds) {
+        trouble_ = "jobs end as soon as they run, and without an error (job " + job.id +
+                   "); is their program swarmsmith-worker? The job's log says more";
+      }
+    }
+    if (since != running_since_.end() && !is_live(phase_of(job.state))) running_since_.erase(since);
+  }
+}
+
+void SlurmJobs::count(const std::vector<QueuedJob>& jobs, TimePoint now) {
+  note_life(jobs, now);
   std::map<std::string, std::int64_t> reasons;
   std::int64_t cancelled = 0;
   std::int64_t replaceable = 0;
@@ -127,7 +155,7 @@ void SlurmJobs::on_queue(const std::vector<QueuedJob>& jobs, TimePoint now) {
   asked_ = false;
   queue_note_.clear();
   const auto before = std::pair(running_, pending_);
-  count(jobs);
+  count(jobs, now);
   seen_ = true;
   if (running_ + pending_ > 0) submitted_ = true;
   const bool changed = before != std::pair(running_, pending_);

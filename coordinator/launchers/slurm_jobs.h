@@ -40,7 +40,9 @@ struct SlurmTimes {
 /// Nothing is submitted but on a fresh view of the queue: so jobs of an earlier coordinator of the
 /// same campaign are found and counted, and a submission whose answer got lost is not made twice.
 /// A job that ended while work is left is replaced, except when somebody cancelled it: whoever
-/// does that wants fewer workers. Jobs that somebody submitted by hand under the same name count.
+/// does that wants fewer workers. Workers end well only when they are asked to: if jobs complete as
+/// soon as they run, again and again, their program is none. Jobs that somebody submitted by hand
+/// under the same name count.
 class SlurmJobs {
  public:
   SlurmJobs(std::int64_t wanted, SlurmTimes times, Rng jitter);
@@ -61,21 +63,25 @@ class SlurmJobs {
   /// sbatch failed and said this.
   void on_refused(const std::string& message, TimePoint now);
 
-  /// Why there can be no jobs at all: Slurm refused the very first ones. Empty otherwise.
+  /// Why there can be no workers at all: Slurm refused the very first jobs, or they do nothing.
+  /// Empty otherwise.
   const std::string& trouble() const { return trouble_; }
   LauncherStatus status() const;
 
  private:
-  void count(const std::vector<QueuedJob>& jobs);
+  void count(const std::vector<QueuedJob>& jobs, TimePoint now);
+  void note_life(const std::vector<QueuedJob>& jobs, TimePoint now);
   void plan(TimePoint now);
 
   std::int64_t wanted_;
   SlurmTimes times_;
   Backoff pause_;
-  std::map<std::string, std::string> states_;  ///< of each job when last seen
-  bool seen_ = false;                          ///< the queue was
-  bool submitted_ = false;                     ///< jobs were, by this launcher or before it
-  bool asked_ = false;                         ///< and no answer yet
+  std::map<std::string, std::string> states_;       ///< of each job when last seen
+  std::map<std::string, TimePoint> running_since_;  ///< of those that run, as far as was seen
+  int quick_ends_ = 0;                              ///< jobs that completed at once, in a row
+  bool seen_ = false;                               ///< the queue was
+  bool submitted_ = false;                          ///< jobs were, by this launcher or before it
+  bool asked_ = false;                              ///< and no answer yet
   std::int64_t running_ = 0;
   std::int64_t pending_ = 0;
   std::int64_t leaving_ = 0;  ///< on their way out

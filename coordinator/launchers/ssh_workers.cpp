@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/process/process.h"
+#include "base/worker_words.h"
 #include "coordinator/launchers/worker_program.h"
 
 namespace swarmsmith {
@@ -15,6 +16,14 @@ namespace {
 /// A worker that ran so long did not fail at its start.
 constexpr Duration kShortLife = std::chrono::seconds(30);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
+/// Ends without an error of one worker, each after a short life, in a row.
+constexpr int kMostQuickEnds = 5;
+/// Logins under way: at first and after one failed, and at most. Each one that succeeds allows one
+/// more. sshd turns newcomers away from 10 on, where nothing else is set.
+constexpr int kFewLogins = 3;
+constexpr int kMostLogins = 9;
+/// A login that takes longer, such as that of a host which does not answer, is not waited for.
+constexpr Duration kLoginTime = std::chrono::seconds(12);
 constexpr int kRefused = 7;      // swarmsmith-worker: another build
 constexpr int kCannotRun = 126;  // the shell of that host
 constexpr int kNoProgram = 127;  // the same
@@ -87,9 +96,12 @@ std::vector<std::string> ssh_words(const SshWorkersOptions& options, const SshHo
     worker.insert(worker.begin(), program.string());
   }
   std::vector<std::string> words = words_to(options, host, {});
-  words.push_back("exec " + shell_line(worker));
+  words.push_back(std::string("echo ") + kWorkerBegins + "; exec " + shell_line(worker));
   return words;
 }
+
+SshWorkers::SshWorkers(SshWorkersOptions options)
+    : options_(std::move(options)), most_logins_(kFewLogins) {}
 
 Expected<SshWorkers> SshWorkers::start(SshWorkersOptions options) {
   const auto ssh = find_program(options.ssh);
@@ -108,13 +120,15 @@ Expected<SshWorkers> SshWorkers::start(SshWorkersOptions options) {
   }
   SshWorkers workers(std::move(options));
   std::random_device device;
+  const TimePoint now = SystemClock().now();
   for (const SshHost& host : workers.options_.hosts) {
     workers.workers_.push_back({.host = host,
                                 .ssh = {},
+                                .start_at = now,
                                 .backoff = Backoff(workers.options_.first_pause,
                                                    workers.options_.longest_pause, Rng(device()))});
-    workers.launch(workers.workers_.back(), SystemClock().now());
   }
+  workers.tend(now);
   return workers;
 }
 
@@ -129,10 +143,31 @@ void SshWorkers::launch(Worker& worker, TimePoint now) {
   }
   const auto started = worker.ssh.start(words, ChildProcess::Streams::Held);
   worker.started = now;
+  worker.begun = worker.connected = false;
+  worker.said.clear();
   if (started) return;
   worker.trouble = to_string(started.error());
   worker.sends = nullptr;
   worker.start_at = now + worker.backoff.next();
+}
+
+bool SshWorkers::may_launch(TimePoint now) const {
+  return std::ranges::count_if(workers_, [&](const Worker& worker) {
+           return worker.ssh.runs() && !worker.begun && now - worker.started < kLoginTime;
+         }) < most_logins_;
+}
+
+void SshWorkers::hear(Worker& worker) {
+  for (std::string& line : worker.ssh.take_lines()) {
+    if (line == kWorkerBegins) {
+      worker.begun = true;
+      most_logins_ = std::min(most_logins_ + 1, kMostLogins);
+    } else if (line == kWorkerConnected || line == kWorkerAlone) {
+      worker.connected = line == kWorkerConnected;
+    } else {
+      worker.said = std::move(line);
+    }
+  }
 }
 
 bool SshWorkers::is_sent_now(const WorkerBundle* bundle) const {
@@ -148,14 +183,14 @@ void SshWorkers::on_sent(Worker& worker, bool well, TimePoint now) {
     worker.trouble.clear();
     worker.start_at = now;
   } else {
-    worker.trouble = "the worker cannot be sent there: " + worker.ssh.last_line();
+    worker.trouble = "the worker cannot be sent there: " + worker.said;
     worker.start_at = now + worker.backoff.next();
   }
 }
 
 void SshWorkers::on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoint now) {
   if (std::exchange(worker.sent, false)) {
-    worker.trouble = "the worker was sent there, and is not to be found: " + worker.ssh.last_line();
+    worker.trouble = "the worker was sent there, and is not to be found: " + worker.said;
     worker.start_at = now + worker.backoff.next();
     return;
   }
@@ -175,26 +210,47 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   if (ships && code == kNoBundle) {
     worker.trouble = "there is no bundle for its architecture in " +
                      options_.bundles.front().archive.parent_path().string() +
-                     " (`./dev bundle`): " + worker.ssh.last_line();
+                     " (`./dev bundle`): " + worker.said;
     worker.refused = true;
     return;
   }
-  worker.trouble = reason(status, worker.ssh.last_line(), ships);
+  if (!worker.begun) most_logins_ = kFewLogins;
+  worker.trouble = reason(status, worker.said, ships);
   worker.refused = code == kRefused;
+  // A worker ends well only when it is asked to.
+  const bool quick = code == 0 && now - worker.started < kShortLife;
+  worker.quick_ends = quick ? worker.quick_ends + 1 : 0;
+  if (worker.quick_ends >= kMostQuickEnds) {
+    worker.trouble =
+        "the worker there ends as soon as it is started, with code 0; is it "
+        "swarmsmith-worker? It is not started again";
+    worker.refused = true;
+  }
   if (now - worker.started >= kShortLife) worker.backoff.reset();
   worker.start_at = now + worker.backoff.next();
 }
 
 std::string SshWorkers::tend(TimePoint now) {
   for (Worker& worker : workers_) {
-    worker.ssh.last_line();  // takes what it says, so that it can go on
-    if (const auto status = worker.ssh.ended()) on_ended(worker, *status, now);
+    hear(worker);  // takes what it says, so that it can go on
+    if (const auto status = worker.ssh.ended()) {
+      hear(worker);
+      worker.connected = false;
+      on_ended(worker, *status, now);
+    }
     if (worker.ssh.runs()) {
-      if (now - worker.started >= kShortLife) worker.trouble.clear();
+      const bool is_late = worker.sends == nullptr && now - worker.started >= kShortLife;
+      if (worker.connected) {
+        worker.trouble.clear();
+      } else if (is_late) {
+        worker.trouble = "the worker runs there, but is not connected" +
+                         (worker.said.empty() ? "" : ": " + worker.said);
+      }
       continue;
     }
     if (worker.refused || now < worker.start_at) continue;
     if (worker.after != nullptr && is_sent_now(worker.after)) continue;
+    if (!may_launch(now)) continue;
     if (std::exchange(worker.after, nullptr) != nullptr) worker.trouble.clear();
     launch(worker, now);
   }
@@ -216,7 +272,7 @@ LauncherStatus SshWorkers::status() const {
   LauncherStatus status{.name = "ssh", .wanted = std::ssize(options_.hosts)};
   std::int64_t others = 0;
   for (const Worker& worker : workers_) {
-    if (worker.ssh.runs() && worker.sends == nullptr) {
+    if (worker.connected) {
       ++status.running;
     } else {
       ++status.pending;

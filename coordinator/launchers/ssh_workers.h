@@ -39,6 +39,10 @@ std::vector<std::string> ssh_words(const SshWorkersOptions& options, const SshHo
 /// that is cut off the network is left after ten minutes by the worker itself. A terminal (-tt)
 /// would hang the worker up instead of letting it drain.
 ///
+/// A few logins are under way at a time: an sshd, which may be the one that leads to all hosts,
+/// turns others away (MaxStartups). A worker runs for `status` when it says that the coordinator
+/// has welcomed it.
+///
 /// With bundles, a host that lacks its own gets it by another ssh, and is tried again. Hosts may
 /// share the folder that it goes to: of each bundle, the first one is waited for by all others.
 class SshWorkers final : public Launcher {
@@ -47,7 +51,7 @@ class SshWorkers final : public Launcher {
   ~SshWorkers() override;
   SshWorkers(SshWorkers&&) noexcept = default;
 
-  /// Trouble: every host has refused its worker for good (another build, no bundle for it).
+  /// Trouble: no host will have a worker (another build, no bundle for it, another program).
   std::string tend(TimePoint now) override;
   std::string stop(Duration grace) override;
   LauncherStatus status() const override;
@@ -62,20 +66,28 @@ class SshWorkers final : public Launcher {
     TimePoint started;
     TimePoint start_at;
     Backoff backoff;
-    bool refused = false;  ///< for good
-    std::string trouble;   ///< why it does not run
+    int quick_ends = 0;      ///< without an error, after a short life, in a row
+    bool begun = false;      ///< the login is over
+    bool connected = false;  ///< to the coordinator, as the worker says
+    std::string said;        ///< its last line that is for people
+    bool refused = false;    ///< for good
+    std::string trouble;     ///< why it does not run
   };
 
-  explicit SshWorkers(SshWorkersOptions options) : options_(std::move(options)) {}
+  explicit SshWorkers(SshWorkersOptions options);
   void launch(Worker& worker, TimePoint now);
   void on_ended(Worker& worker, int status, TimePoint now);
   void on_sent(Worker& worker, bool well, TimePoint now);
+  void hear(Worker& worker);
+  /// Whether one more login may begin.
+  bool may_launch(TimePoint now) const;
   void on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoint now);
   bool is_sent_now(const WorkerBundle* bundle) const;
 
   SshWorkersOptions options_;
   std::set<const WorkerBundle*> sent_;  ///< to one host at least
   std::vector<Worker> workers_;
+  int most_logins_;  ///< under way at a time
 };
 
 }  // namespace swarmsmith

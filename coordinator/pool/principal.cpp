@@ -3,6 +3,7 @@
 #include "proto/network.h"
 
 namespace swarmsmith {
+
 std::string hexadecimal(const std::string& bytes) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string out;
@@ -19,9 +20,33 @@ std::string principal_of(const WorkerHello& hello) {
   return hello.client.empty() ? network : hello.client + "@" + network;
 }
 
+std::string key_of_principal(const std::string& name) {
+  return name.substr(0, name.find('@'));
+}
+
+bool is_named(const std::string& principal, std::string_view word) {
+  const std::string_view name = principal;
+  const std::size_t at = name.find('@');
+  // Of a key that is not believed from anywhere all is meant by any of its names.
+  if (at == std::string_view::npos) return name == word.substr(0, word.find('@'));
+  return name == word || name.substr(0, at) == word || name.substr(at + 1) == word;
+}
+
 Principal& Principals::at(const std::string& name) {
   Principal& principal = principals_[name];
   if (principal.name.empty()) principal.name = name;
+  return principal;
+}
+
+Principal& Principals::of(const WorkerHello& hello) {
+  Principal& principal = at(principal_of(hello));
+  principal.local |= hello.local;
+  // A key that is not believed at all is not believed from anywhere.
+  const Principal* key = hello.client.empty() ? nullptr : find(hello.client);
+  if (key != nullptr && key->quarantined && !principal.quarantined) {
+    principal.quarantined = true;
+    principal.cause = key->cause;
+  }
   return principal;
 }
 
@@ -36,13 +61,17 @@ const Principal* Principals::find(const std::string& name) const {
 }
 
 void Principals::forget_idle() {
+  for (auto& [name, it] : principals_) {
+    const std::set<WorkerNumber>& workers = it.workers;
+    std::erase_if(it.standings, [&](const auto& one) {
+      const auto& [worker, standing] = one;
+      return !workers.contains(worker) && !standing.is_known() && standing.on_trial == 0;
+    });
+  }
   std::erase_if(principals_, [](const auto& each) {
     const Principal& it = each.second;
-    const bool idle = it.workers.empty() && it.waiting.empty();
-    const bool awaited = it.claims > 0 || it.on_trial > 0;
-    const bool known =
-        it.quarantined || !it.unchecked.empty() || it.confirmed > 0 || it.strikes > 0;
-    return idle && !awaited && !known;
+    const bool idle = it.workers.empty() && it.waiting.empty() && it.claims == 0;
+    return idle && it.standings.empty() && !it.quarantined && it.liars.empty();
   });
 }
 

@@ -164,8 +164,7 @@ std::string Scheduler::objection_to(const WorkerHello& hello) const {
 }
 
 void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
-  Principal& principal = trust_->principal(principal_of(hello));
-  principal.local |= hello.local;
+  Principal& principal = trust_->principal_of(hello);
   WorkerEntry* entry = workers_->of_identity(principal.name, hello.identity);
   const WorkerEntry* holder = workers_->of_peer(peer);
   if (holder != nullptr && holder != entry) return;
@@ -184,12 +183,11 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   if (const std::string objection = objection_to(hello); !objection.empty()) {
     return refuse(RejectReason::Build, objection);
   }
-  if (entry == nullptr && principal.quarantined) {
+  if (const Principal::Cause* cause = trust_->cause_against(principal, hello.identity);
+      entry == nullptr && cause != nullptr) {
     // It was said once who is in quarantine; new ids of it are not worth a row each.
-    book_->act(SendReject{
-        peer, hello.incarnation, RejectReason::Limit,
-        "workers of " + principal.name +
-            " are in quarantine: see the event \"workers in quarantine\" of the campaign"});
+    book_->act(SendReject{peer, hello.incarnation, RejectReason::Limit,
+                          sentence_of_quarantine(principal, *cause)});
     return;
   }
   if (entry == nullptr && workers_->connected() >= book_->options.max_workers) {
@@ -219,6 +217,11 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   entry.last_sent = now;
   if (draining_) book_->act(SendDrain{entry.peer, entry.hello.incarnation});
   book_->act(WorkerChanged{row_of(entry, WorkerState::Connected)});
+  const Principal::Cause* cause = trust_->cause_against(*entry.principal, entry.hello.identity);
+  if (entry.quarantined && cause != nullptr) {
+    book_->act(SendNotice{entry.peer, entry.hello.incarnation,
+                          sentence_of_quarantine(*entry.principal, *cause)});
+  }
 }
 
 /// Leases of the worker's last connection that it does not hold went astray; those that it holds,

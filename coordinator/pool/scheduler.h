@@ -76,6 +76,12 @@ class Scheduler {
   void on_goodbye(const Sender& sender, TimePoint now);
   /// A worker has begun with a task that it runs alone.
   void on_began(const Sender& sender, PackedKey key, TimePoint now);
+  /// Lets those work again whom a person means by a key's name, an address or a host's name; who
+  /// answers for them is on trial as if it were new. Their names; none when nobody meant is in
+  /// quarantine.
+  std::vector<std::string> forgive(std::string_view word, const std::string& by, TimePoint now) {
+    return trust_->forgive(word, by, now);
+  }
   /// What came of `AskReferee`.
   void on_ruling(const Ruling& ruling, TimePoint now) { trust_->on_ruling(ruling, now); }
   /// The task of a `TaskInDispute`; none when the race has not come so far since a restart. Then

@@ -106,6 +106,12 @@ struct SendHeartbeat {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
 };
+/// What a person at the worker should know; it goes on.
+struct SendNotice {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+  std::string sentence;
+};
 struct SendWhoAreYou {
   PeerId peer = 0;
 };
@@ -150,6 +156,10 @@ struct AttemptEnded {
   std::uint32_t campaign = 0;
   AttemptRow row;
 };
+/// Workers of the principal are in quarantine no longer.
+struct Forgiven {
+  std::string principal;
+};
 /// A campaign cannot go on.
 struct StopCampaign {
   std::uint32_t campaign = 0;
@@ -166,7 +176,8 @@ struct AskReferee {
 using SchedulerAction =
     std::variant<SendWelcome, SendReject, SendTasks, SendAcknowledged, SendHeartbeat, SendWhoAreYou,
                  SendDrain, OutcomeAccepted, OutcomeRepeated, TaskInDispute, ConflictFound,
-                 WorkerChanged, Noted, FailureKept, AttemptEnded, StopCampaign, AskReferee>;
+                 WorkerChanged, Noted, FailureKept, AttemptEnded, StopCampaign, AskReferee,
+                 SendNotice, Forgiven>;
 
 /// What a campaign says of its evaluations.
 struct CampaignPolicy {
@@ -203,7 +214,7 @@ struct SchedulerOptions {
   std::size_t max_workers = 10'000;
   std::size_t max_workers_of_one = 5'000;  ///< that one principal answers for
   LeaseSecret lease_secret{};
-  std::vector<std::string> quarantined{};  ///< principals, by an earlier process
+  std::vector<Quarantine> quarantined{};  ///< by an earlier process
   int engine_version = 0;
   std::string self_test;          ///< empty: that of the first worker
   std::int64_t first_worker = 1;  ///< number of the first worker that comes
@@ -225,7 +236,7 @@ struct SchedulerCounters {
   std::uint64_t ahead = 0;        ///< leases of look-ahead
   std::uint64_t audited = 0;      ///< results that the referee made again, to compare
   std::uint64_t rulings = 0;      ///< evaluations of the referee, audits included
-  std::uint64_t quarantined = 0;  ///< principals
+  std::uint64_t quarantined = 0;  ///< principals, or processes without a key
   std::uint64_t reconnects = 0;   ///< hellos of workers that had been here before
 };
 

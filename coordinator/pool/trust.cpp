@@ -3,6 +3,7 @@
 #include "coordinator/pool/trust.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/assert.h"
@@ -30,8 +31,21 @@ constexpr double kMostBacklogUs = 2e6;
 
 Trust::Trust(TaskBook& book, WorkerRegistry& workers)
     : book_(&book), workers_(&workers), signer_(book.options.lease_secret) {
-  for (const std::string& name : book.options.quarantined)
-    principals_.at(name).quarantined = true;
+  for (const Quarantine& each : book.options.quarantined) {
+    Principal& principal = principals_.at(each.principal);
+    const Principal::Cause cause{.reason = each.reason, .since = each.since};
+    if (!each.identity.empty()) principal.liars.emplace(each.identity, cause);
+    if (!each.identity.empty() && principal.liars.size() < Principal::kMostLiars) continue;
+    principal.quarantined = true;
+    principal.cause = cause;
+  }
+}
+
+const Principal::Cause* Trust::cause_against(const Principal& principal,
+                                             const std::string& identity) const {
+  if (principal.quarantined) return &principal.cause;
+  const auto liar = principal.liars.find(hexadecimal(identity));
+  return liar == principal.liars.end() ? nullptr : &liar->second;
 }
 
 std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const StoredScore> known,
@@ -44,7 +58,9 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
     book_->done.insert(key, score.status, score.score, score.state_digest);
     const auto name = trust.principals.find(score.worker);
     if (name == trust.principals.end() || trust.audited.contains(score.key)) continue;
-    ++principals_.at(name->second).unchecked_of(campaign);
+    ++principals_.at(name->second)
+          .standing(static_cast<WorkerNumber>(score.worker))
+          .unchecked_of(campaign);
     if (every == 0 || score.status != EvaluationStatus::Ok) continue;
     if (!is_drawn(key, 1.0 / static_cast<double>(every))) continue;
     unaudited.push_back({score.key,
@@ -69,10 +85,12 @@ bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
   return signer_.is_ours(result.signature, result.key, result.attempt, entry.principal->name);
 }
 
-bool Trust::is_on_trial(const Principal& principal, std::uint32_t campaign) const {
+bool Trust::is_on_trial(const WorkerEntry& entry, std::uint32_t campaign) const {
   const bool audits =
       !book_->options.evaluates_programs && book_->options.campaigns[campaign].audit_every > 0;
-  return audits && !principal.local && principal.confirmed < kTrial;
+  if (!audits || entry.principal->local) return false;
+  const Principal::Standing* standing = entry.principal->find_standing(entry.number);
+  return standing == nullptr || standing->confirmed < kTrial;
 }
 
 void Trust::on_score(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
@@ -82,7 +100,7 @@ void Trust::on_score(WorkerEntry& entry, TaskRecord& record, const Result& resul
     book_->act(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
     return claim(entry, record, Said::What::NoScore);
   }
-  if (is_on_trial(*entry.principal, record.task.campaign)) {
+  if (is_on_trial(entry, record.task.campaign)) {
     return hold_back(entry, record, result, now);
   }
   take(entry, record, result, now);
@@ -101,18 +119,23 @@ void Trust::hold_back(WorkerEntry& entry, TaskRecord& record, const Result& resu
   if (!record.lease) book_->leases.park(record);
   if (is_said) return;
   principal.waiting.try_emplace(result.key, Principal::Waiting{entry.number, result});
-  try_waiting(principal, now);
+  try_waiting(principal, entry.number, now);
 }
 
 /// Brings as many of its results before the referee as its trial takes.
-void Trust::try_waiting(Principal& principal, TimePoint now) {
-  while (!principal.waiting.empty() && principal.confirmed + principal.on_trial < kTrial) {
-    const Principal::Waiting one =
-        std::move(principal.waiting.extract(principal.waiting.begin()).mapped());
+void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now) {
+  const WorkerNumber judged = principal.judged_as(worker);
+  Principal::Standing& standing = principal.standing(worker);
+  while (standing.confirmed + standing.on_trial < kTrial) {
+    const auto next = std::ranges::find_if(principal.waiting, [&](const auto& each) {
+      return principal.judged_as(each.second.worker) == judged;
+    });
+    if (next == principal.waiting.end()) break;
+    const Principal::Waiting one = std::move(principal.waiting.extract(next).mapped());
     const TaskRecord* record = book_->leases.find(one.result.key);
     // Somebody else was faster: it is compared when it is sent again.
     if (record == nullptr) continue;
-    ++principal.on_trial;
+    ++standing.on_trial;
     cases_.open(record->task,
                 Said{.what = Said::What::Score,
                      .worker = one.worker,
@@ -125,12 +148,21 @@ void Trust::try_waiting(Principal& principal, TimePoint now) {
                      .on_trial = true},
                 false);
   }
-  if (principal.confirmed >= kTrial) take_waiting(principal, now);
+  if (standing.confirmed >= kTrial) take_waiting(principal, worker, now);
 }
 
 /// It is known now: what waited counts.
-void Trust::take_waiting(Principal& principal, TimePoint now) {
-  for (const auto& [key, one] : std::exchange(principal.waiting, {})) {
+void Trust::take_waiting(Principal& principal, WorkerNumber worker, TimePoint now) {
+  std::vector<std::pair<PackedKey, Principal::Waiting>> taken;
+  for (auto at = principal.waiting.begin(); at != principal.waiting.end();) {
+    if (principal.judged_as(at->second.worker) != principal.judged_as(worker)) {
+      ++at;
+      continue;
+    }
+    taken.emplace_back(at->first, std::move(at->second));
+    at = principal.waiting.erase(at);
+  }
+  for (const auto& [key, one] : taken) {
     TaskRecord* record = book_->leases.find(key);
     WorkerEntry* entry = workers_->of_number(one.worker);
     if (record == nullptr) continue;
@@ -157,8 +189,9 @@ void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Resu
   const double backlog_us = referee_us_ * static_cast<double>(cases_.size());
   if (!has_word && cases_.audits() > 0 && backlog_us > kMostBacklogUs) return;
   const Principal& principal = *entry.principal;
-  const double dense =
-      principal.local ? 0 : kDenseAtFirst / static_cast<double>(principal.taken + 1);
+  const Principal::Standing* standing = principal.find_standing(entry.number);
+  const std::int64_t taken = standing == nullptr ? 0 : standing->taken;
+  const double dense = principal.local ? 0 : kDenseAtFirst / static_cast<double>(taken + 1);
   const double share = std::max(1.0 / static_cast<double>(every), dense);
   if (!has_word && !is_drawn(result.key, share)) return;
   cases_.open(record.task,
@@ -200,64 +233,198 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   book_->leases.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
 }
 
-void Trust::strike(Principal& principal, TimePoint now) {
+void Trust::strike(Principal& principal, WorkerNumber worker, TimePoint now) {
   if (book_->options.quarantine_after == 0) return;
   // A share, and not only a number: a worker of a long campaign fails now and then (orchestration
   // facts, 5 "Poison workers").
-  ++principal.strikes;
-  const std::int64_t tried = principal.taken + principal.strikes;
+  Principal::Standing& standing = principal.standing(worker);
+  ++standing.strikes;
+  const std::int64_t tried = standing.taken + standing.strikes;
   const bool often =
-      principal.strikes >= book_->options.quarantine_after && principal.strikes * kOneOf >= tried;
-  if (often) quarantine(principal, "fails at evaluations that succeed elsewhere", now);
+      standing.strikes >= book_->options.quarantine_after && standing.strikes * kOneOf >= tried;
+  if (often) quarantine(principal, worker, "fails at evaluations that succeed elsewhere", now);
+}
+
+/// By campaign: what the convicted one said and nobody made again. Without a key whoever is not
+/// here may have been the same program under another id; the others that are here answer for
+/// themselves.
+std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,
+                                                  WorkerNumber worker) const {
+  std::set<WorkerNumber> others;
+  for (const WorkerNumber number : principal.workers) {
+    const bool is_other = principal.judged_as(number) != principal.judged_as(worker);
+    if (is_other && workers_->of_number(number)->usable()) others.insert(number);
+  }
+  std::vector<std::int64_t> sum;
+  for (const auto& [judged, standing] : principal.standings) {
+    if (others.contains(judged)) continue;
+    sum.resize(std::max(sum.size(), standing.unchecked.size()));
+    for (std::size_t i = 0; i < standing.unchecked.size(); ++i)
+      sum[i] += standing.unchecked[i];
+  }
+  return sum;
 }
 
 /// Its word is wrong. What it said before and nobody made again cannot be believed either.
-void Trust::convict(Principal& principal, const std::string& evidence, TimePoint now) {
+void Trust::convict(Principal& principal, WorkerNumber worker, const std::string& evidence,
+                    TimePoint now) {
   if (principal.quarantined) return;
-  quarantine(principal, evidence, now);
-  for (std::uint32_t campaign = 0; campaign < principal.unchecked.size(); ++campaign) {
-    const std::int64_t unchecked = principal.unchecked[campaign];
+  quarantine(principal, worker, evidence, now);
+  const std::vector<std::int64_t> all_unchecked = unchecked_beside(principal, worker);
+  for (std::uint32_t campaign = 0; campaign < all_unchecked.size(); ++campaign) {
+    const std::int64_t unchecked = all_unchecked[campaign];
     if (unchecked == 0 || book_->is_stopped(campaign)) continue;
     book_->stop(campaign,
                 "scores in the store are not reliable: " + evidence + ", and " +
                     std::to_string(unchecked) + " results of " + principal.name +
-                    " are stored without a check. Run the campaign again into a new store, without "
-                    "the workers of " +
-                    principal.name,
+                    " are stored without a check. `swarmsmith recover STORE --without-key \"" +
+                    key_of_principal(principal.name) +
+                    "\" -o NEW.db` makes a store without what it said, and the campaign goes on "
+                    "from there with --store NEW.db",
                 true);
   }
 }
 
-void Trust::quarantine(Principal& principal, const std::string& reason, TimePoint now) {
+void Trust::quarantine(Principal& principal, WorkerNumber worker, const std::string& reason,
+                       TimePoint now) {
   if (principal.quarantined) return;
-  principal.quarantined = true;
-  ++book_->counters.quarantined;
+  if (principal.is_blamed_by_process()) return quarantine_process(principal, worker, reason, now);
+  const Principal::Standing& standing = principal.standing(worker);
   book_->note("error", "workers in quarantine",
               {{"who", principal.name},
                {"reason", reason},
-               {"results in the store", principal.taken},
-               {"made again", principal.confirmed}});
+               {"results in the store", standing.taken},
+               {"made again", standing.confirmed}});
+  quarantine_all(principal, reason, now);
+}
+
+void Trust::quarantine_all(Principal& principal, const std::string& reason, TimePoint now) {
+  principal.quarantined = true;
+  principal.cause = {.reason = reason, .at = now};
+  ++book_->counters.quarantined;
+  const std::string sentence = sentence_of_quarantine(principal, principal.cause);
   for (const WorkerNumber number : principal.workers) {
     WorkerEntry& entry = *workers_->of_number(number);
-    const std::list<PackedKey>& leases = book_->leases.leases_of(number);
-    const std::vector<PackedKey> keys(leases.rbegin(), leases.rend());
-    for (const PackedKey key : keys) {
-      TaskRecord& record = *book_->leases.find(key);
-      book_->note_attempt(record, number, AttemptOutcome::Returned, now);
-      if (book_->leases.requeue(record, number)) ++book_->counters.requeued;
-    }
-    SWARMSMITH_ASSERT(book_->leases.leases_of(number).empty(),
-                      "a worker in quarantine holds no leases");
-    workers_->quarantine(entry);
-    set_credit(entry, 0);
-    book_->act(WorkerChanged{row_of(entry, WorkerState::Quarantined)});
+    if (!entry.quarantined) isolate(entry, sentence, now);
   }
-  // What it said, and was not taken yet, is as if it had not been said.
-  for (const auto& [key, one] : std::exchange(principal.waiting, {})) {
+  drop_waiting(principal);
+  if (workers_->trusted() == 0) book_->note("error", "no trusted worker is left", {});
+}
+
+void Trust::quarantine_process(Principal& principal, WorkerNumber worker, const std::string& reason,
+                               TimePoint now) {
+  WorkerEntry* entry = workers_->of_number(worker);
+  // Of an earlier process of the coordinator only the number is known: it counts.
+  const std::string id =
+      entry != nullptr ? hexadecimal(entry->hello.identity) : "worker " + std::to_string(worker);
+  const auto [liar, is_new] =
+      principal.liars.emplace(id, Principal::Cause{.reason = reason, .at = now});
+  if (!is_new) return;
+  const Principal::Standing& standing = principal.standing(worker);
+  book_->note("error", "workers in quarantine",
+              {{"who", principal.name},
+               {"reason", reason},
+               {"worker", worker},
+               {"results in the store", standing.taken},
+               {"made again", standing.confirmed}},
+              std::nullopt, nullptr, worker);
+  if (principal.liars.size() >= Principal::kMostLiars) {
+    // Whoever comes back under ever new ids would have the referee for itself.
+    const std::string all = std::to_string(principal.liars.size()) +
+                            " of its processes are, the last one because " + reason;
+    book_->note("error", "workers in quarantine", {{"who", principal.name}, {"reason", all}});
+    return quarantine_all(principal, all, now);
+  }
+  ++book_->counters.quarantined;
+  if (entry != nullptr && !entry->quarantined)
+    isolate(*entry, sentence_of_quarantine(principal, liar->second), now);
+  drop_waiting(principal, worker);
+  if (workers_->trusted() == 0) book_->note("error", "no trusted worker is left", {});
+}
+
+/// Takes its leases back.
+void Trust::isolate(WorkerEntry& entry, const std::string& sentence, TimePoint now) {
+  const WorkerNumber number = entry.number;
+  const std::list<PackedKey>& leases = book_->leases.leases_of(number);
+  const std::vector<PackedKey> keys(leases.rbegin(), leases.rend());
+  for (const PackedKey key : keys) {
+    TaskRecord& record = *book_->leases.find(key);
+    book_->note_attempt(record, number, AttemptOutcome::Returned, now);
+    if (book_->leases.requeue(record, number)) ++book_->counters.requeued;
+  }
+  SWARMSMITH_ASSERT(book_->leases.leases_of(number).empty(),
+                    "a worker in quarantine holds no leases");
+  workers_->quarantine(entry);
+  set_credit(entry, 0);
+  book_->act(WorkerChanged{row_of(entry, WorkerState::Quarantined)});
+  if (entry.connected) book_->act(SendNotice{entry.peer, entry.hello.incarnation, sentence});
+}
+
+/// What the worker (none: any) said, and was not taken yet, is as if it had not been said.
+void Trust::drop_waiting(Principal& principal, std::optional<WorkerNumber> worker) {
+  std::erase_if(principal.waiting, [&](const auto& each) {
+    const auto& [key, one] = each;
+    if (worker && one.worker != *worker) return false;
     TaskRecord* record = book_->leases.find(key);
     if (record != nullptr && !cases_.knows(key)) book_->leases.unpark(*record);
+    return true;
+  });
+}
+
+bool Trust::is_cast_out(const Said& said) const {
+  const WorkerEntry* entry = workers_->of_number(said.worker);
+  return entry != nullptr && entry->quarantined;
+}
+
+std::vector<std::string> Trust::forgive(std::string_view word, const std::string& by,
+                                        TimePoint now) {
+  book_->now = now;
+  std::vector<std::string> names;
+  for (auto& [name, principal] : principals_.all()) {
+    if (!principal.quarantined && principal.liars.empty()) continue;
+    const bool is_host = std::ranges::any_of(principal.workers, [&](WorkerNumber number) {
+      return workers_->of_number(number)->hello.host == word;
+    });
+    if (!is_host && !is_named(name, word)) continue;
+    names.push_back(name);
+    principal.quarantined = false;
+    principal.cause = {};
+    principal.liars.clear();
+    // What it has said so far proves nothing.
+    principal.taken = 0;
+    for (auto& [worker, standing] : principal.standings) {
+      standing.taken = 0;
+      standing.confirmed = 0;
+      standing.strikes = 0;
+    }
+    // For the store before its workers, which have other states from now on.
+    book_->act(Forgiven{name});
+    book_->note("info", "workers forgiven", {{"who", name}, {"by", by}});
+    for (const WorkerNumber number : principal.workers) {
+      WorkerEntry& entry = *workers_->of_number(number);
+      if (!entry.quarantined) continue;
+      workers_->release(entry);
+      const auto state = entry.connected ? WorkerState::Connected : WorkerState::Left;
+      book_->act(WorkerChanged{row_of(entry, state)});
+      if (entry.connected) {
+        book_->act(
+            SendNotice{entry.peer, entry.hello.incarnation,
+                       "a person let this worker work again: it is in quarantine no longer"});
+      }
+    }
+    update_room(principal);
   }
-  if (workers_->trusted() == 0) book_->note("error", "no trusted worker is left", {});
+  return names;
+}
+
+std::string sentence_of_quarantine(const Principal& principal, const Principal::Cause& cause) {
+  const bool is_all = principal.quarantined;
+  std::string text = is_all ? "workers of " + principal.name + " are" : "this worker is";
+  text += " in quarantine";
+  if (!cause.since.empty()) text += " since " + cause.since;
+  if (!cause.reason.empty()) text += ": " + cause.reason;
+  return text + ". `swarmsmith forgive STORE \"" + principal.name +
+         "\"`, where the coordinator runs, lets it work again";
 }
 
 void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
@@ -266,13 +433,15 @@ void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, T
   ++entry.done;
   audit(record, entry, result);
   Principal& principal = *entry.principal;
-  ++principal.unchecked_of(campaign);
+  Principal::Standing& standing = principal.standing(entry.number);
+  ++standing.unchecked_of(campaign);
+  ++standing.taken;
   if (++principal.taken == 1) update_room(principal);
   const bool failed_elsewhere =
       book_->options.evaluates_programs && record.avoid != 0 && record.avoid != entry.number;
   if (failed_elsewhere) {
     if (const WorkerEntry* other = workers_->of_number(record.avoid))
-      strike(*other->principal, now);
+      strike(*other->principal, other->number, now);
   }
   book_->learn(campaign, result.wall_us);
   book_->note_second_copy(record, entry.number, now);
@@ -311,7 +480,11 @@ void Trust::forget(std::uint32_t campaign) {
   }
   for (auto& [name, principal] : principals_.all()) {
     std::erase_if(principal.waiting, [&](const auto& each) { return is_of(each.first); });
-    try_waiting(principal, book_->now);
+    std::set<WorkerNumber> waiting;
+    for (const auto& [key, one] : principal.waiting)
+      waiting.insert(principal.judged_as(one.worker));
+    for (const WorkerNumber worker : waiting)
+      try_waiting(principal, worker, book_->now);
   }
 }
 

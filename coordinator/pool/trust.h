@@ -26,10 +26,13 @@ namespace swarmsmith {
 /// A principal (principal.h)
 ///
 ///     stranger ──first outcome──► proven ──fails where others succeed, lies──► quarantined
+///        ▲                                                                        │
+///        └──────────────────────── a person forgives ─────────────────────────────┘
 ///
-/// is a stranger until a result of its became an outcome; with audits its first results wait until
-/// the referee has made them again. Strangers are given little, and blame nobody by dying. With
-/// programs in place of the simulator there is no referee: the holder of a lease is believed.
+/// (without a key, each of its processes by itself) is a stranger until a result
+/// of its became an outcome; with audits its first results wait until the referee has made them
+/// again. Strangers are given little, and blame nobody by dying. With programs in place of the
+/// simulator there is no referee: the holder of a lease is believed.
 class Trust {
  public:
   /// Both must stay where they are.
@@ -69,8 +72,13 @@ class Trust {
   /// Principals of which nothing is known any more.
   void forget_idle() { principals_.forget_idle(); }
 
-  /// The principal of that name, new or known.
-  Principal& principal(const std::string& name) { return principals_.at(name); }
+  /// Who answers for the worker, new or known.
+  Principal& principal_of(const WorkerHello& hello) { return principals_.of(hello); }
+  /// Why the worker gets nothing; null when it may work.
+  const Principal::Cause* cause_against(const Principal& principal,
+                                        const std::string& identity) const;
+  /// See Scheduler.
+  std::vector<std::string> forgive(std::string_view word, const std::string& by, TimePoint now);
   const Principals& principals() const { return principals_; }
   const Cases& cases() const { return cases_; }
   const LeaseSigner& signer() const { return signer_; }
@@ -78,10 +86,11 @@ class Trust {
  private:
   // trust.cpp
   /// Whether its results wait for what the referee says of its first ones.
-  bool is_on_trial(const Principal& principal, std::uint32_t campaign) const;
+  bool is_on_trial(const WorkerEntry& entry, std::uint32_t campaign) const;
   void hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
-  void try_waiting(Principal& principal, TimePoint now);
-  void take_waiting(Principal& principal, TimePoint now);
+  void try_waiting(Principal& principal, WorkerNumber worker, TimePoint now);
+  void take_waiting(Principal& principal, WorkerNumber worker, TimePoint now);
+  void drop_waiting(Principal& principal, std::optional<WorkerNumber> worker = std::nullopt);
   /// The result becomes the outcome.
   void take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
   bool is_drawn(PackedKey key, double share) const;
@@ -89,9 +98,20 @@ class Trust {
   void audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result);
   /// What its workers may hold now.
   void update_room(Principal& principal);
-  void strike(Principal& principal, TimePoint now);
-  void convict(Principal& principal, const std::string& evidence, TimePoint now);
-  void quarantine(Principal& principal, const std::string& reason, TimePoint now);
+  /// `worker`: whose evaluation it was.
+  void strike(Principal& principal, WorkerNumber worker, TimePoint now);
+  void convict(Principal& principal, WorkerNumber worker, const std::string& evidence,
+               TimePoint now);
+  std::vector<std::int64_t> unchecked_beside(const Principal& principal, WorkerNumber worker) const;
+  void quarantine(Principal& principal, WorkerNumber worker, const std::string& reason,
+                  TimePoint now);
+  void quarantine_all(Principal& principal, const std::string& reason, TimePoint now);
+  /// One process of a principal without a key; after kMostLiars of them, all of it.
+  void quarantine_process(Principal& principal, WorkerNumber worker, const std::string& reason,
+                          TimePoint now);
+  void isolate(WorkerEntry& entry, const std::string& sentence, TimePoint now);
+  /// Whether the principal stands behind it no longer.
+  bool is_cast_out(const Said& said) const;
 
   // trust_rulings.cpp
   void dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result);
@@ -111,5 +131,8 @@ class Trust {
   LeaseSigner signer_;
   double referee_us_ = 0;  ///< of one of its evaluations
 };
+
+/// For people, at the worker and elsewhere.
+std::string sentence_of_quarantine(const Principal& principal, const Principal::Cause& cause);
 
 }  // namespace swarmsmith

@@ -189,6 +189,7 @@ void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
   WorkerEntry* entry = is_of_worker ? workers_->of_number(right->worker) : nullptr;
   if (entry != nullptr) {
     ++entry->done;
+    ++entry->principal->standing(entry->number).taken;
     if (++entry->principal->taken == 1) update_room(*entry->principal);
   }
   const WorkerNumber by = is_of_worker ? right->worker : 0;
@@ -212,26 +213,26 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
   if (said.taken && is_decided && is_right(said, ruling)) note_audited(said, principal, ruling);
   if (principal == nullptr || said.what == Said::What::Died) return;
   if (said.what == Said::What::NoScore) {
-    if (ruling.kind == Ruling::Kind::Score) strike(*principal, now);
+    if (ruling.kind == Ruling::Kind::Score) strike(*principal, said.worker, now);
     return;
   }
   if (is_decided) ++book_->counters.audited;
   if (is_decided && !is_right(said, ruling)) {
-    convict(*principal,
+    convict(*principal, said.worker,
             "it gave " + text_of(said) + " for the evaluation of " + name_of(unpack(ruling.key)) +
                 ", and this host " + text_beside(said, ruling),
             now);
-  } else if (is_decided) {
-    ++principal->confirmed;
+  } else if (is_decided && !is_cast_out(said)) {
+    ++principal->standing(said.worker).confirmed;
   }
-  if (said.on_trial) try_waiting(*principal, now);
+  if (said.on_trial) try_waiting(*principal, said.worker, now);
 }
 
 /// It is made again by no later process, and whoever gave other bits was wrong. Who gave the kept
 /// one of a dispute is not known.
 void Trust::note_audited(const Said& said, Principal* principal, const Ruling& ruling) {
   const std::uint32_t campaign = campaign_of(ruling.key);
-  if (principal != nullptr) --principal->unchecked_of(campaign);
+  if (principal != nullptr) --principal->standing(said.worker).unchecked_of(campaign);
   book_->act(AttemptEnded{campaign,
                           {.key = unpack(ruling.key),
                            .attempt = said.attempt,
@@ -254,7 +255,10 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
     return book_->stop(campaign,
                        "a score in the store is wrong: the evaluation of " + name + " has " +
                            text_of(said) + ", and this host gives " + text_of(ruling) +
-                           ". Run the campaign again into a new store",
+                           ". `swarmsmith show STORE " + to_string(ruled.task.key) +
+                           "` names the worker that gave it; `swarmsmith recover STORE "
+                           "--without-key KEY -o NEW.db` makes a store without what its key said, "
+                           "and the campaign goes on from there with --store NEW.db",
                        true);
   }
 }
@@ -264,8 +268,9 @@ void Trust::let_go(const Said& said) {
   Principal* principal = principals_.find(said.principal);
   if (principal == nullptr || said.taken) return;
   if (said.on_trial) {
-    SWARMSMITH_ASSERT(principal->on_trial > 0, "a result on trial was counted");
-    --principal->on_trial;
+    Principal::Standing& standing = principal->standing(said.worker);
+    SWARMSMITH_ASSERT(standing.on_trial > 0, "a result on trial was counted");
+    --standing.on_trial;
     return;
   }
   SWARMSMITH_ASSERT(principal->claims > 0, "a claim before the referee was counted");

@@ -72,14 +72,14 @@ void WorkerRegistry::disconnect(WorkerEntry& entry) {
   }
 }
 
-void WorkerRegistry::quarantine(WorkerEntry& entry) {
-  SWARMSMITH_ASSERT(!entry.quarantined, "a worker goes to quarantine once");
+void WorkerRegistry::set_quarantined(WorkerEntry& entry, bool quarantined) {
+  SWARMSMITH_ASSERT(entry.quarantined != quarantined, "a worker goes to quarantine once");
   const bool connected = entry.connected;
   const PeerId peer = entry.peer;
   const TimePoint heard = entry.last_heard;
   const std::uint64_t sequence = entry.last_sequence;
   if (connected) disconnect(entry);
-  entry.quarantined = true;
+  entry.quarantined = quarantined;
   if (!connected) return;
   connect(entry, peer, heard);
   entry.last_sequence = sequence;

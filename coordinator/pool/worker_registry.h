@@ -36,7 +36,7 @@ struct WorkerEntry {
   bool reserved = false;
   std::int64_t done = 0;
   std::int64_t failed = 0;
-  /// As its principal: nothing goes to it, and nothing is taken from it.
+  /// It or its principal: nothing goes to it, and nothing is taken from it.
   bool quarantined = false;
 
   bool is_idler() const { return !connected && done == 0 && failed == 0; }
@@ -71,7 +71,9 @@ class WorkerRegistry {
   bool has_many_gone() const { return entries_.size() > by_peer_.size() + 2 * kMostIdlers; }
 
   /// Its slots count no more.
-  void quarantine(WorkerEntry& entry);
+  void quarantine(WorkerEntry& entry) { set_quarantined(entry, true); }
+  /// They count again.
+  void release(WorkerEntry& entry) { set_quarantined(entry, false); }
 
   std::size_t connected() const { return by_peer_.size(); }
   /// Connected, and not in quarantine.
@@ -81,6 +83,8 @@ class WorkerRegistry {
   const std::map<WorkerNumber, WorkerEntry>& all() const { return entries_; }
 
  private:
+  void set_quarantined(WorkerEntry& entry, bool quarantined);
+
   std::map<WorkerNumber, WorkerEntry> entries_;
   std::unordered_map<PeerId, WorkerNumber> by_peer_;  ///< connected ones
   std::unordered_map<std::string, WorkerNumber> by_identity_;

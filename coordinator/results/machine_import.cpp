@@ -9,10 +9,12 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/text/toml_text.h"
 #include "coordinator/campaign/method_space.h"
 #include "sim/control/controller.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -79,6 +81,87 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
   return std::nullopt;
 }
 
+/// The worlds of an import, put together: one mission a name, one profile.
+class Worlds {
+ public:
+  /// What the machine's mission is, whose name here is `name`; nothing for what the name alone
+  /// says.
+  static std::optional<MissionEntry> entry_of(const MachineText& from, const std::string& name,
+                                              const MissionWords& words) {
+    if (const MissionEntry* of_file = words.of_file(name)) return *of_file;
+    const auto built_in = built_in_mission(name);
+    // Given the name of a built-in one, it is that.
+    if (!from.described || (built_in && from.mission != name)) return std::nullopt;
+    MissionEntry entry = *from.described;
+    entry.mission.name = name;
+    if (built_in && *built_in == entry.mission) return std::nullopt;
+    return entry;
+  }
+
+  /// A sentence when the machine's world is not that of those before.
+  std::optional<std::string> add(const MachineText& from, const std::string& name,
+                                 const MissionWords& words) {
+    auto entry = entry_of(from, name, words);
+    const auto [known, is_new] = missions_.try_emplace(name, std::move(entry));
+    if (!is_new && known->second != entry) {
+      return "a machine before it has another mission " + name +
+             "; import a file for each, or rename with --mission OLD=NEW";
+    }
+    if (!from.profile) return std::nullopt;
+    if (profile_ && *profile_ != *from.profile) {
+      return "the machine is for the profile " + from.profile->name + ", one before it for " +
+             (profile_->name == from.profile->name ? "another of this name" : profile_->name) +
+             "; import a file for each";
+    }
+    profile_ = from.profile;
+    return std::nullopt;
+  }
+
+  /// What each program would not know: `rvr` is what is simulated when nothing else is said.
+  ImportedWorld world() const {
+    ImportedWorld world;
+    for (const auto& [name, entry] : missions_) {
+      if (entry) world.missions.push_back(*entry);
+    }
+    const auto usual = built_in_profile("rvr");
+    if (profile_ && !(usual && *usual == *profile_)) world.profile = profile_;
+    return world;
+  }
+
+ private:
+  std::map<std::string, std::optional<MissionEntry>> missions_;  ///< by their names here
+  std::optional<Profile> profile_;
+};
+
+/// A mission file for all designs is wrong for those of two missions.
+std::optional<Error> complaint_about_two(const std::vector<MachineText>& machines,
+                                         const MissionWords& words) {
+  if (!words.all_of_file) return std::nullopt;
+  std::string first;
+  for (const MachineText& from : machines) {
+    if (from.mission.empty() || words.renamed.contains(from.mission)) continue;
+    if (first.empty()) first = from.mission;
+    if (from.mission == first) continue;
+    return Error{ErrorKind::BadInput,
+                 "the file has the missions " + first + " and " + from.mission +
+                     "; name a mission file for each: --mission OLD=FILE",
+                 from.place};
+  }
+  return std::nullopt;
+}
+
+/// As a campaign's row has it: texts of TOML in JSON.
+std::string deciding_json(const MachineImport& known, std::size_t machines,
+                          const ImportedWorld& world) {
+  std::string json = fmt::format(R"({{"imported":"machines","flavour":"{}","machines":"{}")",
+                                 known.flavour.name, machines);
+  for (const Section& section : imported_sections(world)) {
+    for (const SectionLine& line : section.lines)
+      json += "," + quoted_text(section.prefix + line.key) + ":" + quoted_text(line.value);
+  }
+  return json + "}";
+}
+
 void add_design(Addition& addition, DesignRow design, const MachineText& from,
                 const Controller& controller, const Flavour& flavour) {
   CandidateText text = text_of(controller, flavour);
@@ -125,7 +208,8 @@ OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
                         .flavour = std::move(head.flavour),
                         .text = std::move(from.text),
                         .place = std::move(from.place),
-                        .describes_mission = head.mission.has_value()});
+                        .described = std::move(head.mission),
+                        .profile = std::move(head.profile)});
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return machines;
@@ -151,7 +235,9 @@ OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table) {
                         .method = cell_of(table, row, "method"),
                         .flavour = cell_of(table, row, "flavour"),
                         .text = cell_of(table, row, *machine),
-                        .place = table.place(row)});
+                        .place = table.place(row),
+                        .described = {},
+                        .profile = {}});
   }
   return machines;
 }
@@ -193,15 +279,23 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
   Repetitions repetitions(known.designs);
   std::int64_t id = known.designs.empty() ? 0 : known.designs.back().id.value;
   std::map<std::pair<std::string, std::string>, std::string> names;
+  Worlds worlds;
+  if (auto error = complaint_about_two(machines, known.missions))
+    errors.push_back(std::move(*error));
   for (const MachineText& from : machines) {
     const std::string mission = known.missions.name_of(from.mission);
     const std::string method = from.method.empty() ? known.method : from.method;
     // A person may keep a name by renaming it to itself.
     const bool is_known =
-        from.describes_mission || built_in_mission(mission).has_value() ||
-        known.missions.renamed.contains(from.mission) || !known.missions.of_all.empty() ||
+        from.described || known.missions.of_file(mission) != nullptr ||
+        built_in_mission(mission).has_value() || known.missions.renamed.contains(from.mission) ||
+        (from.mission.empty() && !known.missions.of_all.empty()) ||
         std::ranges::find(known.designs, mission, &KnownDesign::mission) != known.designs.end();
     if (auto complaint = complaint_about(mission, method, is_known)) {
+      errors.push_back({ErrorKind::BadInput, std::move(*complaint), from.place});
+      continue;
+    }
+    if (auto complaint = worlds.add(from, mission, known.missions)) {
       errors.push_back({ErrorKind::BadInput, std::move(*complaint), from.place});
       continue;
     }
@@ -233,13 +327,14 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
                from, *controller, known.flavour);
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
-  addition.campaign = CampaignRow{
-      .name = known.campaign,
-      .digest = digest.hex(),
-      .deciding = fmt::format(R"({{"imported":"machines","flavour":"{}","machines":"{}"}})",
-                              known.flavour.name, machines.size()),
-      .file = "",
-      .seed = 0};
+  const ImportedWorld world = worlds.world();
+  std::string file = imported_text(world);
+  if (!file.empty()) digest.add(file);  // imports without one keep their digests
+  addition.campaign = CampaignRow{.name = known.campaign,
+                                  .digest = digest.hex(),
+                                  .deciding = deciding_json(known, machines.size(), world),
+                                  .file = std::move(file),
+                                  .seed = 0};
   return addition;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "base/expected.h"
 #include "base/text/csv.h"
 #include "coordinator/results/import_words.h"
+#include "coordinator/results/imported_world.h"
 #include "coordinator/results/known_designs.h"
 #include "sim/control/flavour.h"
 #include "storage/store_at_rest.h"
@@ -17,13 +19,14 @@ namespace swarmsmith {
 
 /// A machine that was designed elsewhere, as a file has it.
 struct MachineText {
-  std::string name;                ///< may be empty
-  std::string mission;             ///< as the file calls it; may be empty
-  std::string method;              ///< may be empty
-  std::string flavour;             ///< as its head says; may be empty
-  std::string text;                ///< of the grammar
-  std::string place;               ///< file:line
-  bool describes_mission = false;  ///< its head holds the mission, whatever that is called
+  std::string name;                       ///< may be empty
+  std::string mission;                    ///< as the file calls it; may be empty
+  std::string method;                     ///< may be empty
+  std::string flavour;                    ///< as its head says; may be empty
+  std::string text;                       ///< of the grammar
+  std::string place;                      ///< file:line
+  std::optional<MissionEntry> described;  ///< the mission that its head holds
+  std::optional<Profile> profile;         ///< of its head
 };
 
 /// The machines of a file as sim/files/machine_file.h reads it.
@@ -51,8 +54,10 @@ struct MachineImport {
 
 /// A campaign with the state "imported": each machine a finished design with one candidate, its
 /// winner. Designs are numbered after those of the store; a design of a mission and method that the
-/// store has is a further repetition. The campaign's digest is one over names, missions, methods,
-/// flavour and machines, so that the same file is known again. All that is wrong, with its line.
+/// store has is a further repetition. Missions and the profile that heads or files describe are the
+/// campaign's `file` (imported_world.h), unless each program knows them by their names. The
+/// campaign's digest is one over names, missions, methods, flavour and machines, so that the same
+/// file is known again. All that is wrong, with its line.
 OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
                                    const MachineImport& known);
 

@@ -5,16 +5,19 @@
 
 #include "base/assert.h"
 #include "base/text/csv.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
 
 // Tests first: where both know a place, the test is what counts, and the first stays. Real runs
 // have no pair, and are at no place.
-constexpr char kScores[] =
-    "SELECT candidate, purpose, pair, instance, seed, source, score, state_digest"
-    " FROM v_evaluations WHERE purpose IN ('test', 'transfer', 'score')"
-    " AND pair IS NOT NULL ORDER BY purpose = 'score', candidate, pair";
+std::string select_scores() {
+  return "SELECT candidate, purpose, pair, instance, seed, source, score, state_digest"
+         " FROM v_evaluations WHERE purpose IN " +
+         words_in_sql(is_score_of_winner) +
+         " AND pair IS NOT NULL ORDER BY purpose = 'score', candidate, pair";
+}
 
 std::int64_t integer(const StoreReader::Cell& cell) {
   return integer_in(cell.text).value_or(0);
@@ -27,9 +30,7 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
   const auto take = [&](const std::vector<StoreReader::Cell>& row) {
     const CandidateId candidate{integer(row[0])};
     const DesignId design = design_of(candidate);
-    const Purpose purpose = row[1].text == "test"       ? Purpose::Test
-                            : row[1].text == "transfer" ? Purpose::Transfer
-                                                        : Purpose::Score;
+    const Purpose purpose = purpose_of_word(row[1].text).value_or(Purpose::Score);
     const LedgerScore known{.key = {candidate, purpose, integer(row[2])},
                             .instance = integer(row[3]),
                             .score = number_in(row[6].text).value_or(0),
@@ -46,7 +47,7 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
   };
   constexpr std::int64_t kAll = 1'000'000'000;
   const auto end = store.query(
-      kScores, {.rows = kAll, .seconds = 600}, [](const auto&) {}, take);
+      select_scores(), {.rows = kAll, .seconds = 600}, [](const auto&) {}, take);
   if (!end) return Unexpected(end.error());
   if (end->truncated) {
     return unexpected(ErrorKind::Unavailable, "the store's scores took longer than 600 s to read");

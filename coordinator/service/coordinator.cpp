@@ -217,9 +217,12 @@ void Coordinator::on_command(const Peer& peer, const pb::Command& command, TimeP
     budgets_.leave_out("command");
     return send(peer.id, command_reply_of(false, "too many commands at once: ask again later"));
   }
-  const Expected<std::uint32_t> index = campaign_of(command);
-  const Expected<std::string> done =
-      index ? obey(*index, command) : Expected<std::string>(Unexpected(index.error()));
+  const bool is_of_pool = command_kind_of(command.kind()) == CommandKind::Forgive;
+  const Expected<std::uint32_t> index =
+      is_of_pool ? Expected<std::uint32_t>(0U) : campaign_of(command);
+  const Expected<std::string> done = !index       ? Expected<std::string>(Unexpected(index.error()))
+                                     : is_of_pool ? forgive(command, now)
+                                                  : obey(*index, command);
   std::string frame = command_reply_of(done.has_value(), done ? *done : to_string(done.error()));
   if (!done) return send(peer.id, std::move(frame));
   campaigns_[*index].replies.push_back({peer.id, std::move(frame)});
@@ -256,6 +259,16 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   const std::string name = to_string(row.design);
   if (row.kind == CommandKind::Cancel) return name + " is cancelled";
   return name + " gets " + std::to_string(row.budget) + " experiments more";
+}
+
+/// Of the pool: every store has the rows, and the first one's commit is what is waited for.
+Expected<std::string> Coordinator::forgive(const pb::Command& command, TimePoint now) {
+  const std::vector<std::string> names = scheduler_.forgive(command.whom(), command.who(), now);
+  if (!names.empty()) return sentence_of_forgiven(names);
+  std::vector<std::string> known;
+  for (const QuarantineStatus& one : quarantine(now))
+    known.push_back(one.who);
+  return not_in_quarantine(command.whom(), known);
 }
 
 /// Pauses or resumes; asking twice changes nothing. What runs already ends, and counts.
@@ -325,6 +338,8 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
             send(a.peer, acknowledgement_of(a.keys, a.incarnation));
           },
           [&](const SendHeartbeat& a) { send(a.peer, frame_of(a)); },
+          [&](const SendNotice& a) { send(a.peer, frame_of(a)); },
+          [&](const Forgiven& a) { pool_rows_.put_forgiven(a.principal); },
           [&](const SendWhoAreYou& a) { send(a.peer, frame_of(a)); },
           [&](const SendDrain& a) { send(a.peer, frame_of(a)); },
           [&](const OutcomeAccepted& a) {
@@ -626,6 +641,43 @@ LiveStatus Coordinator::status() const {
   status.slot_times = slots_.since_start();
   status.slot_times_last_minute = slots_.last_minute();
   return status;
+}
+
+std::int64_t Coordinator::uncommitted(std::uint32_t campaign) const {
+  return std::ranges::count_if(waiting_, [&](const auto& entry) {
+    return swarmsmith::campaign_of(entry.first) == campaign;
+  });
+}
+
+std::vector<QuarantineStatus> Coordinator::quarantine(TimePoint now) const {
+  std::vector<QuarantineStatus> all;
+  const auto add = [&](const Principal& principal, const Principal::Cause& cause,
+                       std::int64_t worker, std::int64_t here) {
+    all.push_back(
+        {.who = principal.name,
+         .reason = cause.reason,
+         .since = cause.since,
+         .worker = worker,
+         .workers = here,
+         .for_s = cause.since.empty() ? std::chrono::duration<double>(now - cause.at).count() : 0});
+  };
+  const auto& workers = scheduler_.workers().all();
+  for (const auto& [name, principal] : scheduler_.principals().all()) {
+    if (principal.quarantined) {
+      const auto here = std::ranges::count_if(
+          principal.workers, [&](WorkerNumber number) { return workers.at(number).connected; });
+      add(principal, principal.cause, 0, here);
+      continue;
+    }
+    for (const auto& [identity, cause] : principal.liars) {
+      const auto one = std::ranges::find_if(principal.workers, [&](WorkerNumber number) {
+        return hexadecimal(workers.at(number).hello.identity) == identity;
+      });
+      const bool is_known = one != principal.workers.end();
+      add(principal, cause, is_known ? *one : 0, is_known && workers.at(*one).connected ? 1 : 0);
+    }
+  }
+  return all;
 }
 
 std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {

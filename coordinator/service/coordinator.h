@@ -115,6 +115,8 @@ class Coordinator {
   bool finished() const;
   /// Everything accepted so far is on disk.
   bool settled() const;
+  /// Outcomes of a campaign that are not on disk yet.
+  std::int64_t uncommitted(std::uint32_t campaign) const;
   /// Why the campaign cannot go on, if so. The others do.
   const std::optional<std::string>& stopped(std::uint32_t campaign = 0) const {
     return campaigns_[campaign].stopped;
@@ -132,6 +134,7 @@ class Coordinator {
   LiveStatus status() const;
   /// Those that are here, and those that were lately, by number.
   std::vector<WorkerStatus> fleet(TimePoint now) const;
+  std::vector<QuarantineStatus> quarantine(TimePoint now) const;
   const Scheduler& scheduler() const { return scheduler_; }
   /// Frames that were dropped, by the part that was wrong.
   const std::map<std::string, std::uint64_t>& malformed() const { return malformed_; }
@@ -181,6 +184,7 @@ class Coordinator {
   // What people ask.
   void on_command(const Peer& peer, const pb::Command& command, TimePoint now);
   /// A sentence that says what was done.
+  Expected<std::string> forgive(const pb::Command& command, TimePoint now);
   Expected<std::string> obey(std::uint32_t index, const pb::Command& command);
   Expected<std::string> pause(std::uint32_t index, const CommandRow& command);
   Expected<std::uint32_t> campaign_of(const pb::Command& command) const;

@@ -1,6 +1,5 @@
 #include "coordinator/service/front_door.h"
 
-#include <string_view>
 #include <utility>
 
 #include "base/log.h"
@@ -17,16 +16,10 @@ constexpr Duration kSayAgain = std::chrono::seconds(10);
 Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options) {
   const bool insisted = options.insecure_plaintext;
   if (options.bind.empty()) options.bind = "tcp://127.0.0.1:*";
-  // A name of an interface is what a socket would look for.
-  if (constexpr std::string_view kName = "tcp://localhost:"; options.bind.starts_with(kName)) {
-    options.bind.replace(0, kName.size(), "tcp://127.0.0.1:");
-  }
-  const auto address = address_of(options.bind);
-  if (!address) {
-    return bad_input("invalid address; expected host and port, such as 127.0.0.1:5555",
-                     options.bind);
-  }
-  options.insecure_plaintext = !options.keys && !is_loopback(*address);
+  const auto endpoint = endpoint_of(options.bind, false);
+  if (!endpoint) return Unexpected(endpoint.error());
+  options.bind = *endpoint;
+  options.insecure_plaintext = !options.keys && !is_loopback(address_of(options.bind)->host);
   if (options.insecure_plaintext && !insisted) {
     return bad_input(
         "other hosts may connect here, so keys are needed: make them with `swarmsmith "
@@ -42,7 +35,15 @@ Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options)
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = std::chrono::milliseconds{200};
-  return ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
+  const bool has_keys = options.keys.has_value();
+  auto socket = ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
+  if (socket && !has_keys && !options.insecure_plaintext && !(*socket)->asks_for_user()) {
+    log_event(LogLevel::Warning, "coordinator",
+              "this system does not say whose a connection is: other users of this host can send "
+              "results and give commands; `swarmsmith keygen` makes keys",
+              {{"address", options.bind}});
+  }
+  return socket;
 }
 
 void RefusalLog::say(const Refusals& refusals, TimePoint now) {

@@ -12,8 +12,8 @@
 
 namespace swarmsmith {
 
-/// Listens as the options say, whose `bind` and `insecure_plaintext` are then what holds: a name
-/// made a number, nobody's key asked for. Errors: as Service::open.
+/// Listens as the options say, whose `bind` and `insecure_plaintext` are then what holds. Errors:
+/// as Service::open.
 Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options);
 
 /// Says who was kept out, seldom.

@@ -1,42 +1,16 @@
 #include "coordinator/service/http_address.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstring>
-#include <optional>
 
 namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kShortestToken = 16;
 constexpr std::size_t kLongestToken = 512;
-
-/// Host and port apart; no port where there is none.
-std::pair<std::string, std::optional<std::string>> split(std::string_view text) {
-  if (text.starts_with('[')) {
-    const std::size_t end = text.find(']');
-    if (end == std::string_view::npos) return {};
-    const std::string host(text.substr(1, end - 1));
-    text.remove_prefix(end + 1);
-    if (text.empty()) return {host, std::nullopt};
-    return text.front() == ':' ? std::pair(host, std::optional(std::string(text.substr(1))))
-                               : std::pair(std::string(), std::optional<std::string>());
-  }
-  const std::size_t colon = text.find(':');
-  if (colon == std::string_view::npos) return {std::string(text), std::nullopt};
-  return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
-}
-
-bool is_number(const std::string& host) {
-  std::array<unsigned char, 16> bytes{};
-  return inet_pton(AF_INET, host.c_str(), bytes.data()) == 1 ||
-         inet_pton(AF_INET6, host.c_str(), bytes.data()) == 1;
-}
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) {
@@ -47,10 +21,6 @@ std::string lower(std::string text) {
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-
-bool is_loopback_host(const std::string& host) {
-  return host == "localhost" || host == "::1" || (host.starts_with("127.") && is_number(host));
 }
 
 /// Closes a descriptor.
@@ -69,37 +39,13 @@ class Closer {
 
 }  // namespace
 
-Expected<HttpAddress> parse_http_address(const std::string& text) {
-  const auto [host, port] = split(text);
-  const auto wrong = [&] {
-    return bad_input("invalid address; expected host and port, such as 127.0.0.1:8347", text);
-  };
-  if (host.empty() || !port) return wrong();
-  if (*port == "*") return HttpAddress{host, 0};
-  int number = 0;
-  const auto [end, error] = std::from_chars(port->data(), port->data() + port->size(), number);
-  const bool whole = error == std::errc() && end == port->data() + port->size();
-  if (!whole || number < 0 || number > 65535) return wrong();
-  return HttpAddress{host, number};
-}
-
-std::string to_string(const HttpAddress& address) {
-  const bool six = address.host.find(':') != std::string::npos;
-  return (six ? "[" + address.host + "]" : address.host) + ":" + std::to_string(address.port);
-}
-
-bool is_loopback(const HttpAddress& address) {
-  return is_loopback_host(lower(address.host));
-}
-
-bool is_our_host(std::string_view header, const HttpAddress& address,
-                 const std::string& host_name) {
-  const auto [name, port] = split(header);
+bool is_our_host(std::string_view header, const Address& address, const std::string& host_name) {
+  const auto [name, port] = split_address(header);
   const std::string host = lower(name);
   if (host.empty() || (port && !std::ranges::all_of(*port, is_digit))) return false;
-  if (is_loopback_host(host)) return true;
-  if (is_loopback(address)) return false;
-  return is_number(host) || host == lower(address.host) || host == lower(host_name);
+  if (is_loopback(host)) return true;
+  if (is_loopback(lower(address.host))) return false;
+  return is_host_number(host) || host == lower(address.host) || host == lower(host_name);
 }
 
 Expected<std::string> read_token(const std::filesystem::path& file) {

@@ -4,25 +4,15 @@
 #include <string>
 #include <string_view>
 
+#include "base/address.h"
 #include "base/expected.h"
 
 namespace swarmsmith {
 
-/// Where pages are served.
-struct HttpAddress {
-  std::string host;
-  int port = 0;  ///< 0: a free one
-};
-
-/// HOST:PORT, with brackets around an IPv6 host; * as port for a free one.
-Expected<HttpAddress> parse_http_address(const std::string& text);
-std::string to_string(const HttpAddress& address);
-bool is_loopback(const HttpAddress& address);
-
 /// Whether a request's Host header means us, and not a name that somebody pointed at us (DNS
 /// rebinding): on loopback, its names and numbers; elsewhere the name that we listen on, this
 /// host's name, and any number, since browsers do not look numbers up.
-bool is_our_host(std::string_view header, const HttpAddress& address, const std::string& host_name);
+bool is_our_host(std::string_view header, const Address& address, const std::string& host_name);
 
 /// The token in a file that nobody but its owner can read; one line of at least 16 characters.
 Expected<std::string> read_token(const std::filesystem::path& file);

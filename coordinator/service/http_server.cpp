@@ -1,10 +1,7 @@
 #include "coordinator/service/http_server.h"
 
-#include <pwd.h>
 #include <strings.h>
-#include <unistd.h>
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -12,7 +9,8 @@
 #include <string_view>
 
 #include "base/http/page_server.h"
-#include "base/http/peer_user.h"
+#include "base/peer_user.h"
+#include "coordinator/service/http_address.h"
 #include "coordinator/service/metrics_text.h"
 
 namespace swarmsmith {
@@ -32,19 +30,6 @@ constexpr std::chrono::milliseconds kExportTime{90'000};
 std::optional<std::chrono::milliseconds> time_of(std::string_view path) {
   if (!path.starts_with("/api/")) return std::nullopt;
   return path.ends_with("/export.html") ? kExportTime : kAnswerTime;
-}
-
-std::string name_of_user(uid_t user) {
-  std::array<char, 4096> room{};
-  passwd entry = {};
-  passwd* found = nullptr;
-  getpwuid_r(user, &entry, room.data(), room.size(), &found);
-  return found != nullptr ? std::string(found->pw_name) : std::to_string(user);
-}
-
-std::string name_of_this_host() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : "";
 }
 
 class Pages final : public HttpServer {
@@ -76,7 +61,7 @@ class Pages final : public HttpServer {
   ~Pages() override { http_.stop_serving(); }
 
   Expected<void> listen() {
-    HttpAddress& address = options_.address;
+    Address& address = options_.address;
     const int last = std::min(address.port + (options_.next_port ? kMorePorts : 0), 65535);
     while (true) {
       const Expected<ListeningSocket> listening = listen_for_requests(address.host, address.port);
@@ -116,6 +101,12 @@ class Pages final : public HttpServer {
   }
   bool is_known(const httplib::Request& request) const {
     return options_.token.empty() || has_token_of(request, options_.token);
+  }
+  /// Whether a user of this host asks who may not: without a token those may look who run this
+  /// process, and root. Whoever knows the secret of acts is no stranger, whatever the kernel says.
+  bool is_other_user(const httplib::Request& request) const {
+    return options_.token.empty() && !is_of_same_user(PageServer::socket_of_request()) &&
+           !has_token_of(request, options_.act_token);
   }
 
   bool is_our_name(const std::string& header) const {
@@ -168,6 +159,7 @@ class Pages final : public HttpServer {
     if (of_site) return show_site(request, response, is_act);
     const bool is_open = request.path == "/healthz" || request.path == "/readyz";
     if (!is_open && !is_known(request)) return ask_for_token(request, response);
+    if (!is_open && is_other_user(request)) return refuse_other_user(request, response);
     return Handled::Unhandled;
   }
 
@@ -177,10 +169,10 @@ class Pages final : public HttpServer {
                   "a token is needed: Authorization: Bearer TOKEN");
   }
 
-  /// Without a token those may look who run this process, and root.
-  static bool is_of_same_user() {
-    const auto user = user_of_peer(PageServer::socket_of_request());
-    return user && (*user == geteuid() || *user == 0);
+  Handled refuse_other_user(const httplib::Request& request, httplib::Response& response) const {
+    return refuse(request, response, 403, "other_user",
+                  "these pages are of another user of this host; with --http-token-file they "
+                  "open to everybody who has the token");
   }
 
   /// For the store's list of commands.
@@ -194,16 +186,11 @@ class Pages final : public HttpServer {
     HttpSite& site = *options_.site;
     const bool open = site.is_open(request.path);
     if (!open && !is_known(request)) return ask_for_token(request, response);
-    // Whoever knows the secret of acts is no stranger, whatever the kernel says of them.
-    if (options_.token.empty() && !is_of_same_user() &&
-        !has_token_of(request, options_.act_token)) {
-      return refuse(request, response, 403, "other_user",
-                    "these pages are of another user of this host; with --http-token-file they "
-                    "open to everybody who has the token");
-    }
+    if (is_other_user(request)) return refuse_other_user(request, response);
+    // Pictures of a page elsewhere would let this program compute, too.
+    if (site.is_api(request.path) && is_of_other_page(request))
+      return refuse(request, response, 403, "other_origin", "a page of another origin may not ask");
     if (is_act) {
-      if (const std::string why = foreign_origin(request); !why.empty())
-        return refuse(request, response, 403, "other_origin", why);
       const std::string& token = options_.token.empty() ? options_.act_token : options_.token;
       if (!has_token_of(request, token)) return ask_for_token(request, response);
     }
@@ -225,17 +212,19 @@ class Pages final : public HttpServer {
     return Handled::Handled;
   }
 
-  /// Why a page that sends this is none of ours; empty when it may be.
-  static std::string foreign_origin(const httplib::Request& request) {
+  /// Whether a browser says that a page sends this which is none of ours.
+  static bool is_of_other_page(const httplib::Request& request) {
     const std::string site = request.get_header_value("Sec-Fetch-Site");
-    if (!site.empty() && site != "same-origin" && site != "none")
-      return "a page of another origin may not act";
-    const std::string origin = request.get_header_value("Origin");
-    if (origin.empty()) return "";
-    const std::size_t host = origin.find("://");
-    const bool ours =
-        host != std::string::npos && origin.substr(host + 3) == request.get_header_value("Host");
-    return ours ? "" : "a page of another origin may not act";
+    if (!site.empty() && site != "same-origin" && site != "none") return true;
+    for (const char* header : {"Origin", "Referer"}) {
+      const std::string from = request.get_header_value(header);
+      if (from.empty()) continue;
+      const std::size_t host = from.find("://");
+      if (host == std::string::npos) return true;
+      const std::string rest = from.substr(host + 3);
+      if (rest.substr(0, rest.find('/')) != request.get_header_value("Host")) return true;
+    }
+    return false;
   }
 
   /// Why no work can be done now; empty when it can.
@@ -250,7 +239,8 @@ class Pages final : public HttpServer {
   void show_ready(const httplib::Request& request, httplib::Response& response) const {
     const std::string why = obstacle();
     response.status = why.empty() ? 200 : 503;
-    const std::string text = why.empty() ? "ok" : is_known(request) ? why : "not ready";
+    const bool may_know = is_known(request) && !is_other_user(request);
+    const std::string text = why.empty() ? "ok" : may_know ? why : "not ready";
     response.set_content(text + "\n", "text/plain");
   }
 
@@ -277,7 +267,7 @@ class Pages final : public HttpServer {
 
 Expected<std::unique_ptr<HttpServer>> HttpServer::start(HttpOptions options) {
   const std::string where = to_string(options.address);
-  if (options.token.empty() && !is_loopback(options.address)) {
+  if (options.token.empty() && !is_loopback(options.address.host)) {
     return bad_input(
         "other hosts could read these pages: give a token by --http-token-file, or listen on "
         "127.0.0.1",

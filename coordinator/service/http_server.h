@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "base/address.h"
 #include "base/expected.h"
-#include "coordinator/service/http_address.h"
 #include "coordinator/service/http_site.h"
 #include "coordinator/service/live_status.h"
 
 namespace swarmsmith {
 
 struct HttpOptions {
-  HttpAddress address;
+  Address address;         ///< where pages are served
   bool next_port = false;  ///< when another program listens there, one of the next hundred will do
   std::string token;       ///< that requests must carry; must not be empty beyond loopback
   /// What the Host header may name besides: this server's name at a proxy.

@@ -45,6 +45,7 @@ inline void from_json(const nlohmann::json& json, DesignStatus& design) {
   design.stage = json.value("stage", "");
   design.search = json.value("search", "");
 }
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(QuarantineStatus, who, reason, since, worker, workers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LauncherStatus, name, wanted, running, pending, waits_for, note)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CampaignStatus, name, trouble, used, budget, queued_units,
                                    wal_bytes, designs)
@@ -106,6 +107,33 @@ void each_field(Json& json, Status& status, const Visit& visit) {
 
 }  // namespace
 
+std::string quarantine_line(const QuarantineStatus& status) {
+  std::string text = status.who;
+  if (status.worker != 0) text += ", worker " + std::to_string(status.worker);
+  text += " is in quarantine";
+  if (!status.since.empty()) text += " since " + status.since;
+  if (status.workers > 1) text += " (" + std::to_string(status.workers) + " workers)";
+  return text + (status.reason.empty() ? "" : ": " + status.reason);
+}
+
+std::string sentence_of_forgiven(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names)
+    text += (text.empty() ? "" : ", ") + name;
+  return text + (names.size() > 1 ? " are" : " is") +
+         " in quarantine no longer: its first results are checked as those of a new worker; one "
+         "that was turned away has to be started again";
+}
+
+Expected<std::string> not_in_quarantine(const std::string& word,
+                                        const std::vector<std::string>& known) {
+  std::string text = kNotInQuarantine + std::string("; ");
+  text += known.empty() ? "nothing is" : "these are: ";
+  for (std::size_t i = 0; i < known.size(); ++i)
+    text += (i == 0 ? "" : ", ") + known[i];
+  return unexpected(ErrorKind::NotFound, text, word);
+}
+
 double seconds_left(const LiveStatus& status) {
   if (!status.campaigns) return -1;
   std::int64_t left = 0;
@@ -126,6 +154,7 @@ ordered_json head_of(const LiveStatus& status) {
   json["slot_times"] = json_of(status.slot_times);
   json["slot_times_last_minute"] = json_of(status.slot_times_last_minute);
   json["launcher"] = nlohmann::json(status.launcher);
+  json["quarantine"] = nlohmann::json(status.quarantine);
   return json;
 }
 
@@ -164,6 +193,8 @@ Expected<LiveStatus> live_status_of(const std::string& text) {
       in.at(name).get_to(value);
     });
     json.at("launcher").get_to(status.launcher);
+    // Earlier coordinators do not say it.
+    status.quarantine = json.value("quarantine", std::vector<QuarantineStatus>{});
     status.slot_times = slot_times_of(json.at("slot_times"));
     status.slot_times_last_minute = slot_times_of(json.at("slot_times_last_minute"));
     status.campaigns = std::make_shared<const std::vector<CampaignStatus>>(

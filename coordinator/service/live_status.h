@@ -32,6 +32,25 @@ struct WorkerStatus {
   double last_heard_s = 0;
 };
 
+/// Workers that get nothing, until a person forgives who answers for them.
+struct QuarantineStatus {
+  std::string
+      who;  ///< key and address; an address; "local ..." of a worker that this process started
+  std::string reason;
+  std::string since;         ///< UTC, as stores have it
+  std::int64_t worker = 0;   ///< the one process of `who` that is meant; 0: all, or not here
+  std::int64_t workers = 0;  ///< of them that are connected
+  double for_s = 0;          ///< the same as `since`, where that is empty: not in the JSON
+};
+
+/// "in quarantine since ...: node@10.0.0.5 (2 workers here): it gave ...".
+std::string quarantine_line(const QuarantineStatus& status);
+/// What a person reads who lets them work again, or who meant somebody else: with that in it.
+inline constexpr const char* kNotInQuarantine = "it is not in quarantine";
+std::string sentence_of_forgiven(const std::vector<std::string>& names);
+Expected<std::string> not_in_quarantine(const std::string& word,
+                                        const std::vector<std::string>& known);
+
 struct DesignStatus {
   std::int64_t id = 0;
   std::string mission;
@@ -104,6 +123,7 @@ struct LiveStatus {
   /// Other hosts can connect without keys, because somebody insisted.
   bool insecure_plaintext = false;
   std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
+  std::vector<QuarantineStatus> quarantine;
   /// Refreshed once a second; shared, since each status is copied. Never null after the first.
   std::shared_ptr<const std::vector<WorkerStatus>> fleet;
   std::shared_ptr<const std::vector<CampaignStatus>> campaigns;

@@ -121,6 +121,13 @@ std::string frame_of(const SendHeartbeat& action) {
   return encode(message);
 }
 
+std::string frame_of(const SendNotice& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_notice()->set_sentence(clipped_text(action.sentence));
+  return encode(message);
+}
+
 std::string frame_of(const SendWhoAreYou&) {
   pb::ToWorker message;
   message.mutable_who_are_you();
@@ -150,8 +157,8 @@ std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation)
 }
 
 CommandKind command_kind_of(pb::Command::Kind kind) {
-  for (const CommandKind known :
-       {CommandKind::Pause, CommandKind::Resume, CommandKind::Cancel, CommandKind::Extend}) {
+  for (const CommandKind known : {CommandKind::Pause, CommandKind::Resume, CommandKind::Cancel,
+                                  CommandKind::Extend, CommandKind::Forgive}) {
     if (message_kind_of(known) == kind) return known;
   }
   return CommandKind::Unknown;
@@ -167,6 +174,8 @@ pb::Command::Kind message_kind_of(CommandKind kind) {
       return pb::Command::KIND_CANCEL;
     case CommandKind::Extend:
       return pb::Command::KIND_EXTEND;
+    case CommandKind::Forgive:
+      return pb::Command::KIND_FORGIVE;
     case CommandKind::Unknown:
       break;
   }

@@ -33,6 +33,7 @@ std::string frame_of(const SendReject& action);
 std::string frame_of(const SendTasks& action, const PoolFacts& facts,
                      google::protobuf::Arena& arena);
 std::string frame_of(const SendHeartbeat& action);
+std::string frame_of(const SendNotice& action);
 std::string frame_of(const SendWhoAreYou& action);
 std::string frame_of(const SendDrain& action);
 /// One frame for at most kMaxItemsPerMessage keys.

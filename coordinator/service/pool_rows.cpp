@@ -1,5 +1,6 @@
 #include "coordinator/service/pool_rows.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace swarmsmith {
@@ -57,8 +58,16 @@ void PoolRows::put_worker(const WorkerRow& row, TimePoint now) {
   const bool is_local = principal != nullptr && principal->local;
   const bool is_new = !written_.contains(row.id);
   const bool is_quarantined = row.state == WorkerState::Quarantined;
-  // One such row of a principal tells a later process.
-  if (is_quarantined && told_in_quarantine_.insert(row.principal).second) return write_worker(row);
+  // One such row of a principal, or one of each process that is blamed, tells a later process.
+  if (const auto quarantine = quarantine_of(row)) {
+    const auto told = std::ranges::count_if(
+        told_in_quarantine_, [&](const auto& each) { return each.first == row.principal; });
+    const bool is_enough = told >= static_cast<std::ptrdiff_t>(Principal::kMostLiars);
+    if (!is_enough &&
+        told_in_quarantine_.emplace(quarantine->principal, quarantine->identity).second) {
+      return write_worker(row);
+    }
+  }
   const bool is_here = row.state == WorkerState::Connected || is_quarantined;
   if (!is_local && is_new && !is_here && row.done == 0 && row.failed == 0) {
     late_.erase(row.id);
@@ -71,6 +80,11 @@ void PoolRows::put_worker(const WorkerRow& row, TimePoint now) {
   } else {
     late_[row.id] = row;
   }
+}
+
+void PoolRows::put_forgiven(const std::string& principal) {
+  std::erase_if(told_in_quarantine_, [&](const auto& told) { return told.first == principal; });
+  rows_.emplace_back(ForgivenRow{principal});
 }
 
 void PoolRows::write_worker(const WorkerRow& row) {

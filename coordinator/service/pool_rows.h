@@ -28,6 +28,8 @@ class PoolRows {
   /// The row of a worker comes later when there is no room for it: before anything that names the
   /// worker, or as it is then. Of one that left without having done anything it never comes.
   void put_worker(const WorkerRow& row, TimePoint now);
+  /// Before the rows of the workers that it lets work again.
+  void put_forgiven(const std::string& principal);
   /// Rows of workers for which there was no room; at most once a second.
   void write_late_workers(TimePoint now);
 
@@ -54,7 +56,8 @@ class PoolRows {
   std::vector<Row> rows_;
   std::unordered_set<WorkerNumber> written_;  ///< those whose row is in the stores
   std::map<WorkerNumber, WorkerRow> late_;    ///< rows for which there was no room
-  std::set<std::string> told_in_quarantine_;  ///< principals
+  /// Principals, and which of their processes, or none for all.
+  std::set<std::pair<std::string, std::string>> told_in_quarantine_;
   TimePoint wrote_late_;
 };
 

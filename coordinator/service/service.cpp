@@ -1,6 +1,8 @@
 #include "coordinator/service/service.h"
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -40,6 +42,18 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
                    .commands = campaign.store->commands(),
                    .searches = campaign.searches});
   return all;
+}
+
+/// UTC, as stores have times.
+std::string time_before(double seconds) {
+  const auto then = std::chrono::system_clock::now() -
+                    std::chrono::duration_cast<std::chrono::system_clock::duration>(
+                        std::chrono::duration<double>(seconds));
+  const std::time_t time = std::chrono::system_clock::to_time_t(then);
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  std::array<char, 32> text{};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
 std::vector<Searches> searches_of(const std::vector<ServiceCampaign>& campaigns) {
@@ -233,6 +247,9 @@ class Loop final : public Service {
   void report(TimePoint now, bool all = false) {
     if (now - looked_ >= kLookAtLogs) look_at_logs(now);
     status_ = telemetry_.status(coordinator_, now, all);
+    for (QuarantineStatus& one : status_.quarantine) {
+      if (one.since.empty()) one.since = time_before(one.for_s);
+    }
     status_.trouble = stores_.trouble();
     status_.insecure_plaintext = options_.insecure_plaintext;
     status_.refused = socket_->refusals().counts;
@@ -264,7 +281,7 @@ class Loop final : public Service {
     hear_news();
     carry_out();
     report(clock_.now(), true);
-    return {ServiceEnd::How::Interrupted, reasons(), stores_.lost(), distrusted()};
+    return {ServiceEnd::How::Interrupted, reasons(), stores_.lost(), distrusted(), unwritten()};
   }
 
   ServiceEnd finish() {
@@ -280,13 +297,20 @@ class Loop final : public Service {
     const std::vector<std::string> stopped = reasons();
     const bool all_well = std::ranges::all_of(stopped, &std::string::empty);
     return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped,
-            stores_.lost(), distrusted()};
+            stores_.lost(), distrusted(), unwritten()};
   }
 
   std::vector<bool> distrusted() const {
     std::vector<bool> all;
     for (std::uint32_t index = 0; index < stores_.count(); ++index)
       all.push_back(coordinator_.distrusted(index));
+    return all;
+  }
+
+  std::vector<std::int64_t> unwritten() const {
+    std::vector<std::int64_t> all;
+    for (std::uint32_t index = 0; index < stores_.count(); ++index)
+      all.push_back(coordinator_.uncommitted(index));
     return all;
   }
 

@@ -72,6 +72,8 @@ struct ServiceEnd {
   std::vector<std::string> lost{};
   /// Of each, whether it stopped because its stored scores are wrong, or may be.
   std::vector<bool> distrusted{};
+  /// Of each, evaluations that were used and that its store could not write.
+  std::vector<std::int64_t> unwritten{};
 };
 
 /// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.

@@ -128,6 +128,7 @@ LiveStatus Telemetry::status(const Coordinator& coordinator, TimePoint now, bool
   status.bytes_in = bytes_in_;
   status.bytes_out = bytes_out_;
   status.fleet = fleet_;
+  status.quarantine = coordinator.quarantine(now);
   status.campaigns = lists_;
   return status;
 }

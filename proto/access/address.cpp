@@ -1,93 +1,75 @@
 #include "proto/access/address.h"
 
-#include <arpa/inet.h>
-#include <ifaddrs.h>
-#include <net/if.h>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <unistd.h>
-#include <array>
-#include <climits>
-#include <memory>
+#include <algorithm>
 
 #include "proto/socket.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr std::string_view kScheme = "tcp://";
-
-bool resolves(const std::string& host) {
-  struct addrinfo* found = nullptr;
-  const bool known = getaddrinfo(host.c_str(), nullptr, nullptr, &found) == 0;
-  if (known) freeaddrinfo(found);
-  return known;
+/// Of those who can reach a socket that listens there.
+Family family_of(const std::string& wildcard) {
+  return wildcard == "0.0.0.0" ? Family::Four : Family::Any;
 }
 
-/// The first IPv4 address of an interface that is up and is not the loopback; empty without one.
-std::string first_address() {
-  struct ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return "";
-  const std::unique_ptr<struct ifaddrs, decltype(&freeifaddrs)> owner(all, freeifaddrs);
-  for (const struct ifaddrs* one = all; one != nullptr; one = one->ifa_next) {
-    if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
-    if ((one->ifa_flags & IFF_UP) == 0 || (one->ifa_flags & IFF_LOOPBACK) != 0) continue;
-    std::array<char, INET_ADDRSTRLEN> text{};
-    const auto* address = reinterpret_cast<const sockaddr_in*>(one->ifa_addr);
-    inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
-    return text.data();
-  }
-  return "";
+/// Debian gives a host's own name the number 127.0.1.1 where it has no other.
+bool is_known_to_others(const std::string& name, Family family) {
+  const auto numbers = numbers_of(name, family);
+  return numbers && std::ranges::any_of(
+                        *numbers, [](const std::string& number) { return !is_loopback(number); });
 }
 
-std::string reachable_host() {
-  const std::string name = name_of_this_host();
-  if (!name.empty() && resolves(name)) return name;
-  const std::string address = first_address();
-  return address.empty() ? "127.0.0.1" : address;
+std::string reachable_host(Family family) {
+  std::string name = name_of_this_host();
+  if (!name.empty() && is_known_to_others(name, family)) return name;
+  const std::vector<std::string> numbers = numbers_of_this_host(family);
+  return numbers.empty() ? "127.0.0.1" : numbers.front();
 }
 
-std::string with_host(const std::string& host, const std::string& port) {
-  return std::string(kScheme) + host + ":" + port;
+std::string without_brackets(const std::string& host) {
+  return host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
 }
 
 }  // namespace
 
-std::optional<Address> address_of(std::string_view endpoint) {
-  if (!is_tcp_address(endpoint)) return std::nullopt;
-  const std::size_t colon = endpoint.rfind(':');
-  return Address{.host = std::string(endpoint.substr(kScheme.size(), colon - kScheme.size())),
-                 .port = std::string(endpoint.substr(colon + 1))};
-}
-
-bool is_loopback(const Address& address) {
-  if (address.host == "localhost" || address.host == "[::1]") return true;
-  struct in_addr number = {};
-  constexpr unsigned kLoopbackNet = 127;
-  return inet_pton(AF_INET, address.host.c_str(), &number) == 1 &&
-         (ntohl(number.s_addr) >> 24U) == kLoopbackNet;
-}
-
-bool is_wildcard(const Address& address) {
-  return address.host == "*" || address.host == "0.0.0.0" || address.host == "[::]";
+Expected<std::string> endpoint_of(std::string_view text, bool with_port) {
+  const std::string typed(text);
+  if (text.starts_with(kTcpScheme)) text.remove_prefix(kTcpScheme.size());
+  const auto address = parse_address(text);
+  if (!address) return bad_input(address.error().message, typed);
+  if (with_port && address->port == 0)
+    return bad_input("name the port, too, such as " + to_string(Address{address->host, 5555}),
+                     typed);
+  return tcp_endpoint(*address);
 }
 
 std::string advertised_endpoint(const std::string& endpoint, const std::string& advertise) {
-  const auto address = address_of(endpoint);
+  auto address = address_of(endpoint);
   if (!address) return endpoint;
-  if (!advertise.empty()) return with_host(advertise, address->port);
-  return is_wildcard(*address) ? with_host(reachable_host(), address->port) : endpoint;
+  if (!advertise.empty()) {
+    address->host = without_brackets(advertise);
+  } else if (is_wildcard(address->host)) {
+    address->host = reachable_host(family_of(address->host));
+  }
+  return tcp_endpoint(*address);
+}
+
+std::vector<std::string> advertised_numbers(const std::string& endpoint,
+                                            const std::string& advertise) {
+  const auto address = address_of(endpoint);
+  if (!address || !advertise.empty() || !is_wildcard(address->host)) return {};
+  std::vector<std::string> endpoints;
+  for (std::string& number : numbers_of_this_host(family_of(address->host)))
+    endpoints.push_back(tcp_endpoint({std::move(number), address->port}));
+  return endpoints;
 }
 
 std::string local_endpoint(const std::string& endpoint) {
-  const auto address = address_of(endpoint);
-  if (!address || !is_wildcard(*address)) return endpoint;
-  return with_host("127.0.0.1", address->port);
-}
-
-std::string name_of_this_host() {
-  std::array<char, HOST_NAME_MAX + 1> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+  auto address = address_of(endpoint);
+  if (!address || !is_wildcard(address->host)) return endpoint;
+  // A socket of all interfaces takes both families, and not every host has ::1.
+  address->host = "127.0.0.1";
+  return tcp_endpoint(*address);
 }
 
 }  // namespace swarmsmith

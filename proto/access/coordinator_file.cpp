@@ -1,21 +1,30 @@
 #include "proto/access/coordinator_file.h"
 
 #include <unistd.h>
+#include <algorithm>
 #include <ctime>
 
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
-#include "proto/access/address.h"
 #include "proto/access/secret_file.h"
 #include "proto/curve.h"
+#include "proto/socket.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr unsigned kMode = 0644;
+constexpr unsigned kOpenMode = 0644;
+constexpr unsigned kOwnMode = 0600;
+/// Numbers of a host with many interfaces.
+constexpr std::size_t kMostOthers = 64;
 
 std::string line(const char* key, const std::string& value) {
   return std::string(key) + " = " + value + "\n";
+}
+
+bool is_to_connect_to(const std::string& endpoint) {
+  const auto address = address_of(endpoint);
+  return address && !is_wildcard(address->host) && address->port != 0;
 }
 
 void read_endpoint(TableReader& root, CoordinatorFile& coordinator) {
@@ -23,9 +32,15 @@ void read_endpoint(TableReader& root, CoordinatorFile& coordinator) {
   const auto endpoint = root.text("endpoint");
   if (!endpoint) return;
   coordinator.endpoint = *endpoint;
-  const auto address = address_of(*endpoint);
-  if (!address || is_wildcard(*address) || address->port == "*") {
+  if (!is_to_connect_to(*endpoint))
     root.complain("endpoint", "`endpoint` must be the address to connect to: \"tcp://HOST:PORT\"");
+}
+
+void read_others(TableReader& root, CoordinatorFile& coordinator) {
+  coordinator.others = root.texts("others").value_or(std::vector<std::string>());
+  if (coordinator.others.size() > kMostOthers ||
+      !std::ranges::all_of(coordinator.others, is_to_connect_to)) {
+    root.complain("others", "`others` must be at most 64 addresses to connect to");
   }
 }
 
@@ -36,6 +51,10 @@ std::string text_of(const CoordinatorFile& coordinator) {
       "# Address of the coordinator of the campaign beside this file, while it runs:\n"
       "# swarmsmith worker --coordinator THIS_FILE\nformat = 1\n";
   text += line("endpoint", quoted_text(coordinator.endpoint));
+  std::string others;
+  for (const std::string& endpoint : coordinator.others)
+    others += (others.empty() ? "" : ", ") + quoted_text(endpoint);
+  if (!others.empty()) text += line("others", "[" + others + "]");
   if (!coordinator.public_key.empty()) text += line("key", quoted_text(coordinator.public_key));
   if (coordinator.insecure_plaintext) text += line("insecure_plaintext", "true");
   text += line("pid", std::to_string(coordinator.pid));
@@ -53,6 +72,7 @@ Expected<CoordinatorFile> parse_coordinator_file(std::string_view text, const st
   read_format(root);
   CoordinatorFile coordinator;
   read_endpoint(root, coordinator);
+  read_others(root, coordinator);
   if (const auto key = root.text("key")) {
     coordinator.public_key = *key;
     if (!is_key(*key)) root.complain("key", "`key` must be a public key of 40 characters");
@@ -75,7 +95,9 @@ Expected<CoordinatorFile> read_coordinator_file(const std::filesystem::path& fil
 
 Expected<void> write_coordinator_file(const std::filesystem::path& file,
                                       const CoordinatorFile& coordinator) {
-  return replace_file(file, text_of(coordinator), kMode);
+  const auto address = address_of(coordinator.endpoint);
+  const bool is_own = coordinator.public_key.empty() && address && is_loopback(address->host);
+  return replace_file(file, text_of(coordinator), is_own ? kOwnMode : kOpenMode);
 }
 
 void remove_coordinator_file(const std::filesystem::path& file, const CoordinatorFile& ours) {

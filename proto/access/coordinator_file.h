@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/expected.h"
 
@@ -13,7 +14,9 @@ namespace swarmsmith {
 /// and takes away when it ends in order. Workers read it again before each try to connect, so that
 /// a coordinator that moved is found (orchestration facts, 12). Nothing in it is secret.
 struct CoordinatorFile {
-  std::string endpoint;    ///< tcp://HOST:PORT, as other hosts reach it
+  std::string endpoint;  ///< tcp://HOST:PORT, as other hosts reach it
+  /// The same with numbers in place of this host's name, which other hosts may not know.
+  std::vector<std::string> others{};
   std::string public_key;  ///< empty: connections are not encrypted
   /// Not encrypted and reachable from other hosts, because somebody insisted.
   bool insecure_plaintext = false;
@@ -31,6 +34,8 @@ Expected<CoordinatorFile> parse_coordinator_file(std::string_view text, const st
 
 /// Refuses a file that others may write: they could send workers elsewhere.
 Expected<CoordinatorFile> read_coordinator_file(const std::filesystem::path& file);
+/// Others may read it unless the coordinator is on loopback without keys, where it lets in only its
+/// own user.
 Expected<void> write_coordinator_file(const std::filesystem::path& file,
                                       const CoordinatorFile& coordinator);
 /// Unless another coordinator has written it meanwhile.

@@ -2,9 +2,9 @@
 
 #include <cstdlib>
 
-#include "proto/access/address.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/key_file.h"
+#include "proto/socket.h"
 
 namespace swarmsmith {
 namespace {
@@ -45,7 +45,7 @@ Expected<FoundCoordinator> in_plaintext(const CoordinatorSearch& search,
 
 bool is_on_loopback(const std::string& endpoint) {
   const auto address = address_of(endpoint);
-  return address && is_loopback(*address);
+  return address && is_loopback(address->host);
 }
 
 }  // namespace
@@ -64,14 +64,19 @@ Expected<FoundCoordinator> find_coordinator(const CoordinatorSearch& search) {
   }
   const Expected<CoordinatorFile> file = read_coordinator_file(search.file);
   if (!file) return Unexpected(file.error());
-  if (!file->public_key.empty()) return with_key(search, file->endpoint, file->public_key);
+  const auto with_others = [&](Expected<FoundCoordinator> found) {
+    if (found) found->others = file->others;
+    return found;
+  };
+  if (!file->public_key.empty())
+    return with_others(with_key(search, file->endpoint, file->public_key));
   if (!search.insecure_plaintext && !is_on_loopback(file->endpoint)) {
     return bad_input(
         "this coordinator does not encrypt; start it with keys (`swarmsmith keygen`), or accept it "
         "with --insecure-plaintext",
         search.file.string());
   }
-  return in_plaintext(search, file->endpoint);
+  return with_others(in_plaintext(search, file->endpoint));
 }
 
 }  // namespace swarmsmith

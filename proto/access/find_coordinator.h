@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/expected.h"
 #include "proto/access/key_folder.h"
@@ -22,7 +23,8 @@ struct CoordinatorSearch {
 
 struct FoundCoordinator {
   std::string endpoint;
-  std::optional<ClientKeys> keys;  ///< none: not encrypted
+  std::optional<ClientKeys> keys;     ///< none: not encrypted
+  std::vector<std::string> others{};  ///< endpoints where it may be found, too
 };
 
 /// The file that SWARMSMITH_KEY names, else ROLE.key in the default folder of keys.

@@ -66,8 +66,11 @@ Expected<void> make_folder(const std::filesystem::path& folder) {
     }
     return bad_input("this is no folder", folder.string());
   }
+  const std::string why = trouble ? trouble.message() : std::strerror(errno);
+  const bool has_home = !variable("HOME").empty();
   return unexpected(ErrorKind::Unavailable,
-                    std::string("the folder cannot be made: ") + std::strerror(errno),
+                    "the folder cannot be made: " + why + "; name another one: swarmsmith keygen " +
+                        "DIR" + (has_home ? "" : " (HOME is not set)"),
                     folder.string());
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/peer_user.h"
 #include "proto/network.h"
 
 namespace swarmsmith {
@@ -41,7 +42,7 @@ constexpr const char* kTooMuch = "too much at once";
 constexpr const char* kTooSlow = "reads too slowly";
 
 /// Parts of a request, in their order.
-enum Part : std::size_t { Version, RequestId, Domain, Address, Identity, Mechanism, Credentials };
+enum Part : std::size_t { Version, RequestId, Domain, From, Identity, Mechanism, Credentials };
 constexpr std::size_t kParts = 7;
 
 std::string z85_of(const std::string& bytes) {
@@ -72,7 +73,7 @@ std::string address_of(int descriptor) {
       getnameinfo(address, size, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) != 0) {
     return {};
   }
-  return text.data();
+  return plain_number(text.data());
 }
 
 /// Bytes of memory that this process has.
@@ -86,10 +87,12 @@ std::size_t resident_bytes() {
 
 }  // namespace
 
-Gate::Gate(zmq::context_t& context, zmq::socket_t& server, bool admit_by_key,
-           const SocketOptions& options)
-    : server_(&server), options_(options), young_for_(options.handshake_timeout + kSlack) {
-  if (admit_by_key) {
+Gate::Gate(zmq::context_t& context, zmq::socket_t& server, Asks asks, const SocketOptions& options)
+    : server_(&server),
+      asks_(asks),
+      options_(options),
+      young_for_(options.handshake_timeout + kSlack) {
+  if (asks.key) {
     requests_ = zmq::socket_t(context, zmq::socket_type::rep);
     requests_.set(zmq::sockopt::linger, 0);
     requests_.bind(kHandler);
@@ -174,7 +177,7 @@ void Gate::answer_request() {
                         parts[Mechanism] == "CURVE" && parts[Credentials].size() == kKeyBytes;
   const std::string key = complete ? z85_of(parts[Credentials]) : "";
   const std::string objection = complete ? objection_to(key) : "bad handshake";
-  if (!objection.empty()) count_refusal(objection, complete ? parts[Address] : "");
+  if (!objection.empty()) count_refusal(objection, complete ? plain_number(parts[From]) : "");
   const std::array<std::string, 6> reply = {std::string(kVersion),
                                             parts.size() > RequestId ? parts[RequestId] : "",
                                             objection.empty() ? "200" : "400",
@@ -211,13 +214,20 @@ void Gate::let_in(int descriptor, TimePoint now) {
   ++accepted_;
   // Whose end was not heard of.
   forget(descriptor);
-  const std::string address = address_of(descriptor);
+  std::string address = address_of(descriptor);
   const std::string network = network_of(address);
   const char* refusal = nullptr;
   if (open_.size() >= static_cast<std::size_t>(options_.max_connections)) {
     refusal = "too many connections";
   } else if (open_of_[network] >= options_.max_connections_of_host) {
     refusal = "too many connections of one host";
+  } else if (asks_.user) {
+    const auto user = user_of_peer(descriptor);
+    // One that has gone says nothing more.
+    if (user && !is_same_user(*user)) {
+      refusal = "another user";
+      address = "user " + name_of_user(*user);
+    }
   }
   if (refusal != nullptr) {
     count_refusal(refusal, address);

@@ -33,10 +33,14 @@ class Gate {
   /// Bytes of a connection that were taken: its frames, and about what comes with them.
   using Taken = std::shared_ptr<std::atomic<std::uint64_t>>;
 
-  /// Before the server's socket is bound; both must outlive the object. With `admit_by_key` the
-  /// keys decide, else everybody comes in.
-  Gate(zmq::context_t& context, zmq::socket_t& server, bool admit_by_key,
-       const SocketOptions& options);
+  /// Who comes in: whose key is listed; who is of the same user of this host; else all.
+  struct Asks {
+    bool key = false;
+    bool user = false;
+  };
+
+  /// Before the server's socket is bound; both must outlive the object.
+  Gate(zmq::context_t& context, zmq::socket_t& server, Asks asks, const SocketOptions& options);
   ~Gate();
   Gate(const Gate&) = delete;
   Gate& operator=(const Gate&) = delete;
@@ -80,6 +84,7 @@ class Gate {
   zmq::socket_t monitor_;   ///< the thread's
 
   // Connections; the thread's. Their descriptors name them.
+  Asks asks_;
   SocketOptions options_;
   Duration young_for_;
   std::unordered_map<int, Open> open_;

@@ -2,10 +2,13 @@
 #include <string>
 #include <vector>
 
+#include "base/process/begin_program.h"
 #include "cli/completion/offer_stored.h"
+#include "console/fault.h"
 #include "robot/app/commands.h"
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
   const Program program{"swarmsmith robot",
@@ -21,6 +24,6 @@ int main(int argc, char** argv) {
                                  "full, or the output closed?"));
   } catch (const std::exception& error) {
     // What the environment refused: a full disk, no memory, a device that goes away.
-    return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));
+    return static_cast<int>(fail(output, ExitCode::Failed, sentence_of_fault(error)));
   }
 }

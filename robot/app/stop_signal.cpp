@@ -26,8 +26,6 @@ void catch_stop_signals() {
   action.sa_handler = ask;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  action.sa_handler = SIG_IGN;
-  sigaction(SIGXFSZ, &action, nullptr);
 }
 
 int stop_signal() {

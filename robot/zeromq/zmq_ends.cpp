@@ -9,7 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include "proto/access/address.h"
 #include "proto/socket.h"
 #include "robot/transport/inbox.h"
 #include "robot/zeromq/frames.h"
@@ -267,7 +266,9 @@ class NodeLink {
     const bool was = std::exchange(stands_, false);
     const bool had = connected_.exchange(false);
     again_ = SystemClock().now() + kTryAgain;
-    if (was && socket_.refused()) {
+    if (was && !socket_.trouble().empty()) {
+      tell(place_.name + "'s node at " + place_.endpoint + ": " + socket_.trouble());
+    } else if (was && socket_.refused()) {
       tell(place_.name + "'s node at " + place_.endpoint + " does not accept this key");
     } else if (had) {
       told_.clear();
@@ -402,11 +403,12 @@ class ClientOperatorEnd final : public OperatorEnd {
 
 std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool has_keys) {
   for (const RobotPlace& place : places) {
-    if (!is_tcp_address(place.endpoint) || place.endpoint.ends_with("*")) {
+    const auto address = address_of(place.endpoint);
+    if (!address || address->port == 0) {
       return Error{ErrorKind::BadInput,
                    "`" + place.endpoint + "` is no address; write tcp://HOST:PORT", place.name};
     }
-    if (!has_keys && !is_loopback(*address_of(place.endpoint))) {
+    if (!has_keys && !is_loopback(address->host)) {
       return Error{ErrorKind::BadInput,
                    place.endpoint +
                        " is on another host: connections there need a key, else "
@@ -420,10 +422,11 @@ std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool ha
 }  // namespace
 
 Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions options) {
-  if (!is_tcp_address(options.endpoint)) {
+  const auto address = address_of(options.endpoint);
+  if (!address) {
     return bad_input("`" + options.endpoint + "` is no address; write tcp://HOST:PORT");
   }
-  if (!options.keys && !is_loopback(*address_of(options.endpoint))) {
+  if (!options.keys && !is_loopback(address->host)) {
     return bad_input(
         "other hosts can reach this address: it needs keys, else anybody could drive the robot "
         "(`swarmsmith keygen` makes them)",
@@ -431,6 +434,7 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
   }
   SocketOptions socket_options;
   socket_options.linger = kLastFrames;
+  socket_options.probes_newcomers = false;  // drivers are anybody's programs
   auto socket = ServerSocket::bind(options.endpoint, socket_options, std::move(options.keys));
   if (!socket) return tl::unexpected(socket.error());
   NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};

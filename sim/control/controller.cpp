@@ -5,18 +5,22 @@
 #include <utility>
 
 #include "base/overloaded.h"
+#include "sim/control/foreign_text.h"
 #include "sim/control/internal/fields.h"
+#include "sim/control/internal/genome.h"
 #include "sim/control/machine_text.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Architecture>, 5> kFirstSwitches = {{
+constexpr std::array<std::pair<std::string_view, Architecture>, 7> kFirstSwitches = {{
     {"--nstates", Architecture::Machine},
     {"--fsm-config", Architecture::Machine},
     {"--nroot", Architecture::Tree},
+    {"--rootnode", Architecture::Tree},
     {"--bt-config", Architecture::Tree},
     {"--network", Architecture::Network},
+    {kGenomeStart, Architecture::Network},
 }};
 
 /// A read controller of one kind as one of any.
@@ -72,8 +76,13 @@ std::size_t find_controller(std::string_view line) {
 Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour) {
   const auto architecture = architecture_of_text(text);
   if (!architecture) {
+    const std::size_t at = find_controller(text);
+    auto complaint =
+        at == std::string_view::npos ? std::nullopt : complaint_about_name(text.substr(0, at));
     return Unexpected(error_at(tokens_of(text).front(),
-                               "control software begins with one of " + first_switches()));
+                               complaint
+                                   ? std::move(*complaint)
+                                   : "control software begins with one of " + first_switches()));
   }
   switch (*architecture) {
     case Architecture::Tree:

@@ -23,8 +23,14 @@ class Parser {
       const Token& found = fields.empty() ? end : fields[0].name;
       return Unexpected(error_at(found, "a machine begins with `--nstates`"));
     }
-    const Expected<int> states = integer_of(fields[0], 1, kMaxStates);
+    const Expected<int> states = integer_of(fields[0]);
     if (!states) return Unexpected(states.error());
+    if (*states < 1 || *states > kMaxStates) {
+      return Unexpected(error_at(fields[0].value, "a machine of " + std::to_string(*states) +
+                                                      " states; machines of 1 to " +
+                                                      std::to_string(kMaxStates) +
+                                                      " states are read"));
+    }
     states_ = *states;
     Machine machine;
     std::size_t first = 1;
@@ -32,7 +38,7 @@ class Parser {
       const std::string name = "--s" + std::to_string(i);
       if (first == fields.size() || fields[first].name.text != name) {
         const Token& found = first == fields.size() ? end : fields[first].name;
-        return Unexpected(error_at(found, "expected " + quoted(name)));
+        return Unexpected(expected_error(name, found));
       }
       std::size_t last = first + 1;
       while (last < fields.size() && fields[last].stem != "s")

@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "sim/control/flavour.h"
 #include "sim/control/internal/fields.h"
+#include "sim/control/internal/genome.h"
 #include "sim/control/internal/module_text.h"
 
 namespace swarmsmith {
@@ -167,7 +168,7 @@ std::optional<Error> check(const Network& network, const Flavour& flavour) {
   if (network.inputs == NetworkInputs::Rm12 && !senses_light(flavour)) {
     return Error{ErrorKind::BadInput,
                  "the inputs rm1.2 read light sensors, which the flavour " + flavour.name +
-                     " has not: take rvr or rvr-gray",
+                     " has not: take another flavour, or the inputs rvr or rvr-gray",
                  "--network"};
   }
   return std::nullopt;
@@ -175,6 +176,13 @@ std::optional<Error> check(const Network& network, const Flavour& flavour) {
 
 Expected<Network> parse_network(std::string_view text, const Flavour& flavour) {
   const std::vector<Token> tokens = tokens_of(text);
+  if (tokens.front().text == kGenomeStart) {
+    auto genome = read_genome(tokens);
+    if (!genome) return genome;
+    if (auto error = check(*genome, flavour))
+      return Unexpected(error_at(tokens.front(), error->message));
+    return genome;
+  }
   constexpr std::size_t kList = 3;
   if (tokens.size() > kList + 2 && tokens[kList].text.ends_with(',')) {
     return Unexpected(

@@ -1,8 +1,11 @@
 #include "sim/control/tree.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/assert.h"
@@ -18,6 +21,7 @@ constexpr int kSelector = 0;
 constexpr int kSequenceWithMemory = 3;
 constexpr int kAction = 5;
 constexpr int kCondition = 6;
+constexpr int kOldSequenceWithMemory = 0;  ///< as a root of the older form
 
 /// Takes a field that can have one value alone in Maple's trees.
 std::optional<Error> need_value(Block& block, std::string_view stem, int value,
@@ -30,31 +34,36 @@ std::optional<Error> need_value(Block& block, std::string_view stem, int value,
                                     ", " + meaning + ": only Maple's trees can be read");
 }
 
-/// The fields of subtree `index`, sorted into its own and those of its two children.
+/// The fields of a subtree, sorted into its own and those of its children.
 struct SubtreeBlocks {
   Block own;
-  Block condition;
-  Block action;
+  std::vector<Block> children;
 };
 
-Expected<SubtreeBlocks> blocks_of(int index, std::span<const Field> fields, const Token& end) {
-  const std::string name = std::to_string(index);
-  SubtreeBlocks blocks{Block(name, end), Block(name + "0", end), Block(name + "1", end)};
+Expected<SubtreeBlocks> blocks_of(const std::string& name, std::span<const Field> fields,
+                                  const Token& end, int children, const std::string& between) {
+  SubtreeBlocks blocks{Block(name, end), {}};
+  for (int i = 0; i < children; ++i)
+    blocks.children.emplace_back(name + between + std::to_string(i), end);
   for (const Field& field : fields) {
-    if (field.transition > 1) {
-      return Unexpected(
-          error_at(field.name, quoted(field.name.text) + ": a subtree has the children 0 and 1"));
+    if (field.transition >= children) {
+      const std::string last = std::to_string(children - 1);
+      return Unexpected(error_at(
+          field.name,
+          quoted(field.name.text) + (between.empty() ? ": the subtree has the children 0 to " + last
+                                                     : " is of a condition beyond the one that " +
+                                                           quoted("--nc" + name) + " announces")));
     }
-    Block& block = field.transition < 0    ? blocks.own
-                   : field.transition == 0 ? blocks.condition
-                                           : blocks.action;
+    Block& block = field.transition < 0
+                       ? blocks.own
+                       : blocks.children[static_cast<std::size_t>(field.transition)];
     if (auto error = block.add(field)) return Unexpected(*error);
   }
   return blocks;
 }
 
+/// The condition that `--c` names.
 Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
-  if (auto error = need_value(block, "n", kCondition, "a condition")) return Unexpected(*error);
   const Expected<Field> selector = block.need("c");
   if (!selector) return Unexpected(selector.error());
   const auto spec = read_module(*selector, flavour.conditions, flavour);
@@ -65,34 +74,76 @@ Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
   return make_condition((*spec)->module, *values);
 }
 
-Expected<Behaviour> read_action(Block& block, const Flavour& flavour) {
-  if (auto error = need_value(block, "n", kAction, "an action")) return Unexpected(*error);
+/// The action that `--a` names; `last` takes what stands behind its parameters.
+template <class Last>
+Expected<Behaviour> read_action(Block& block, const Flavour& flavour, const Last& last) {
   const Expected<Field> selector = block.need("a");
   if (!selector) return Unexpected(selector.error());
   const auto spec = read_module(*selector, flavour.behaviours, flavour);
   if (!spec) return Unexpected(spec.error());
   const auto values = read_parameters(**spec, block, flavour);
   if (!values) return Unexpected(values.error());
-  if (auto error = need_value(block, "p", 0, "an action that never reports success"))
-    return Unexpected(*error);
+  if (std::optional<Error> error = last()) return Unexpected(std::move(*error));
   if (auto error = block.check_empty(id_of((*spec)->module))) return Unexpected(*error);
   return make_behaviour((*spec)->module, *values);
 }
 
 Expected<Subtree> read_subtree(int index, std::span<const Field> fields, const Token& end,
                                const Flavour& flavour) {
-  auto blocks = blocks_of(index, fields, end);
+  auto blocks = blocks_of(std::to_string(index), fields, end, 2, "");
   if (!blocks) return Unexpected(blocks.error());
   if (auto error = need_value(blocks->own, "n", kSelector, "a selector")) return Unexpected(*error);
   if (auto error = need_value(blocks->own, "nchild", 2, "a condition and an action"))
     return Unexpected(*error);
   if (auto error = blocks->own.check_empty("a selector")) return Unexpected(*error);
-  const auto condition = read_condition(blocks->condition, flavour);
+  Block& waits = blocks->children[0];
+  if (auto error = need_value(waits, "n", kCondition, "a condition")) return Unexpected(*error);
+  const auto condition = read_condition(waits, flavour);
   if (!condition) return Unexpected(condition.error());
-  const auto action = read_action(blocks->action, flavour);
+  Block& acts = blocks->children[1];
+  if (auto error = need_value(acts, "n", kAction, "an action")) return Unexpected(*error);
+  const auto action = read_action(acts, flavour, [&] {
+    return need_value(acts, "p", 0, "an action that never reports success");
+  });
   if (!action) return Unexpected(action.error());
   return Subtree{*condition, *action};
 }
+
+/// In the form of 2018: `--nc0 1` condition `--c0x0`, then the action `--a0`.
+Expected<Subtree> read_old_subtree(int index, std::span<const Field> fields, const Token& end,
+                                   const Flavour& flavour) {
+  const std::string name = std::to_string(index);
+  const auto count = std::ranges::find_if(
+      fields, [&](const Field& field) { return field.name.text == "--nc" + name; });
+  if (count != fields.end() && count->value.text != "1") {
+    return Unexpected(error_at(count->value, "a subtree of " + std::string(count->value.text) +
+                                                 " conditions; trees with one a subtree are read, "
+                                                 "as Maple's"));
+  }
+  auto blocks = blocks_of(name, fields, end, 1, "x");
+  if (!blocks) return Unexpected(blocks.error());
+  if (auto error = need_value(blocks->own, "n", kSelector, "a selector")) return Unexpected(*error);
+  if (const auto one = blocks->own.need("nc"); !one) return Unexpected(one.error());
+  const auto condition = read_condition(blocks->children[0], flavour);
+  if (!condition) return Unexpected(condition.error());
+  const auto action = read_action(blocks->own, flavour, [] { return std::optional<Error>(); });
+  if (!action) return Unexpected(action.error());
+  return Subtree{*condition, *action};
+}
+
+/// What the two forms differ in, besides their subtrees.
+struct Form {
+  std::string_view root;
+  int root_kind;
+  std::string_view count;
+  Between between;
+  Expected<Subtree> (*subtree)(int, std::span<const Field>, const Token&, const Flavour&);
+};
+
+constexpr Form kNewForm = {"--nroot", kSequenceWithMemory, "--nchildroot", Between::Nothing,
+                           read_subtree};
+constexpr Form kOldForm = {"--rootnode", kOldSequenceWithMemory, "--nchildsroot", Between::Cross,
+                           read_old_subtree};
 
 }  // namespace
 
@@ -115,21 +166,21 @@ Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour) {
   const std::vector<Token> tokens = tokens_of(text);
   std::span<const Token> rest = tokens;
   if (rest[0].text == "--bt-config") rest = rest.subspan(1);
-  const auto all = fields_of(rest, Between::Nothing);
+  const Form& form = rest[0].text == kOldForm.root ? kOldForm : kNewForm;
+  const auto all = fields_of(rest, form.between);
   if (!all) return Unexpected(all.error());
   std::span<const Field> fields = *all;
   const Token& end = tokens.back();
   const auto first = [&]() -> const Token& { return fields.empty() ? end : fields[0].name; };
-  if (first().text != "--nroot")
-    return Unexpected(error_at(first(), "a tree begins with `--nroot`"));
-  if (const auto kind = integer_of(fields[0]); !kind || *kind != kSequenceWithMemory) {
-    return Unexpected(error_at(fields[0].value,
-                               "`--nroot` must be 3, a sequence with memory: only Maple's trees "
-                               "can be read"));
+  if (first().text != form.root)
+    return Unexpected(error_at(first(), "a tree begins with `--nroot` or `--rootnode`"));
+  if (const auto kind = integer_of(fields[0]); !kind || *kind != form.root_kind) {
+    return Unexpected(
+        error_at(fields[0].value, quoted(form.root) + " must be " + std::to_string(form.root_kind) +
+                                      ", a sequence with memory: only Maple's trees can be read"));
   }
   fields = fields.subspan(1);
-  if (first().text != "--nchildroot")
-    return Unexpected(error_at(first(), "expected `--nchildroot`"));
+  if (first().text != form.count) return Unexpected(expected_error(form.count, first()));
   const auto count = integer_of(fields[0], 1, kMaxSubtrees);
   if (!count) return Unexpected(count.error());
   fields = fields.subspan(1);
@@ -138,17 +189,17 @@ Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour) {
     std::size_t size = 0;
     while (size < fields.size() && fields[size].state == i)
       ++size;
-    if (size == 0)
-      return Unexpected(error_at(first(), "expected " + quoted("--n" + std::to_string(i))));
+    if (size == 0) return Unexpected(expected_error("--n" + std::to_string(i), first()));
     const Token& block_end = size == fields.size() ? end : fields[size].name;
-    auto subtree = read_subtree(i, fields.first(size), block_end, flavour);
+    auto subtree = form.subtree(i, fields.first(size), block_end, flavour);
     if (!subtree) return Unexpected(subtree.error());
-    tree.subtrees.push_back(*subtree);
+    tree.subtrees.push_back(std::move(*subtree));
     fields = fields.subspan(size);
   }
   if (fields.empty()) return tree;
-  return Unexpected(
-      error_at(first(), "expected the end, since `--nchildroot` is " + std::to_string(*count)));
+  return Unexpected(error_at(first(), "expected the end, since " + quoted(form.count) + " is " +
+                                          std::to_string(*count) + ", found " +
+                                          quoted(first().text)));
 }
 
 std::string print_tree(const Tree& tree, const Flavour& flavour) {

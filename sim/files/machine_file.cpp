@@ -1,18 +1,23 @@
 #include "sim/files/machine_file.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "sim/control/controller.h"
+#include "sim/control/foreign_text.h"
+#include "sim/files/internal/file_kind.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {
 
 constexpr std::string_view kHeadSign = "#:";
+constexpr std::string_view kGenomeStart = "genomestart";
+constexpr std::string_view kGenomeEnd = "genomeend";
 
 /// Without blanks, and without a colon or comma between name and machine.
 std::string_view trimmed(std::string_view text) {
@@ -104,16 +109,19 @@ class Reader {
     toml_ += is_head ? "  " + std::string(line.substr(kHeadSign.size())) : "";
     toml_ += '\n';
     has_head_ = has_head_ || is_head;
-    if (is_head || text.empty() || text.front() == '#') return;
+    if (is_head || text.empty() || text.front() == '#' || is_comment(text)) return;
+    if (in_genome_) {
+      machines_.back().text += " " + std::string(text);
+      in_genome_ = !text.starts_with(kGenomeEnd);
+      return;
+    }
     const std::size_t at = find_controller(text);
     if (at != std::string_view::npos) {
       begin(text, at);
     } else if (text.starts_with("--") && !machines_.empty() && !has_head_) {
       machines_.back().text += " " + std::string(text);
     } else {
-      errors_.push_back({ErrorKind::BadInput,
-                         "control software begins with one of " + first_switches(),
-                         file_ + ":" + std::to_string(number_)});
+      complain("control software begins with one of " + first_switches());
     }
   }
 
@@ -121,12 +129,38 @@ class Reader {
     if (machines_.empty() && errors_.empty()) {
       errors_.push_back({ErrorKind::BadInput, "the file holds no machine", file_});
     }
-    if (!errors_.empty()) return tl::unexpected(std::move(errors_));
+    if (!errors_.empty()) return tl::unexpected(counted());
     return std::move(machines_);
   }
 
  private:
+  static bool is_comment(std::string_view text) {
+    return text.starts_with("/*") && text.ends_with("*/");
+  }
+
+  /// Of the present line. A complaint about several lines is one error.
+  void complain(const std::string& message) {
+    const auto [known, is_new] = repeated_.emplace(message, std::pair(errors_.size(), 0));
+    if (!is_new) {
+      ++known->second.second;
+      return;
+    }
+    errors_.push_back({ErrorKind::BadInput, message, file_ + ":" + std::to_string(number_)});
+  }
+
+  std::vector<Error> counted() {
+    for (const auto& [message, place] : repeated_) {
+      const auto& [index, more] = place;
+      if (more == 0) continue;
+      errors_[index].message +=
+          "; the same with " + std::to_string(more) + (more == 1 ? " more line" : " more lines");
+    }
+    return std::move(errors_);
+  }
+
   void begin(std::string_view text, std::size_t at) {
+    if (const auto complaint = complaint_about_name(text.substr(0, at))) complain(*complaint);
+    in_genome_ = text.substr(at).starts_with(kGenomeStart);
     FiledMachine machine{.head = {},
                          .name = std::string(trimmed(text.substr(0, at))),
                          .text = std::string(text.substr(at)),
@@ -141,8 +175,11 @@ class Reader {
   std::size_t number_ = 0;
   std::string toml_;  ///< head of the next machine
   bool has_head_ = false;
+  bool in_genome_ = false;
   std::vector<FiledMachine> machines_;
   std::vector<Error> errors_;
+  /// Complaints by their words: which error it is, and how many more lines it is about.
+  std::map<std::string, std::pair<std::size_t, std::size_t>> repeated_;
 };
 
 /// The lines of what is not built in.
@@ -171,6 +208,12 @@ std::vector<Section> tables_of(const MachineHead& head, Section& top) {
 
 tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
     std::string_view text, const std::filesystem::path& file) {
+  if (const auto kind = foreign_kind(text)) {
+    return tl::unexpected(std::vector{Error{
+        ErrorKind::BadInput,
+        "this is " + *kind + "; expected machines, trees or networks as texts (docs/machines.md)",
+        file.string()}});
+  }
   Reader reader(file.string());
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -39,10 +39,12 @@ struct FiledMachine {
 };
 
 /// The machines of a file, at least one, or everything that is wrong with it. A machine begins with
-/// `--nstates` or `--fsm-config`, a tree with `--nroot` or `--bt-config`, a network with
-/// `--network`, after a name or none, and goes on in lines that begin with `--`. A head is of the
-/// next machine. Other lines that begin with # say nothing. `file` gives the name for errors, and
-/// is not read.
+/// `--nstates` or `--fsm-config`, a tree with `--nroot`, `--rootnode` or `--bt-config`, a network
+/// with `--network`, after a name or none, and goes on in lines that begin with `--`; a name has no
+/// options. A genome goes from `genomestart` to `genomeend`. A head is of the next machine. Other
+/// lines that begin with #, and those in /* */, say nothing. What is wrong with many lines is told
+/// once, and a file of another kind is one error. `file` gives the name for errors, and is not
+/// read.
 tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
     std::string_view text, const std::filesystem::path& file);
 

@@ -170,10 +170,14 @@ const std::vector<std::string>& mission_names() {
   return names;
 }
 
+/// Names stand in tables and figures. Stores refuse longer ones.
+constexpr std::size_t kLongestName = 1000;
+
 bool is_name(std::string_view name) {
   constexpr std::string_view kLetters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  return !name.empty() && name.find_first_not_of(kLetters) == std::string_view::npos;
+  return !name.empty() && name.size() <= kLongestName &&
+         name.find_first_not_of(kLetters) == std::string_view::npos;
 }
 
 bool check_name(TableReader& reader, const std::string& name,
@@ -184,8 +188,9 @@ bool check_name(TableReader& reader, const std::string& name,
   }
   if (!is_name(name)) {
     reader.complain("name",
-                    "a name consists of letters, digits, `_`, `-` and `.`, and is not "
-                    "empty");
+                    "a name consists of letters, digits, `_`, `-` and `.`, is not empty, and has "
+                    "at most " +
+                        std::to_string(kLongestName) + " of them");
     return false;
   }
   if (std::ranges::find(taken, name) != taken.end()) {

@@ -157,6 +157,7 @@ void PhraseBook::clear() {
   numbers_.clear();
   open_.clear();
   last_ = 0;
+  left_ = kAlwaysAllowed;
 }
 
 void PhraseBook::load(const sqlite::Connection& connection) {
@@ -167,6 +168,8 @@ void PhraseBook::load(const sqlite::Connection& connection) {
   };
   while (row.step())
     add(row.integer(0), {.machine = text(1), .parameters = text(2), .modules = text(3)});
+  left_ += kMostTimesFile * sqlite::integer_of(connection, "PRAGMA page_count") *
+           sqlite::integer_of(connection, "PRAGMA page_size");
 }
 
 void PhraseBook::add(std::int64_t number, Phrase phrase) {
@@ -279,24 +282,27 @@ StoredTexts PhraseBook::encode(const CandidateRow& row, const OnNew& on_new) {
   return stored;
 }
 
-bool PhraseBook::decode(const StoredTexts& stored, CandidateRow& row) const {
+bool PhraseBook::decode(const StoredTexts& stored, CandidateRow& row) {
   row.machine = stored.machine;
   row.parameters = stored.parameters;
   row.modules = stored.modules;
   std::optional<std::string> machine, parameters, modules;
-  const auto extend = [](std::optional<std::string>& text, const std::optional<std::string>& more,
-                         std::string_view number, char between) {
-    if (!more) return;
+  const auto extend = [&](std::optional<std::string>& text, const std::optional<std::string>& more,
+                          std::string_view number, char between) {
+    if (!more) return true;
+    const std::size_t bytes = more->size() + number.size() + 1;
+    left_ -= static_cast<std::int64_t>(bytes);
+    if (left_ < 0 || (text ? text->size() : 0) + bytes > kMostTextBytes) return false;
     join(text, *more, between);
     *text += number;
+    return true;
   };
   const auto say = [&](std::int64_t number, std::string_view value) {
     const auto known = phrases_.find(number);
     if (known == phrases_.end()) return false;
-    extend(machine, known->second.machine, value, ' ');
-    extend(parameters, known->second.parameters, value, ',');
-    extend(modules, known->second.modules, value, ',');
-    return true;
+    return extend(machine, known->second.machine, value, ' ') &&
+           extend(parameters, known->second.parameters, value, ',') &&
+           extend(modules, known->second.modules, value, ',');
   };
   if (stored.code) {
     if (!each_piece(*stored.code, say)) return false;

@@ -60,11 +60,17 @@ class PhraseBook {
   /// How the row is to be stored; calls `on_new` for each phrase that the table does not have yet.
   StoredTexts encode(const CandidateRow& row, const OnNew& on_new);
 
-  /// Fills in the three texts of `row`. False when a code does not fit the phrases: the store is
-  /// damaged.
-  bool decode(const StoredTexts& stored, CandidateRow& row) const;
+  /// Fills in the three texts of `row`. False when a code does not fit the phrases, or makes more
+  /// than is allowed, of one text or of all: the store is damaged, or was made to fill memory.
+  bool decode(const StoredTexts& stored, CandidateRow& row);
 
  private:
+  /// Of a text that a code makes. Ours have a few kB.
+  static constexpr std::size_t kMostTextBytes = 8 << 20;
+  /// All texts of a store, beside its file: real ones make twice its bytes.
+  static constexpr std::int64_t kMostTimesFile = 64;
+  static constexpr std::int64_t kAlwaysAllowed = 64 << 20;
+
   struct Piece {
     Phrase phrase;
     std::string number;
@@ -80,6 +86,8 @@ class PhraseBook {
   std::unordered_map<std::int64_t, Phrase> phrases_;
   std::unordered_map<std::string, std::int64_t> numbers_;  ///< by all texts of the phrase
   std::int64_t last_ = 0;
+  /// Bytes that codes may still make.
+  std::int64_t left_ = kAlwaysAllowed;
   /// Parameters whose numbers end a phrase, since they have too many values to be part of one.
   std::unordered_set<std::string> open_;
 };

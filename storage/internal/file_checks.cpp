@@ -1,15 +1,19 @@
 #include "storage/internal/file_checks.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/vfs.h>
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/environment.h"
+#include "base/mounts.h"
 
 namespace swarmsmith {
 namespace {
@@ -34,6 +38,30 @@ Unexpected truncated(const std::filesystem::path& path, std::uint64_t has, std::
                                 "{}; {}",
                                 has, wants, kWayOut),
                     path.string());
+}
+
+constexpr std::uint32_t kFuse = 0x65735546;
+
+/// Programs behind FUSE that show a disk or a folder of this host: "fuse.bindfs".
+bool is_local_program(std::string_view type) {
+  // Not those that join several folders (mergerfs, unionfs): their parts can be anywhere.
+  constexpr std::array<std::string_view, 18> kLocal{
+      "apfs",  "bindfs",    "cryfs",          "encfs",    "exfat",     "exfat-fuse",
+      "ext2",  "fuse-ext2", "fuse-overlayfs", "fuse2fs",  "fuseext2",  "gocryptfs",
+      "lxcfs", "ntfs",      "ntfs-3g",        "securefs", "veracrypt", "zfs-fuse"};
+  constexpr std::string_view kPrefix = "fuse.";
+  return type.starts_with(kPrefix) &&
+         std::find(kLocal.begin(), kLocal.end(), type.substr(kPrefix.size())) != kLocal.end();
+}
+
+/// By its number, since the device of a file is not that of the mount everywhere.
+std::optional<Mount> mount_of(const std::filesystem::path& path) {
+  struct statx about {};
+  if (::statx(AT_FDCWD, path.c_str(), 0, STATX_MNT_ID, &about) != 0) return std::nullopt;
+  if ((about.stx_mask & STATX_MNT_ID) == 0) return std::nullopt;
+  for (Mount& mount : mounts())
+    if (static_cast<std::uint64_t>(mount.id) == about.stx_mnt_id) return std::move(mount);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -68,15 +96,14 @@ Expected<void> check_database_file(const sqlite::Connection& connection,
   return {};
 }
 
-bool is_network_file_system(long type) {
+std::string kind_of_shared(long type, std::string_view name) {
   // f_type is signed on some machines; the magic numbers of linux/magic.h and statfs(2) are not.
-  constexpr std::array<std::uint32_t, 13> kShared{
+  constexpr std::array<std::uint32_t, 12> kShared{
       0x6969,      // NFS
       0x517b,      // SMB
       0xff534d42,  // CIFS
       0xfe534d42,  // SMB2
       0x0bd00bd0,  // Lustre
-      0x65735546,  // FUSE: sshfs, GlusterFS, ...
       0x00c36400,  // Ceph
       0x47504653,  // GPFS
       0x19830326,  // BeeGFS
@@ -85,8 +112,36 @@ bool is_network_file_system(long type) {
       0x01021997,  // 9P
       0x7461636f,  // OCFS2
   };
-  return std::find(kShared.begin(), kShared.end(), static_cast<std::uint32_t>(type)) !=
-         kShared.end();
+  const auto magic = static_cast<std::uint32_t>(type);
+  if (magic == kFuse) {
+    if (name == "fuseblk" || is_local_program(name)) return {};
+    if (name.empty() || name == "fuse") return "a FUSE file system of an unknown kind";
+    return fmt::format("{}, a FUSE file system that is not known to be of this host alone", name);
+  }
+  if (std::find(kShared.begin(), kShared.end(), magic) == kShared.end()) return {};
+  return name.empty() ? "a network file system" : fmt::format("{}, a network file system", name);
+}
+
+std::string shared_file_system(const std::filesystem::path& path) {
+  std::filesystem::path place = path;
+  std::string shown;  // by what, when it is another folder's
+  // A folder that is mounted over itself cannot be looked behind.
+  constexpr int kMostLayers = 8;
+  for (int layer = 0; layer < kMostLayers; ++layer) {
+    struct statfs about {};
+    if (::statfs(place.c_str(), &about) != 0) return {};
+    const std::optional<Mount> mount = mount_of(place);
+    const std::string kind = kind_of_shared(about.f_type, mount ? mount->type : "");
+    if (!kind.empty()) return kind + shown;
+    const bool shows_folder = static_cast<std::uint32_t>(about.f_type) == kFuse && mount &&
+                              mount->source.starts_with('/') &&
+                              std::filesystem::path(mount->source) != mount->point;
+    std::error_code none;
+    if (!shows_folder || !std::filesystem::is_directory(mount->source, none)) return {};
+    place = mount->source;
+    shown = fmt::format(", which {} shows", mount->type);
+  }
+  return {};
 }
 
 Expected<void> check_folder(const std::filesystem::path& store) {
@@ -101,12 +156,13 @@ Expected<void> check_folder(const std::filesystem::path& store) {
     return bad_input("this is a folder; a store is a file", store.string());
   }
   if (environment("SWARMSMITH_ALLOW_NETWORK_FS") == "1") return {};
-  struct statfs about {};
-  if (::statfs(folder.c_str(), &about) == 0 && is_network_file_system(about.f_type)) {
+  if (const std::string kind = shared_file_system(folder); !kind.empty()) {
     return bad_input(
-        "the folder is on a network file system, where a store can be damaged by a second writer; "
-        "put it on a local disk and copy it afterwards, or set SWARMSMITH_ALLOW_NETWORK_FS=1 when "
-        "only one host will ever touch it",
+        fmt::format(
+            "the folder is on {}: if several hosts share it, a second writer can damage the "
+            "store; put it on a local disk and copy it afterwards, or set "
+            "SWARMSMITH_ALLOW_NETWORK_FS=1 when only one host will ever touch it",
+            kind),
         store.string());
   }
   return {};

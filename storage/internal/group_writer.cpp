@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/schema_check.h"
 
 namespace swarmsmith {
 namespace {
@@ -18,13 +19,16 @@ constexpr std::size_t kLargeGroup = 1024;
 /// Without work, the file is looked at this often: whether it is still the store's.
 constexpr std::chrono::seconds kLookAtFile{1};
 
-/// A constraint, a type or a misuse: the same rows would fail again and for ever, and it is our own
-/// logic that made them. All else is the disk's trouble, and passes.
-bool is_our_fault(const sqlite::SqliteError& error) {
+/// A constraint or a type: the same rows would fail again and for ever, since they do not fit those
+/// that are there. All else is the disk's trouble, and passes.
+bool is_for_ever(const sqlite::SqliteError& error) {
   const int code = error.primary_code();
-  return code == SQLITE_CONSTRAINT || code == SQLITE_MISMATCH || code == SQLITE_MISUSE ||
-         code == SQLITE_ERROR;
+  return code == SQLITE_CONSTRAINT || code == SQLITE_MISMATCH || code == SQLITE_ERROR;
 }
+
+constexpr const char* kWayOut =
+    "nothing more was written; take the store from a backup, or let `swarmsmith recover` make a "
+    "new one of what can be read, and check it with `swarmsmith verify --sample 1000000`";
 
 }  // namespace
 
@@ -33,6 +37,7 @@ GroupWriter::GroupWriter(Writer writer, const StoreOptions& options)
       rows_(writer_.connection),
       retry_(options.retry),
       gather_(options.gather),
+      data_version_(writer_.connection, "PRAGMA data_version"),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 GroupWriter::~GroupWriter() {
@@ -115,7 +120,12 @@ void GroupWriter::run(const std::stop_token& stop) {
   std::string trouble;
   while (take_group(stop, group)) {
     const std::string before = trouble;
-    if (!group.empty()) trouble = commit(group);
+    if (group.empty()) {
+      look_for_changes();
+    } else {
+      trouble = commit(group);
+    }
+    if (!changed_.empty()) return leave(committed_);
     const bool done = !group.empty() && trouble.empty();
     const std::uint64_t ticket = done ? group.back().ticket : committed_;
     if (const std::string fate = writer_.file.fate(); !fate.empty()) return lose(fate, ticket);
@@ -159,19 +169,71 @@ void GroupWriter::lose(const std::string& fate, std::uint64_t ticket) {
   tell({.committed = committed_, .trouble = lost.error.message, .is_lost = true});
 }
 
+void GroupWriter::leave(std::uint64_t ticket) {
+  const std::unique_lock file(connection_mutex_);
+  writer_.is_lost = true;
+  writer_.lock.set_suspect(true);
+  const Error error{ErrorKind::Conflict, changed_ + "; " + kWayOut, writer_.file.path().string()};
+  {
+    const std::lock_guard guard(mutex_);
+    lost_ = error;
+    committed_changed_.notify_all();
+  }
+  tell({.committed = ticket, .trouble = error.message, .is_lost = true});
+}
+
+std::string GroupWriter::changes_of_others() {
+  data_version_.reset();
+  data_version_.step();
+  const std::int64_t version = data_version_.integer(0);
+  data_version_.reset();
+  if (version == writer_.data_version) return {};
+  // It may be no more than a log that somebody has folded in.
+  constexpr const char* kChanged = "was changed by another program while the campaign ran";
+  const auto objects = foreign_objects(writer_.connection, schema_of(writer_.connection));
+  if (!objects.empty())
+    return fmt::format("the store's schema {}: {}", kChanged, listed_objects(objects));
+  if (rows_.sums()) {
+    const std::string rows = rows_.sums()->differences(RowSums::found(writer_.connection));
+    if (!rows.empty()) return fmt::format("the store {}: {}", kChanged, rows);
+  }
+  writer_.data_version = version;
+  return {};
+}
+
+void GroupWriter::look_for_changes() {
+  const std::lock_guard guard(connection_mutex_);
+  try {
+    changed_ = changes_of_others();
+  } catch (const sqlite::SqliteError&) {  // busy for a moment: looked at again
+    data_version_.reset();
+  }
+}
+
 std::string GroupWriter::commit(const std::vector<Batch>& group) {
   const std::lock_guard guard(connection_mutex_);
   try {
     sqlite::Transaction transaction(writer_.connection);
+    changed_ = changes_of_others();
+    if (!changed_.empty()) return {};
     for (const Batch& batch : group) {
       for (const Row& row : batch.rows)
         rows_.write(row);
     }
+    rows_.write_sums();
     transaction.commit();
+    rows_.committed();
     return {};
   } catch (const sqlite::SqliteError& error) {
     rows_.forget();
-    SWARMSMITH_ASSERT(!is_our_fault(error), error.what());
+    data_version_.reset();
+    SWARMSMITH_ASSERT(error.primary_code() != SQLITE_MISUSE, error.what());
+    if (is_for_ever(error)) {
+      changed_ = fmt::format(
+          "the store has other rows than its campaign wrote, and takes no more of them: {}",
+          error.what());
+      return {};
+    }
     return fmt::format("the store cannot be written: {}; nothing is lost, trying again every {} ms",
                        error.what(), retry_.count());
   }

@@ -46,10 +46,17 @@ class GroupWriter final : public Store {
   /// Fills an empty `group` from the queue, waiting for work for a while; false when there will be
   /// none.
   bool take_group(const std::stop_token& stop, std::vector<Batch>& group);
-  /// Why the group could not be committed; empty when it is on disk.
+  /// Why the group could not be committed; empty when it is on disk. Nothing is written when others
+  /// have changed the store, see `changed_`.
   std::string commit(const std::vector<Batch>& group);
+  /// What another connection has changed of what the campaign relies on, since the last look.
+  std::string changes_of_others();
+  /// The same, while there is nothing to be written.
+  void look_for_changes();
   /// The file is not the store's any more; batches up to `ticket` are in it.
   void lose(const std::string& fate, std::uint64_t ticket);
+  /// Others have changed it: it stays where it is, and is written no more.
+  void leave(std::uint64_t ticket);
   void tell(const WriterNews& news);
 
   std::mutex connection_mutex_;  ///< the writer's thread, and callers that read
@@ -58,6 +65,8 @@ class GroupWriter final : public Store {
   std::chrono::milliseconds retry_;
   std::chrono::milliseconds gather_;
   std::chrono::steady_clock::time_point next_commit_{};  ///< of the writer's thread
+  sqlite::Statement data_version_;
+  std::string changed_;  ///< why the store is written no more; of the writer's thread
 
   std::mutex mutex_;  ///< guards the next seven
   std::condition_variable_any work_;

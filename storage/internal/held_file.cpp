@@ -3,7 +3,6 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 #include <cerrno>
 #include <fstream>
@@ -38,8 +37,7 @@ std::string holder_of(const struct stat& file) {
 }
 
 bool is_on_shared_file_system(int descriptor) {
-  struct statfs about {};
-  return ::fstatfs(descriptor, &about) == 0 && is_network_file_system(about.f_type);
+  return !shared_file_system(fmt::format("/proc/self/fd/{}", descriptor)).empty();
 }
 
 /// "s.db.saved", "s.db.saved-2", ...: the first that nothing has.

@@ -50,6 +50,13 @@ std::string in_use_text(const std::string& holder) {
 
 namespace {
 
+/// Whoever may read the store may know who writes it. Others cannot even open its lock: who can
+/// may hold it.
+mode_t mode_of(const std::filesystem::path& store) {
+  struct stat facts {};
+  return ::stat(store.c_str(), &facts) == 0 ? facts.st_mode & 0666U : 0600U;
+}
+
 /// Whether the path still names the file that was opened: its last holder may have removed it
 /// between our open and our lock.
 bool still_there(int descriptor, const std::filesystem::path& path) {
@@ -67,7 +74,7 @@ Expected<LockFile> LockFile::acquire(const std::filesystem::path& store,
   const std::filesystem::path path = store.string() + ".lock";
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (true) {
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, mode_of(store));
     if (descriptor < 0) {
       return bad_input(fmt::format("cannot make the lock file: {}; a store can only be written in "
                                    "a folder where files can be made",

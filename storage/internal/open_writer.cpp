@@ -9,8 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/closed_file.h"
 #include "storage/internal/file_checks.h"
+#include "storage/internal/reading.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/schema.h"
+#include "storage/internal/schema_check.h"
 
 namespace swarmsmith {
 namespace {
@@ -19,14 +23,17 @@ namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::Statement;
 
-/// Folds in the log that a crash has left and looks at every page.
-Expected<void> recover(Connection& connection, const fs::path& path) {
+/// Folds in the log that a crash has left, and looks at the whole of the file: every page, what is
+/// said to be in it, and whether its rows are those of a commit.
+Expected<void> check_all(Connection& connection, const fs::path& path, bool unclean) {
   connection.execute("PRAGMA wal_checkpoint(TRUNCATE)");
   if (auto sound = check_database_file(connection, path); !sound) return sound;
-  const std::string fault = sqlite::text_of(connection, "PRAGMA quick_check(1)");
-  if (fault == "ok") return {};
-  return unexpected(ErrorKind::Corrupt, damaged_text(fault + ", and it was not closed properly"),
-                    path.string());
+  const LongCheck progress(connection, path);
+  const auto faults = faults_of(connection);
+  if (faults.empty()) return {};
+  const std::string why =
+      unclean ? ", and it was not closed properly" : ", and it is not the file that was closed";
+  return unexpected(ErrorKind::Corrupt, damaged_text(faults.front() + why), path.string());
 }
 
 /// In WAL mode, and nothing of it changed. `unclean`: the last writer did not end well.
@@ -34,19 +41,18 @@ Expected<void> prepare(Connection& connection, const fs::path& path, bool unclea
   if (sqlite3_db_readonly(connection.handle(), "main") != 0) {
     return bad_input("the store may not be written by this user", path.string());
   }
-  // A reader may be the first to open a store whose coordinator was killed: it then recovers the
-  // log, and holds the file for that moment.
-  sqlite3_busy_timeout(connection.handle(), 5000);
   const bool blank = is_blank(connection);
   if (!blank) {
     if (auto ours = check_identity(connection, path); !ours) return ours;
+    if (auto same = check_schema(connection, path); !same) return same;
   }
+  const bool known = !unclean && !blank && is_as_closed(connection);
   configure_writer(connection);
   if (sqlite::text_of(connection, "PRAGMA journal_mode") != "wal") {
     return bad_input("the file system cannot hold a write-ahead log; put the store on a local disk",
                      path.string());
   }
-  return unclean && !blank ? recover(connection, path) : Expected<void>();
+  return known || blank ? Expected<void>() : check_all(connection, path, unclean);
 }
 
 }  // namespace
@@ -61,9 +67,13 @@ Expected<Writer> open_writer(const fs::path& path, std::chrono::milliseconds pat
   auto file = HeldFile::hold(connection, path);
   if (!file) return Unexpected(file.error());
   if (auto sound = check_database_file(connection, path); !sound) return Unexpected(sound.error());
+  // A reader may be the first to open a store whose coordinator was killed: it then recovers the
+  // log, and holds the file for that moment.
+  sqlite3_busy_timeout(connection.handle(), 5000);
+  const std::int64_t version = sqlite::integer_of(connection, "PRAGMA data_version");
   if (auto ready = prepare(connection, path, unclean); !ready) return Unexpected(ready.error());
   file->fate();  // from now on
-  return Writer{std::move(*lock), std::move(connection), std::move(*file)};
+  return Writer{std::move(*lock), std::move(connection), std::move(*file), version};
 }
 
 Lost save_lost(Writer& writer, const std::string& fate) {
@@ -86,13 +96,16 @@ void give_up(Writer& writer) {
     save_lost(writer, fate);
     return;
   }
-  sqlite3_wal_checkpoint_v2(writer.connection.handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE,
-                            nullptr, nullptr);
+  close_file(writer.connection);
 }
 
 void write_empty_store(Connection& connection) {
   create_schema(connection);
   write_maker(connection);
+}
+
+void keep_sums(Connection& connection) {
+  if (!RowSums::stored(connection)) RowSums::found(connection).write(connection);
 }
 
 void name_flavours(Connection& connection, const std::vector<DesignRow>& designs) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -20,13 +21,16 @@ struct Writer {
   LockFile lock;
   sqlite::Connection connection;
   HeldFile file;
+  /// PRAGMA data_version before anything was looked at: changes when another connection commits.
+  std::int64_t data_version = 0;
   bool is_lost = false;  ///< the file; nothing more can be done with it
 };
 
 /// Takes the locks and opens the file for writing, or makes an empty one: ours or blank, of any
-/// schema up to this program's, in WAL mode, the only name of its file. After an unclean end its
-/// log is folded in and every page checked; until the caller trusts the file, its lock is suspect
-/// then. `path` without links (real_store). Changes no content. Errors as of Store::open. Throws
+/// schema up to this program's with nothing else in it, in WAL mode, the only name of its file.
+/// After an unclean end its log is folded in; then, and when the file is not the one that was
+/// closed, all of it is checked. Until the caller trusts a file that was not closed, its lock is
+/// suspect. `path` without links (real_store). Changes no content. Errors as of Store::open. Throws
 /// SqliteError.
 Expected<Writer> open_writer(const std::filesystem::path& path, std::chrono::milliseconds patience);
 
@@ -45,6 +49,9 @@ void give_up(Writer& writer);
 
 /// Tables, views and where the file was made, in a blank file; the caller holds a transaction.
 void write_empty_store(sqlite::Connection& connection);
+
+/// Sums over the rows (RowSums), in a store that has none yet. Throws SqliteError.
+void keep_sums(sqlite::Connection& connection);
 
 /// A store of a schema before 4 does not say in which flavour its machines are written: takes it
 /// from these designs.

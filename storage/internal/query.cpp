@@ -32,13 +32,15 @@ bool may_ask(std::string_view pragma, bool has_argument) {
   return in(kTell) || (in(kAlsoSet) && !has_argument);
 }
 
-int only_reading(void*, int action, const char* first, const char* second, const char*,
-                 const char*) {
+/// `views_recurse` is a bool: else a recursion in a view is refused, which need not have an end.
+int only_reading(void* views_recurse, int action, const char* first, const char* second,
+                 const char*, const char* view) {
   switch (action) {
+    case SQLITE_RECURSIVE:
+      return view == nullptr || *static_cast<bool*>(views_recurse) ? SQLITE_OK : SQLITE_DENY;
     case SQLITE_SELECT:
     case SQLITE_READ:
     case SQLITE_FUNCTION:
-    case SQLITE_RECURSIVE:
       return SQLITE_OK;
     case SQLITE_UPDATE:
       // What SQLite asks when it sets up pragma_table_info(); nothing is written, and nothing could
@@ -51,17 +53,14 @@ int only_reading(void*, int action, const char* first, const char* second, const
   }
 }
 
-/// Of a value that a statement makes or reads. The longest that stores have is the text of a
-/// campaign with its pictures, 24 MB at most.
-constexpr int kMostValueBytes = 32 << 20;
+using sqlite::kMostValueBytes;
 constexpr std::int64_t kMostRowBytes = std::int64_t{2} * kMostValueBytes;
 
 struct Limit {
   int which;
   int value;
 };
-constexpr std::array<Limit, 5> kLimits{{{SQLITE_LIMIT_LENGTH, kMostValueBytes},
-                                        {SQLITE_LIMIT_SQL_LENGTH, 1 << 20},
+constexpr std::array<Limit, 4> kLimits{{{SQLITE_LIMIT_SQL_LENGTH, 1 << 20},
                                         {SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000},
                                         {SQLITE_LIMIT_ATTACHED, 0},
                                         {SQLITE_LIMIT_WORKER_THREADS, 0}}};
@@ -107,7 +106,9 @@ SharedMemory& shared_memory() {
 class Rules {
  public:
   Rules(sqlite::Connection& connection, const StoreReader::QueryLimits& limits)
-      : handle_(connection.handle()),
+      : connection_(connection),
+        handle_(connection.handle()),
+        has_our_views_(has_our_views(connection)),
         deadline_(SteadyClock::now() +
                   std::chrono::duration_cast<SteadyClock::duration>(
                       std::chrono::duration<double>(std::clamp(limits.seconds, 0.0, 1e6)))),
@@ -116,7 +117,9 @@ class Rules {
     constexpr int kInstructions = 2000;  // some 20 us
     for (std::size_t i = 0; i < kLimits.size(); ++i)
       limits_before_[i] = sqlite3_limit(handle_, kLimits[i].which, kLimits[i].value);
-    sqlite3_set_authorizer(handle_, only_reading, nullptr);
+    // A store of an early schema is read with the views that it has.
+    connection_.allow_views(limits.views_of_file || !has_our_views_);
+    sqlite3_set_authorizer(handle_, only_reading, &has_our_views_);
     sqlite3_progress_handler(
         handle_, kInstructions,
         [](void* self) { return static_cast<Rules*>(self)->late() ? 1 : 0; }, this);
@@ -125,6 +128,7 @@ class Rules {
   Rules& operator=(const Rules&) = delete;
   ~Rules() {
     sqlite3_set_authorizer(handle_, nullptr, nullptr);
+    connection_.allow_views(false);
     sqlite3_progress_handler(handle_, 0, nullptr, nullptr);
     for (std::size_t i = 0; i < kLimits.size(); ++i)
       sqlite3_limit(handle_, kLimits[i].which, limits_before_[i]);
@@ -133,7 +137,9 @@ class Rules {
   bool late() const { return SteadyClock::now() >= deadline_; }
 
  private:
+  sqlite::Connection& connection_;
   sqlite3* handle_;
+  bool has_our_views_;
   SteadyClock::time_point deadline_;
   std::int64_t memory_;
   std::array<int, kLimits.size()> limits_before_{};

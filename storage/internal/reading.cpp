@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "storage/internal/held_file.h"
 #include "storage/internal/real_run_reader.h"
 #include "storage/internal/row_reader.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/schema.h"
 
 namespace swarmsmith {
@@ -86,6 +89,8 @@ std::vector<std::string> faults_of(const sqlite::Connection& connection) {
     while (check.step()) {
       if (check.text(0) != "ok") faults.push_back(check.text(0));
     }
+    if (std::string changed = changed_rows(connection); !changed.empty())
+      faults.push_back(std::move(changed));
     Statement foreign(connection,
                       "SELECT \"table\", parent, count(*) FROM pragma_foreign_key_check"
                       " GROUP BY \"table\", parent");
@@ -94,13 +99,53 @@ std::vector<std::string> faults_of(const sqlite::Connection& connection) {
                                    foreign.text(0), foreign.text(1), foreign.integer(2)));
     }
     if (const auto lost = candidates_without_phrases(connection); !lost.empty())
-      faults.push_back(fmt::format("candidates name phrases that do not exist: {}", lost.size()));
+      faults.push_back(fmt::format(
+          "candidates name phrases that do not exist, or make more text of them than a store's: {}",
+          lost.size()));
     for (std::string& fault : faults_of_real_runs(connection))
       faults.push_back(std::move(fault));
   } catch (const sqlite::SqliteError& error) {
     faults.emplace_back(error.what());
   }
   return faults;
+}
+
+namespace {
+
+std::function<void(const std::string&)>& check_listener() {
+  static std::function<void(const std::string&)> listener;
+  return listener;
+}
+
+}  // namespace
+
+LongCheck::LongCheck(sqlite::Connection& connection, const fs::path& path)
+    : connection_(connection), path_(path), until_(SteadyClock::now() + std::chrono::seconds(2)) {
+  constexpr int kInstructions = 100'000;  // some milliseconds
+  sqlite3_progress_handler(
+      connection_.handle(), kInstructions,
+      [](void* self) {
+        static_cast<LongCheck*>(self)->look();
+        return 0;
+      },
+      this);
+}
+
+LongCheck::~LongCheck() {
+  sqlite3_progress_handler(connection_.handle(), 0, nullptr, nullptr);
+}
+
+void LongCheck::look() {
+  if (is_told_ || SteadyClock::now() < until_) return;
+  is_told_ = true;
+  if (check_listener()) {
+    check_listener()(fmt::format("checking all of {} ({} MB), which is not as it was closed last",
+                                 path_.string(), connection_.file_size() >> 20U));
+  }
+}
+
+void set_check_listener(std::function<void(const std::string&)> on_long_check) {
+  check_listener() = std::move(on_long_check);
 }
 
 std::string older_schema_text(std::int64_t schema, const std::string& name) {

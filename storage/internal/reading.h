@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -35,7 +36,26 @@ std::string digest_of_campaign(const sqlite::Connection& connection,
 /// StoreReader::digest of the whole store. Within a Snapshot.
 std::string digest_of_store(const sqlite::Connection& connection);
 
-/// What SQLite's integrity check and foreign keys find: a sentence a fault.
+/// Says after two seconds, while it lives, that a store is being checked (set_check_listener).
+class LongCheck {
+ public:
+  LongCheck(sqlite::Connection& connection, const std::filesystem::path& path);
+  LongCheck(const LongCheck&) = delete;
+  LongCheck& operator=(const LongCheck&) = delete;
+  ~LongCheck();
+
+ private:
+  using SteadyClock = std::chrono::steady_clock;
+  void look();
+
+  sqlite::Connection& connection_;
+  std::filesystem::path path_;
+  SteadyClock::time_point until_;
+  bool is_told_ = false;
+};
+
+/// What SQLite's integrity check and foreign keys find, and whether the rows are those that were
+/// committed (RowSums): a sentence a fault.
 std::vector<std::string> faults_of(const sqlite::Connection& connection);
 
 /// "this store has schema 3; `swarmsmith backup old.db new.db` makes a copy with schema 4".

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "storage/internal/candidate_code.h"
 #include "storage/renumber.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -20,9 +21,23 @@ CandidateId candidate_at(const Statement& row, int column) {
 DesignId design_at(const Statement& row, int column) {
   return {row.integer(column)};
 }
+
+/// A value that this version does not know: of a later one, or damage.
+template <class Value>
+Value known(std::optional<Value> value, const char* what, std::int64_t number) {
+  if (value) return *value;
+  throw sqlite::SqliteError(
+      SQLITE_CORRUPT,
+      fmt::format("the store has {} {}, which this version does not know", what, number));
+}
+Purpose purpose_at(const Statement& row, int column) {
+  return known(purpose_of(row.integer(column)), "the purpose", row.integer(column));
+}
+EvaluationStatus status_at(const Statement& row, int column) {
+  return known(status_of(row.integer(column)), "the status", row.integer(column));
+}
 EvaluationKey key_at(const Statement& row, int column) {
-  return {candidate_at(row, column), static_cast<Purpose>(row.integer(column + 1)),
-          row.integer(column + 2)};
+  return {candidate_at(row, column), purpose_at(row, column + 1), row.integer(column + 2)};
 }
 
 /// A store of schema 1, which has none of the columns that targets brought: read as it is.
@@ -64,7 +79,7 @@ std::string design_states_of(const Part& part) {
 
 DesignStateRow design_state(const Statement& row) {
   return {.design = design_at(row, 0),
-          .state = static_cast<DesignState>(row.integer(1)),
+          .state = known(state_of(row.integer(1)), "the state", row.integer(1)),
           .used = row.integer(2),
           .iteration = row.integer(3),
           .best = candidate_at(row, 4),
@@ -125,7 +140,7 @@ void each_candidate(const sqlite::Connection& connection, const Part& part, Take
 
 PairRow pair(const Statement& row) {
   return {.design = design_at(row, 0),
-          .purpose = static_cast<Purpose>(row.integer(1)),
+          .purpose = purpose_at(row, 1),
           .number = row.integer(2),
           .instance = row.integer(3),
           .seed = row.integer(4)};
@@ -134,7 +149,7 @@ PairRow pair(const Statement& row) {
 EvaluationRow evaluation(const Statement& row) {
   return {.key = key_at(row, 0),
           .iteration = row.integer(3),
-          .status = static_cast<EvaluationStatus>(row.integer(4)),
+          .status = status_at(row, 4),
           .score = row.real(5),
           .state_digest = row.bits(6),
           .time = row.real(11),
@@ -256,7 +271,7 @@ std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const
   const Shift shift = shift_of(part);
   while (row.step()) {
     scores.push_back({.key = shifted(key_at(row, 0), shift),
-                      .status = static_cast<EvaluationStatus>(row.integer(3)),
+                      .status = status_at(row, 3),
                       .score = row.real(4),
                       .state_digest = row.bits(5),
                       .time = row.real(6),
@@ -310,11 +325,30 @@ std::int64_t read_next_worker(const sqlite::Connection& connection) {
 
 StoredTrust read_trust(const sqlite::Connection& connection) {
   StoredTrust trust;
-  Statement worker(connection, "SELECT id, principal, state FROM worker WHERE principal <> ''");
+  Statement worker(connection,
+                   "SELECT id, principal, state, client, identity FROM worker"
+                   " WHERE principal <> ''");
+  // The last event about the principal says why, or about its one process.
+  Statement cause(connection,
+                  "SELECT time, text ->> '$.reason' FROM event"
+                  " WHERE kind = 'workers in quarantine' AND json_valid(text)"
+                  " AND text ->> '$.who' = ?1"
+                  " AND (?2 = 0 OR coalesce(text ->> '$.worker', ?2) = ?2)"
+                  " ORDER BY seq DESC LIMIT 1");
   while (worker.step()) {
-    trust.principals.emplace(worker.integer(0), worker.text(1));
-    if (worker.text(2) == word_of(WorkerState::Quarantined))
-      trust.quarantined.push_back(worker.text(1));
+    const WorkerRow row{.id = worker.integer(0),
+                        .identity = worker.text(4),
+                        .state = worker.text(2) == word_of(WorkerState::Quarantined)
+                                     ? WorkerState::Quarantined
+                                     : WorkerState::Left,
+                        .client = worker.text(3),
+                        .principal = worker.text(1)};
+    trust.principals.emplace(row.id, row.principal);
+    std::optional<Quarantine> quarantine = quarantine_of(row);
+    if (!quarantine) continue;
+    cause.bind(row.principal, quarantine->identity.empty() ? 0 : row.id);
+    if (cause.step()) quarantine->since = cause.text(0), quarantine->reason = cause.text(1);
+    trust.quarantined.push_back(std::move(*quarantine));
   }
   Statement audited(connection,
                     "SELECT candidate, purpose, pair FROM attempt WHERE outcome = 'audited'");
@@ -359,7 +393,10 @@ std::vector<CandidateId> candidates_without_phrases(const sqlite::Connection& co
 void read_candidates(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {
   each_candidate(connection, part, [&](const CandidateRow& candidate, bool whole) {
     if (!whole) {
-      connection.fail(SQLITE_CORRUPT, to_string(candidate.id) + " names phrases that do not exist");
+      connection.fail(
+          SQLITE_CORRUPT,
+          to_string(candidate.id) +
+              " names phrases that do not exist, or makes more text of them than a store's");
     }
     on_row(candidate);
   });
@@ -375,11 +412,12 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
            " ORDER BY design, number",
        on_row, iteration);
   read_candidates(connection, part, on_row);
+  const std::string always = "purpose IN " + numbers_in_sql(always_counts);
+  const std::string race = fmt::format("purpose = {}", static_cast<int>(Purpose::Race));
   // A pair that only look-ahead has touched so far is not part of the answer.
   each(connection, part,
-       "SELECT * FROM pair WHERE " + designs +
-           " AND (purpose IN (2, 5, 6)"
-           " OR purpose = 0 AND (design, number) IN (SELECT design, pair FROM race_step))"
+       "SELECT * FROM pair WHERE " + designs + " AND (" + always + " OR " + race +
+           " AND (design, number) IN (SELECT design, pair FROM race_step))"
            " ORDER BY design, purpose, number",
        on_row, pair);
   each(connection, part,
@@ -387,7 +425,8 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
                    " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker,"
                    " attempt, ") +
            (first ? "NULL, NULL" : "time, bound") + " FROM evaluation WHERE " + candidates +
-           " AND (purpose IN (2, 5, 6) OR purpose = 0 AND iteration IS NOT NULL)"
+           " AND (" + always + " OR " + race +
+           " AND iteration IS NOT NULL)"
            " ORDER BY candidate, purpose, pair",
        on_row, evaluation);
   each(connection, part,

@@ -13,15 +13,19 @@ namespace swarmsmith {
 namespace {
 
 constexpr char kCandidate[] = "INSERT INTO candidate VALUES (?,?,?,?,?,?,?,?,?,?)";
+constexpr const char* kOfEvaluation = " WHERE candidate = ? AND purpose = ? AND pair = ?";
+/// So many candidates race at a time that their totals' hashes are known without reading them.
+constexpr std::size_t kMostTotals = 100'000;
 constexpr char kPair[] = "INSERT OR IGNORE INTO pair VALUES (?,?,?,?,?)";
 // The first result stays, whatever comes later. Only a race that asks for what was computed ahead
 // may still write its iteration, if the bits agree.
 constexpr char kEvaluation[] =
-    "INSERT INTO evaluation VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE"
-    " SET iteration = excluded.iteration"
-    " WHERE evaluation.iteration IS NULL AND excluded.iteration IS NOT NULL"
-    " AND status = excluded.status AND score IS excluded.score"
-    " AND state_digest = excluded.state_digest AND time IS excluded.time";
+    "INSERT INTO evaluation (candidate, purpose, pair, status, score, state_digest,"
+    " source, wall_us, worker, attempt, time, bound, iteration)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
+constexpr char kUsed[] =
+    "UPDATE evaluation SET iteration = ?4 WHERE candidate = ?1 AND purpose = ?2 AND pair = ?3"
+    " AND iteration IS NULL AND status = ?5 AND score IS ?6 AND state_digest = ?7 AND time IS ?8";
 constexpr char kUnused[] =
     "UPDATE evaluation SET iteration = NULL WHERE candidate = ? AND purpose = ? AND pair = ?";
 constexpr char kIteration[] = "INSERT OR IGNORE INTO iteration VALUES (?,?,?,?,?,?,?,?,?)";
@@ -60,6 +64,8 @@ constexpr char kAttempt[] =
 constexpr char kCommand[] =
     "INSERT INTO command (number, kind, design, step, budget, who) VALUES (?,?,?,?,?,?)"
     " ON CONFLICT DO UPDATE SET step = excluded.step";
+constexpr char kForgiven[] =
+    "UPDATE worker SET state = 'left' WHERE principal = ? AND state = 'quarantined'";
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
 
 std::optional<std::int64_t> unless_zero(std::int64_t value) {
@@ -88,6 +94,7 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       phrase_(connection, "INSERT INTO phrase VALUES (?,?,?,?)"),
       pair_(connection, kPair),
       evaluation_(connection, kEvaluation),
+      used_(connection, kUsed),
       unused_(connection, kUnused),
       iteration_(connection, kIteration),
       race_step_(connection, kRaceStep),
@@ -102,17 +109,44 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       event_(connection, kEvent),
       attempt_(connection, kAttempt),
       command_(connection, kCommand),
+      forgiven_(connection, kForgiven),
       new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
-      find_source_(connection, "SELECT id FROM source WHERE name = ?") {}
+      find_source_(connection, "SELECT id FROM source WHERE name = ?"),
+      evaluation_cells_(connection, cells_of_rows(Table::Evaluation) + kOfEvaluation),
+      used_cells_(connection,
+                  cells_of_rows(Table::Used) + " AND candidate = ? AND purpose = ? AND pair = ?"),
+      totals_cells_(connection, cells_of_rows(Table::Totals) + " WHERE candidate = ?"),
+      design_cells_(connection, cells_of_rows(Table::Design) + " WHERE id = ?"),
+      campaign_cells_(connection, cells_of_rows(Table::Campaign) + " WHERE id = ?"),
+      command_cells_(connection, cells_of_rows(Table::Command) + " WHERE number = ?"),
+      sums_(RowSums::stored(connection)),
+      committed_(sums_) {}
 
 void RowWriter::write(const Row& row) {
   std::visit([this](const auto& alternative) { put(alternative); }, row);
 }
 
+void RowWriter::write_sums(std::initializer_list<Table> others) {
+  if (!sums_) return;
+  for (const Table table : others)
+    sums_->count(connection_, table);
+  if (sums_ != committed_) sums_->write(connection_);
+}
+
 void RowWriter::forget() {
+  sums_ = committed_;
+  totals_hashes_.clear();
   sources_.clear();
   phrases_.clear();
   phrases_are_loaded_ = false;
+}
+
+void RowWriter::remove(const EvaluationKey& key) {
+  const std::int64_t purpose = number(key.purpose);
+  take_away(Table::Evaluation, evaluation_cells_, key.candidate.value, purpose, key.pair);
+  take_away(Table::Used, used_cells_, key.candidate.value, purpose, key.pair);
+  sqlite::Statement(connection_, std::string("DELETE FROM evaluation") + kOfEvaluation)
+      .run(key.candidate.value, purpose, key.pair);
 }
 
 void RowWriter::put(const CandidateRow& row) {
@@ -122,60 +156,102 @@ void RowWriter::put(const CandidateRow& row) {
   if (known) return;  // and makes no new phrases
   if (!std::exchange(phrases_are_loaded_, true)) phrases_.load(connection_);
   const StoredTexts texts = phrases_.encode(row, [this](std::int64_t number, const Phrase& phrase) {
-    phrase_.run(number, phrase.machine, phrase.parameters, phrase.modules);
+    insert(Table::Phrase, phrase_, number, phrase.machine, phrase.parameters, phrase.modules);
   });
-  candidate_.run(row.id.value, row.iteration, unless_zero(row.parent.value), row.states,
-                 row.transitions, texts.modules, texts.machine, texts.parameters, texts.code,
-                 texts.module_code);
+  insert(Table::Candidate, candidate_, row.id.value, row.iteration, unless_zero(row.parent.value),
+         row.states, row.transitions, texts.modules, texts.machine, texts.parameters, texts.code,
+         texts.module_code);
 }
 
 void RowWriter::put(const PairRow& row) {
-  pair_.run(row.design.value, number(row.purpose), row.number, row.instance, row.seed);
+  insert(Table::Pair, pair_, row.design.value, number(row.purpose), row.number, row.instance,
+         row.seed);
 }
 
 void RowWriter::put(const EvaluationRow& row) {
+  const std::int64_t candidate = row.key.candidate.value;
+  const std::int64_t purpose = number(row.key.purpose);
   const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
-  evaluation_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair,
-                  unless_zero(row.iteration), number(row.status), score, row.state_digest,
-                  source_id(row.source), row.wall_us, row.worker, row.attempt,
-                  unless_zero(row.time), unless_zero(row.bound));
+  const std::int64_t source = source_id(row.source);
+  const auto iteration = unless_zero(row.iteration);
+  evaluation_.run(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
+                  source, row.wall_us, row.worker, row.attempt, unless_zero(row.time),
+                  unless_zero(row.bound), iteration);
+  const bool is_new = connection_.changes() > 0;
+  if (!is_new && iteration) {
+    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score,
+              row.state_digest, unless_zero(row.time));
+  }
+  if (!sums_ || connection_.changes() == 0) return;
+  if (iteration)
+    sums_->add(Table::Used, RowHash::of(candidate, purpose, row.key.pair, row.iteration));
+  if (!is_new) return;
+  sums_->add(Table::Evaluation,
+             RowHash::of(candidate, purpose, row.key.pair, number(row.status), score,
+                         row.state_digest, source, row.wall_us, row.worker, row.attempt,
+                         unless_zero(row.time), unless_zero(row.bound)));
 }
 
 void RowWriter::put(const UnusedRow& row) {
-  unused_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair);
+  const std::int64_t purpose = number(row.key.purpose);
+  take_away(Table::Used, used_cells_, row.key.candidate.value, purpose, row.key.pair);
+  unused_.run(row.key.candidate.value, purpose, row.key.pair);
 }
 
 void RowWriter::put(const IterationRow& row) {
-  iteration_.run(row.design.value, row.number, row.of, row.budget, row.configurations, row.elites,
-                 row.soft_restart, row.model_digest, row.postselection);
+  insert(Table::Iteration, iteration_, row.design.value, row.number, row.of, row.budget,
+         row.configurations, row.elites, row.soft_restart, row.model_digest, row.postselection);
 }
 
 void RowWriter::put(const RaceStepRow& row) {
-  race_step_.run(row.design.value, row.step, row.iteration, row.pair,
-                 std::string_view(&row.marker, 1), row.evaluated, row.alive_before, row.alive_after,
-                 unless_zero(row.best.value), row.mean_best, row.used, row.statistic, row.p_value,
-                 row.kendall_w, row.spearman_rho, row.qvar, row.digest, row.bound);
+  insert(Table::RaceStep, race_step_, row.design.value, row.step, row.iteration, row.pair,
+         std::string_view(&row.marker, 1), row.evaluated, row.alive_before, row.alive_after,
+         unless_zero(row.best.value), row.mean_best, row.used, row.statistic, row.p_value,
+         row.kendall_w, row.spearman_rho, row.qvar, row.digest, row.bound);
 }
 
 void RowWriter::put(const EliminationRow& row) {
-  elimination_.run(row.candidate.value, row.iteration, row.step, row.rank_sum, row.reason);
+  insert(Table::Elimination, elimination_, row.candidate.value, row.iteration, row.step,
+         row.rank_sum, row.reason);
 }
 
 void RowWriter::put(const EliteRow& row) {
-  elite_.run(row.design.value, row.iteration, row.rank, row.candidate.value, row.mean, row.runs);
+  insert(Table::Elite, elite_, row.design.value, row.iteration, row.rank, row.candidate.value,
+         row.mean, row.runs);
 }
 
 void RowWriter::put(const CandidateTotalsRow& row) {
-  totals_.run(row.candidate.value, row.runs, row.score_sum, row.score_squares);
+  const std::int64_t candidate = row.candidate.value;
+  const auto known = totals_hashes_.find(candidate);
+  if (sums_ && known != totals_hashes_.end()) {
+    sums_->remove(Table::Totals, known->second);
+  } else {
+    take_away(Table::Totals, totals_cells_, candidate);
+  }
+  totals_.run(candidate, row.runs, row.score_sum, row.score_squares);
+  if (!sums_) return;
+  const std::uint64_t hash = RowHash::of(candidate, row.runs, row.score_sum, row.score_squares);
+  sums_->add(Table::Totals, hash);
+  if (totals_hashes_.size() >= kMostTotals) totals_hashes_.clear();
+  totals_hashes_.insert_or_assign(candidate, hash);
 }
 
 void RowWriter::put(const DesignStateRow& row) {
-  design_state_.run(row.design.value, number(row.state), row.used, row.iteration,
-                    unless_zero(row.best.value), row.best_mean, row.reason);
+  const std::int64_t design = row.design.value;
+  take_away(Table::Design, design_cells_, design);
+  design_state_.run(design, number(row.state), row.used, row.iteration, unless_zero(row.best.value),
+                    row.best_mean, row.reason);
+  if (!sums_ || connection_.changes() == 0) return;
+  sums_->add(Table::Design, RowHash::of(design, number(row.state), row.used, row.iteration,
+                                        unless_zero(row.best.value), row.best_mean, row.reason));
 }
 
 void RowWriter::put(const CampaignStateRow& row) {
+  constexpr std::int64_t kFirst = 1;
+  take_away(Table::Campaign, campaign_cells_, kFirst);
   campaign_state_.run(row.state);
+  if (sums_ && connection_.changes() > 0)
+    sums_->add(Table::Campaign, RowHash::of(kFirst, row.state));
   // Nobody signs leases of a campaign that is over.
   if (row.state == "finished") forget_secret(connection_);
 }
@@ -205,18 +281,29 @@ void RowWriter::put(const AttemptRow& row) {
 }
 
 void RowWriter::put(const CommandRow& row) {
+  take_away(Table::Command, command_cells_, row.number);
   command_.run(row.number, word_of(row.kind), unless_zero(row.design.value), row.step, row.budget,
                row.who);
+  if (!sums_) return;
+  command_cells_.bind(row.number);  // of a known one only the step is new
+  if (command_cells_.step()) sums_->add(Table::Command, hash_of(command_cells_));
+  command_cells_.reset();
+}
+
+void RowWriter::put(const ForgivenRow& row) {
+  forgiven_.run(row.principal);
 }
 
 std::int64_t RowWriter::source_id(const std::string& name) {
   const auto known = sources_.find(name);
   if (known != sources_.end()) return known->second;
   new_source_.run(name);
+  const bool is_new = connection_.changes() > 0;
   find_source_.bind(name);
   SWARMSMITH_ASSERT(find_source_.step(), "a source that was inserted is there");
   const std::int64_t id = find_source_.integer(0);
   find_source_.reset();
+  if (sums_ && is_new) sums_->add(Table::Source, RowHash::of(id, name));
   sources_.emplace(name, id);
   return id;
 }

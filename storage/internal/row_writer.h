@@ -1,10 +1,13 @@
 #pragma once
 
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "storage/internal/candidate_code.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/sqlite.h"
 #include "storage/rows.h"
 
@@ -19,11 +22,35 @@ class RowWriter {
 
   /// Throws SqliteError; then the transaction must be rolled back and forget() be called.
   void write(const Row& row);
+  /// An evaluation that gives way to another one. The same.
+  void remove(const EvaluationKey& key);
+  /// Before the commit: the sums over the rows (RowSums), where the store has them. Rows of these
+  /// tables that were written by others in this transaction are counted. The same.
+  void write_sums(std::initializer_list<RowSums::Table> others = {});
 
+  void committed() { committed_ = sums_; }
   /// Drops what was remembered of rows that a rollback has taken away.
   void forget();
+  /// Of the rows that are committed.
+  const std::optional<RowSums>& sums() const { return committed_; }
 
  private:
+  using Table = RowSums::Table;
+
+  /// Runs an INSERT OR IGNORE of these cells, in the order of the sum's.
+  template <class... Cells>
+  void insert(Table table, sqlite::Statement& statement, const Cells&... cells) {
+    statement.run(cells...);
+    if (sums_ && connection_.changes() > 0) sums_->add(table, RowHash::of(cells...));
+  }
+  /// Takes the row of a key from the sum, before it is replaced.
+  template <class... Key>
+  void take_away(Table table, sqlite::Statement& cells, const Key&... key) {
+    if (!sums_) return;
+    cells.bind(key...);
+    if (cells.step()) sums_->remove(table, hash_of(cells));
+    cells.reset();
+  }
   void put(const CandidateRow& row);
   void put(const PairRow& row);
   void put(const EvaluationRow& row);
@@ -41,14 +68,23 @@ class RowWriter {
   void put(const EventRow& row);
   void put(const AttemptRow& row);
   void put(const CommandRow& row);
+  void put(const ForgivenRow& row);
 
   /// The number of a source, made when it is new.
   std::int64_t source_id(const std::string& name);
 
   sqlite::Connection& connection_;
-  sqlite::Statement candidate_, known_candidate_, phrase_, pair_, evaluation_, unused_, iteration_,
-      race_step_, elimination_, elite_, totals_, design_state_, campaign_state_, worker_, conflict_,
-      failure_, event_, attempt_, command_, new_source_, find_source_;
+  sqlite::Statement candidate_, known_candidate_, phrase_, pair_, evaluation_, used_, unused_,
+      iteration_, race_step_, elimination_, elite_, totals_, design_state_, campaign_state_,
+      worker_, conflict_, failure_, event_, attempt_, command_, forgiven_, new_source_,
+      find_source_;
+  /// Cells of one row, as its sum has them.
+  sqlite::Statement evaluation_cells_, used_cells_, totals_cells_, design_cells_, campaign_cells_,
+      command_cells_;
+  std::optional<RowSums> sums_;  ///< none: the store has none
+  std::optional<RowSums> committed_;
+  /// Hashes of the totals of candidates that are racing: each step replaces them.
+  std::unordered_map<std::int64_t, std::uint64_t> totals_hashes_;
   std::unordered_map<std::string, std::int64_t> sources_;
   PhraseBook phrases_;
   bool phrases_are_loaded_ = false;

@@ -103,7 +103,15 @@ class Salvager {
       seen_.insert(number);
       open.insert(open.end(), page->children.rbegin(), page->children.rend());
       finds_[table].broken += page->broken;
-      for (const StoredRecord& record : page->records) {
+      for (const StoredRecord& whole : page->records) {
+        // Of a tree that is known, columns that others have added are left out.
+        const std::size_t columns = shapes_[table].columns.size();
+        StoredRecord cut;
+        if (whole.values.size() > columns) {
+          cut = whole;
+          cut.values.resize(columns);
+        }
+        const StoredRecord& record = whole.values.size() > columns ? cut : whole;
         if (shapes_[table].fits(record)) {
           ++finds_[table].rows;
           on_row(table, record);

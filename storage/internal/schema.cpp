@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/row_sums.h"
+
 #include "embedded/kAuthoritySchema.h"
 #include "embedded/kClusterSchema.h"
 #include "embedded/kInitialSchema.h"
@@ -81,23 +83,24 @@ void configure_writer(sqlite::Connection& connection) {
   // a campaign. It grows further only while a reader holds on to what it sees.
   connection.execute(
       "PRAGMA page_size = 8192; PRAGMA synchronous = FULL;"
-      "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA wal_autocheckpoint = 1000;"
+      "PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 1000;"
       "PRAGMA journal_size_limit = 16777216; PRAGMA cache_size = -16384");
   use_write_ahead_log(connection);
 }
 
 void configure_reader(sqlite::Connection& connection) {
   sqlite3_busy_timeout(connection.handle(), static_cast<int>(kPatience.count()));
-  connection.execute(
-      "PRAGMA query_only = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536");
+  connection.execute("PRAGMA query_only = ON; PRAGMA cache_size = -65536");
   add_machine_functions(connection);
 }
 
+bool has_our_views(const sqlite::Connection& connection) {
+  return sqlite::integer_of(connection, "PRAGMA user_version") >= kTablesVersion;
+}
+
 void lend_views(sqlite::Connection& connection) {
-  const std::int64_t version = sqlite::integer_of(connection, "PRAGMA user_version");
-  if (version < kTablesVersion) return;
-  constexpr std::string_view kIsLent = "SELECT count(*) FROM temp.sqlite_schema";
-  if (sqlite::integer_of(connection, kIsLent) > 0) return;
+  if (!has_our_views(connection)) return;
+  if (sqlite::integer_of(connection, "SELECT count(*) FROM temp.sqlite_schema") > 0) return;
   constexpr std::string_view kCreate = "CREATE VIEW ";
   constexpr std::string_view kLend = "CREATE TEMP VIEW IF NOT EXISTS ";
   // The first of a name stays.
@@ -198,6 +201,8 @@ void upgrade(sqlite::Connection& connection, std::span<const Migration> steps) {
     step.apply(connection);
     connection.execute(kViews);
     set_version(connection, step.to);
+    // A table may have got columns that count.
+    if (RowSums::stored(connection)) RowSums::found(connection).write(connection);
     transaction.commit();
   }
 }

@@ -34,9 +34,12 @@ std::span<const Migration> migrations();
 /// journal mode are kept in the file.
 void configure_writer(sqlite::Connection& connection);
 void configure_reader(sqlite::Connection& connection);
-/// Gives a reader's connection the newest views, those of lent_views.sql in place of the file's,
-/// until its temp_store changes; unless the store is so old that it lacks tables that they need.
+/// Gives our views to a reader's connection, until its temp_store changes: they are read in place
+/// of those of the file, whatever text those have; some in the words of lent_views.sql. Nothing for
+/// a store that lacks more than the newest views, of a schema before kTablesVersion.
 void lend_views(sqlite::Connection& connection);
+/// Whether lend_views gives them.
+bool has_our_views(const sqlite::Connection& connection);
 
 /// Makes tables and views in an empty database; the caller holds a transaction.
 void create_schema(sqlite::Connection& connection);

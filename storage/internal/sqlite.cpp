@@ -89,6 +89,10 @@ thread_local Listener* Listener::now_ = nullptr;
 
 Connection::Connection(const std::string& file, int flags) {
   sqlite3* opened = nullptr;
+  // A new store is its owner's alone, and so are the files that SQLite makes beside it. Made
+  // without opening it, which only SQLite may do.
+  if ((flags & SQLITE_OPEN_CREATE) != 0 && file != ":memory:")
+    mknod(file.c_str(), S_IFREG | 0600, 0);
   const Listener listener;
   const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX,
                                    vfs_that_spills_beside(file));
@@ -97,6 +101,15 @@ Connection::Connection(const std::string& file, int flags) {
   if (opened == nullptr) throw SqliteError(code, sqlite3_errstr(code));
   sqlite3_extended_result_codes(opened, 1);
   if (code != SQLITE_OK) fail(code, reason_of(opened));
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  allow_views(false);
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMostValueBytes);
+}
+
+void Connection::allow_views(bool allowed) {
+  sqlite3_db_config(handle_.get(), SQLITE_DBCONFIG_ENABLE_VIEW, allowed ? 1 : 0, nullptr);
 }
 
 std::int64_t Connection::file_size() const {

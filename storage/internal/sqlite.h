@@ -27,11 +27,20 @@ class SqliteError : public StoreFailure {
   int code_;
 };
 
-/// An open database file. One thread at a time.
+/// Of a value: the longest that stores have is the text of a campaign with its pictures, 24 MB at
+/// most.
+inline constexpr int kMostValueBytes = 32 << 20;
+
+/// An open database file. One thread at a time. What the file says is data, and nothing of it acts:
+/// its triggers do not run, its views are not read unless that is allowed, its functions are not
+/// trusted, and no statement can write its schema as text.
 class Connection {
  public:
   /// `flags` as for sqlite3_open_v2. Throws SqliteError.
   Connection(const std::string& file, int flags);
+
+  /// Whether views of the file may be read. Temporary ones, which are our own, always may.
+  void allow_views(bool allowed);
 
   sqlite3* handle() const { return handle_.get(); }
   /// With which SQLite has the database file open; -1 without a file. It is SQLite's: to be asked

@@ -93,6 +93,23 @@ TEST_P(EachMisdeed, ReallyHappens) {
 
 INSTANTIATE_TEST_SUITE_P(Kind, EachMisdeed, ::testing::ValuesIn(kMisdeeds));
 
+/// What a person forgives is no way around the trial: the answer is right, or cannot be had.
+TEST(Hostile, AnyNumberOfForgivingsChangesNoAnswer) {
+  int forgiven = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SimulatedCluster cluster({.seed = seed,
+                              .faults = {.forgivings = 10, .until = std::chrono::milliseconds(400)},
+                              .campaign = {.seed = seed},
+                              .hostile = {Misdeed::Lies, Misdeed::LiesLater, Misdeed::Fails},
+                              .keys = seed % 2 == 0,
+                              .audit_every = 1});
+    EXPECT_EQ(cluster.run(), "") << "seed " << seed;
+    EXPECT_FALSE(cluster.escaped()) << "seed " << seed;
+    forgiven += cluster.forgiven();
+  }
+  EXPECT_GT(forgiven, 5);
+}
+
 /// The check itself: without audits lies come into the store, and are known as such.
 TEST(Hostile, LiesThatNobodyLooksForAreSeenByTheTest) {
   std::size_t lies = 0;

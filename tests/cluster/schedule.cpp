@@ -71,6 +71,7 @@ Schedule hostile_schedule_of(std::uint64_t seed) {
   if (rng.bernoulli(0.3)) schedule.hostile.assign(schedule.hostile.size(), schedule.hostile[0]);
   schedule.keys = rng.bernoulli(0.7);
   schedule.audit_every = rng.bernoulli(0.7) ? 1 : 5;
+  if (rng.bernoulli(0.5)) schedule.faults.forgivings = static_cast<int>(rng.uniform_int(1, 5));
   return schedule;
 }
 

@@ -35,6 +35,7 @@ struct Faults {
   int pauses = 0;          ///< of a process that lives on
   double slow_commit = 0;  ///< probability, a commit
   int commands = 0;        ///< of a person who pauses and resumes designs
+  int forgivings = 0;      ///< of a person who lets hostile peers work again
   int clock_steps = 0;     ///< of one process's clock, by up to a minute, forwards or back
   int total_crashes = 0;   ///< of coordinator and workers at once
   int full_disks = 0;      ///< for up to 20 s nothing can be committed
@@ -88,6 +89,8 @@ class SimulatedCluster {
   Duration took() const { return over_ - begun_; }
   /// How often hostile peers did what they are after.
   std::uint64_t acts(Misdeed misdeed) const;
+  /// How often a person ended a quarantine.
+  int forgiven() const { return forgiven_; }
   /// Why the campaign says that its answer cannot be had; empty when it came to its end.
   const std::string& stopped() const { return stopped_; }
   /// Wrong scores that are on disk.
@@ -171,6 +174,7 @@ class SimulatedCluster {
   void plan_commands();
   void command(pb::Command::Kind kind, std::int64_t design);
   void resume_all();
+  void forgive();
   void drain_worker(int worker, Duration after);
   void flap(int worker, int times);
   void fail(const std::string& what);
@@ -237,6 +241,7 @@ class SimulatedCluster {
   std::uint64_t order_ = 0;
   std::string failure_;
   int crashes_ = 0;
+  int forgiven_ = 0;
   SchedulerCounters counters_;
 
   Process coordinator_process_;

@@ -78,7 +78,8 @@ SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
                  [&](const AttemptRow& r) { return of_evaluation(r.key); },
                  [](const CommandRow& r) {
                    return Key{r.number, 0, 0};
-                 }},
+                 },
+                 [](const ForgivenRow&) { return Key{}; }},
       row);
   return std::tuple_cat(std::tuple(row.index()), key);
 }
@@ -93,6 +94,15 @@ std::string SimulatedDisk::commit(const std::vector<Row>& rows) {
 
 std::string SimulatedDisk::put(const Row& row) {
   if (std::holds_alternative<EventRow>(row) || std::holds_alternative<FailureRow>(row)) return {};
+  if (const auto* forgiven = std::get_if<ForgivenRow>(&row)) {
+    for (auto& [key, stored] : rows_) {
+      auto* worker = std::get_if<WorkerRow>(&stored);
+      const bool is_meant = worker != nullptr && worker->principal == forgiven->principal &&
+                            worker->state == WorkerState::Quarantined;
+      if (is_meant) worker->state = WorkerState::Left;
+    }
+    return {};
+  }
   if (std::holds_alternative<ConflictRow>(row)) return "two results with other bits";
   if (std::string complaint = missing_reference(row); !complaint.empty()) return complaint;
   if (const auto* unused = std::get_if<UnusedRow>(&row)) {
@@ -193,7 +203,7 @@ StoredTrust SimulatedDisk::trust() const {
   for (const WorkerRow& row : rows_of<WorkerRow>()) {
     if (row.principal.empty()) continue;
     trust.principals.emplace(row.id, row.principal);
-    if (row.state == WorkerState::Quarantined) trust.quarantined.push_back(row.principal);
+    if (auto quarantine = quarantine_of(row)) trust.quarantined.push_back(std::move(*quarantine));
   }
   for (const AttemptRow& row : rows_of<AttemptRow>()) {
     if (row.outcome == AttemptOutcome::Audited) trust.audited.insert(row.key);

@@ -42,6 +42,8 @@ void SimulatedCluster::plan_faults() {
   });
   sometimes(faults.full_disks,
             [this](int) { disk_full_until_ = now_ + between(milliseconds(10), seconds(20)); });
+  sometimes(faults.forgivings,
+            [this](int) { on_process(kCoordinator, Duration{0}, [this] { forgive(); }); });
   sometimes(faults.flaps, [this](int worker) { flap(worker, 10); });
   sometimes(faults.visits, [this](int) {
     for (Running& running : campaigns_)

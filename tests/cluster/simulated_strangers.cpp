@@ -157,6 +157,21 @@ void SimulatedCluster::check_trust() {
   }
 }
 
+/// A person lets hostile peers work again, whoever answers for them.
+void SimulatedCluster::forgive() {
+  const auto quarantined = [this] {
+    return !coordinator_->quarantine(clock(kCoordinator)).empty();
+  };
+  const bool had = quarantined();
+  pb::ToCoordinator message;
+  message.mutable_command()->set_kind(pb::Command::KIND_FORGIVE);
+  message.mutable_command()->set_whom(std::string(schedule_.keys ? kHostile : kElsewhere));
+  coordinator_->on_frame({kPerson, Role::Operator}, encode(message), clock(kCoordinator));
+  if (quarantined()) fail("hostile peers are in quarantine after they were forgiven");
+  forgiven_ += had ? 1 : 0;
+  settle_coordinator();
+}
+
 /// Only who was asked and lies can bring the campaign there, and it says why. Several strangers of
 /// one principal answer for each other's leases.
 void SimulatedCluster::on_stopped(const std::string& reason, bool distrusted) {

@@ -85,7 +85,7 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                    worker.waiting.clear();
                    worker.protocol->on_taken_back(keys, clock(index));
                  },
-                 [&](DropItems) { worker.waiting.clear(); },
+                 [&](DropItems) { worker.waiting.clear(); }, [](const Say&) {},
                  [&](const Leave& leave) {
                    if (leave.code != ExitCode::Done) fail("a worker left: " + leave.reason);
                    worker.process.alive = false;

@@ -468,7 +468,8 @@ class BadPeers(BadInput):
                               env={**os.environ, "SWARMSMITH_WORKER": str(program)})
 
     def test_local_workers_that_cannot_work(self):
-        for code, sentence in ((7, "is of another build"), (1, "as soon as they are started")):
+        for code, sentence in ((7, "is of another build"), (1, "as soon as they are started"),
+                               (0, "is it swarmsmith-worker?")):
             done = self.local_worker(code)
             self.assertEqual(done.returncode, 5, done.stderr)
             self.assertIn(sentence, done.stderr)
@@ -477,11 +478,12 @@ class BadPeers(BadInput):
         self.assertEqual(self.digest(self.folder / "x.db"), self.digest(self.store()))
 
     def test_addresses_that_are_none(self):
-        for address in ("foo", "127.0.0.1", ":5", "127.0.0.1:99999", "127.0.0.1:x", "ipc:///x"):
+        for address in ("foo", "127.0.0.1", ":5", "127.0.0.1:99999", "127.0.0.1:x", "ipc:///x", "::1:5555",
+                        "[::1]", "[node1]:5555"):
             with self.subTest(address):
-                self.assert_refused(2, "is not an address", "worker", "--connect", address)
+                self.assert_refused(2, "invalid address", "worker", "--connect", address)
                 self.assert_refused(2, "invalid address", "serve", self.file, "--bind", address)
-        for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555"):
+        for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555", "[::]:0", "[fd00::1]:5555"):
             self.assert_refused(2, "swarmsmith keygen", "serve", self.file, "--bind", address,
                                 "--keys", self.folder / "no-keys")
 

@@ -125,7 +125,7 @@ class Bundle(Bundled):
                                                                  "LD_LIBRARY_PATH": "/usr/lib"}), version)
         done = subprocess.run([program, "--connect", "nowhere"], capture_output=True, text=True, timeout=60 * PATIENCE)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("expected tcp://HOST:PORT", done.stderr)
+        self.assertIn("invalid address", done.stderr)
         moved = self.folder / "moved"
         shutil.copytree(self.bundle, moved)
         (moved / "ld.so").unlink()

@@ -1,7 +1,7 @@
 #include "proto/access/coordinator_file.h"
 
-#include "proto/access/address.h"
 #include "proto/access/key_file.h"
+#include "proto/socket.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace swarmsmith::fuzz {

@@ -1,6 +1,10 @@
 #include "proto/socket.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <functional>
 #include <thread>
 
@@ -119,6 +123,112 @@ TEST_F(Sockets, RefuseAnAddressThatIsTaken) {
   const auto second = ServerSocket::bind(server->endpoint());
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
+}
+
+/// The socket that listens, and where a client finds it.
+struct Ends {
+  const char* bind;
+  const char* connect;
+};
+
+class Addresses : public testing::TestWithParam<Ends> {};
+
+bool has_ipv6() {
+  sockaddr_in6 address = {};
+  address.sin6_family = AF_INET6;
+  address.sin6_addr = in6addr_loopback;
+  const int end = socket(AF_INET6, SOCK_STREAM, 0);
+  const bool bound = bind(end, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  close(end);
+  return bound;
+}
+
+TEST_P(Addresses, OfBothFamiliesCarryFrames) {
+  const bool is_six = std::string(GetParam().bind) + GetParam().connect != "127.0.0.1127.0.0.1";
+  if (is_six && !has_ipv6()) GTEST_SKIP() << "this host has no IPv6";
+  const auto server = ServerSocket::bind(std::string("tcp://") + GetParam().bind + ":*");
+  ASSERT_TRUE(server) << to_string(server.error());
+  const int port = address_of((*server)->endpoint())->port;
+  ClientSocket client(std::string("tcp://") + GetParam().connect + ":" + std::to_string(port));
+  const Wakeup wakeup;
+  ServerSocket::Received received;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  bool came = false;
+  // A name's first number may be another one than that which listens.
+  client.connect();
+  client.send("there");
+  while (!came && std::chrono::steady_clock::now() < deadline) {
+    (*server)->wait(wakeup, milliseconds(10));
+    came = (*server)->receive(received);
+    if (came || !client.lost()) continue;
+    client.connect();
+    client.send("there");
+  }
+  ASSERT_TRUE(came);
+  EXPECT_EQ(received.frame, "there");
+  const std::string host = GetParam().connect;
+  if (host.front() == '1') EXPECT_EQ(received.address, host) << "not as a part of IPv6";
+  if (host.front() == '[') EXPECT_EQ("[" + std::string(received.address) + "]", host);
+  EXPECT_EQ((*server)->send(received.peer, "back"), SendStatus::Sent);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfThisHost, Addresses,
+                         testing::Values(Ends{"127.0.0.1", "127.0.0.1"}, Ends{"[::1]", "[::1]"},
+                                         Ends{"[::]", "[::1]"}, Ends{"[::]", "127.0.0.1"},
+                                         Ends{"*", "127.0.0.1"}, Ends{"*", "[::1]"},
+                                         Ends{"0.0.0.0", "127.0.0.1"},
+                                         Ends{"localhost", "localhost"}));
+
+TEST(SocketAddresses, ThatCannotBeUsedAreNamed) {
+  ClientSocket client("tcp://no-such-host.invalid:5555");
+  client.connect();
+  EXPECT_TRUE(client.lost());
+  EXPECT_NE(client.trouble().find("the name `no-such-host.invalid`"), std::string::npos)
+      << client.trouble();
+  const auto server = ServerSocket::bind("tcp://[fe80::1]:*");
+  ASSERT_FALSE(server);
+  EXPECT_NE(server.error().message.find("%eth0"), std::string::npos) << server.error().message;
+}
+
+/// Another user of this host: the kernel says who connects.
+TEST(SocketUsers, OthersAreKeptOut) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+  const auto server = ServerSocket::bind("tcp://127.0.0.1:*").value();
+  if (!server->asks_for_user()) GTEST_SKIP() << "this system does not say whose a connection is";
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(address_of(server->endpoint())->port));
+  // Only in a process of its own: another user's for all threads of this one would be the server's.
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    char byte = 0;
+    bool heard = true;
+    if (setuid(65534) == 0) {
+      const int end = socket(AF_INET, SOCK_STREAM, 0);
+      heard = connect(end, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0;
+      // libzmq greets before it knows who is there; then the connection ends.
+      while (read(end, &byte, 1) > 0) {
+      }
+    }
+    _exit(heard ? 1 : 0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  const auto refusals = server->refusals();
+  EXPECT_EQ(refusals.counts.at("another user"), 1U);
+  EXPECT_NE(refusals.last_from.at("another user").find("user "), std::string::npos);
+  // Its own user comes in.
+  ClientSocket own(server->endpoint());
+  own.connect();
+  own.send("there");
+  ServerSocket::Received received;
+  const Wakeup wakeup;
+  for (int i = 0; i < 2000 && !server->receive(received); ++i)
+    server->wait(wakeup, milliseconds(10));
+  EXPECT_EQ(received.frame, "there");
 }
 
 TEST_F(Sockets, WakeWhenTheyAreNotified) {

@@ -129,7 +129,8 @@ class Hosts:
     The switch has a namespace of its own, so that nothing outside of them is touched.
     """
 
-    def __init__(self, test, names):
+    def __init__(self, test, names, six=False):
+        """`six`: the hosts have addresses of IPv6 alone, fd00:77::1 for "c"."""
         need_root("a network namespace")
         for program, package in (("ip", "iproute2"), ("nft", "nftables"), ("tc", "iproute2")):
             need(program, package)
@@ -150,7 +151,12 @@ class Hosts:
             self.run("ip", "-n", self.switch, "link", "add", f"v-{name}", "type", "veth", "peer",
                      "name", "e0", "netns", host)
             self.run("ip", "-n", self.switch, "link", "set", f"v-{name}", "master", "b0", "up")
-            self.run("ip", "-n", host, "addr", "add", f"10.77.0.{number}/24", "dev", "e0")
+            # Without a look for who else has it, which takes a second.
+            address = [f"fd00:77::{number}/64", "nodad"] if six else [f"10.77.0.{number}/24"]
+            try:
+                self.run("ip", "-n", host, "addr", "add", *address, "dev", "e0")
+            except subprocess.CalledProcessError as error:
+                raise unittest.SkipTest(f"skipped: no such addresses here: {error.stderr}") from None
             for link in ("lo", "e0"):
                 self.run("ip", "-n", host, "link", "set", link, "up")
 
@@ -167,6 +173,13 @@ class Hosts:
     def at(self, name):
         """What to put before a command to run it on a host."""
         return ("ip", "netns", "exec", self.host(name))
+
+    def known_as(self, name, host_name, address):
+        """As `at`, on a host that knows its own name by this address, as /etc/hosts of Debian's installer has it."""
+        hosts = self.test.folder / f"hosts-{name}"
+        hosts.write_text(f"127.0.0.1 localhost\n{address} {host_name}\n")
+        return (*self.at(name), "unshare", "--uts", "--mount", "sh", "-c",
+                f"mount --bind '{hosts}' /etc/hosts && hostname {host_name} && exec \"$@\"", "sh")
 
     def close(self):
         for host in [self.switch, *map(self.host, self.names)]:

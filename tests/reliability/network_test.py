@@ -1,10 +1,12 @@
 """Networks that are cut, lossy, slow, or narrow: hosts are namespaces, delays a proxy."""
 import random
+import signal
+import subprocess
 import time
 import unittest
 
 from network import Hosts, Proxy
-from rig import FaultTest, events, stored, wait_for
+from rig import SWARMSMITH, WORKER, FaultTest, events, rows, stored, wait_for
 
 
 class HostsTest(FaultTest):
@@ -125,6 +127,86 @@ class Namespaces(HostsTest):
             self.hosts.on(self.hosts.host(name), "ip", "link", "set", "e0", "mtu", "600")
         self.finish_all()
         self.count("campaign with an MTU of 600")
+
+
+class Ipv6(FaultTest):
+    """Hosts without any address of IPv4."""
+    budget = 2000
+
+    def test_a_campaign(self):
+        hosts = Hosts(self, ["w1", "w2"], six=True)
+        keys = self.keygen(self.folder / "keys")
+        key = ("--key", keys / "worker.key")
+        coordinator = self.serve("--keys", keys, bind="[::]:5555", prefix=hosts.at("c"))
+        # What it prints, and what its file has, is what others take.
+        self.assertEqual(coordinator.address(), "[fd00:77::1]:5555")
+        file = self.folder / "campaign.db.coordinator"
+        self.assertIn('endpoint = "tcp://[fd00:77::1]:5555"', file.read_text())
+        workers = [self.worker(coordinator.address(), *key, prefix=hosts.at("w1")),
+                   self.start("worker", WORKER, "--coordinator", file, "--slots", "1", *key, prefix=hosts.at("w2"))]
+        self.wait_stored(50)
+        asked = subprocess.run([*hosts.at("w1"), SWARMSMITH, "status", "--connect", "[fd00:77::1]:5555", "--json",
+                                "--key", keys / "reader.key"], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(asked.returncode, 0, asked.stderr)
+        self.finish(coordinator, workers)
+        self.assertEqual(rows(self.store, "select count(*) from worker"), [(2,)])
+        self.count("campaign over IPv6")
+
+    def test_an_address_of_one_interface_and_link_local_ones(self):
+        hosts = Hosts(self, ["w1"], six=True)
+        keys = self.keygen(self.folder / "keys")
+        coordinator = self.serve("--keys", keys, bind="[fd00:77::1]:5555", prefix=hosts.at("c"))
+        self.assertEqual(coordinator.address(), "[fd00:77::1]:5555")
+        coordinator.kill()
+        local = hosts.run("ip", "-n", hosts.host("c"), "-o", "-6", "addr", "show", "scope", "link").stdout
+        local = local.split("inet6 ")[1].split("/")[0]
+        # Still being looked for in the network, if it is new.
+        wait_for(lambda: "tentative" not in hosts.run("ip", "-n", hosts.host("c"), "-o", "-6", "addr").stdout,
+                 "the link-local address")
+        coordinator = self.serve("--keys", keys, bind=f"[{local}%e0]:5555", prefix=hosts.at("c"))
+        key = ("--key", keys / "worker.key")
+        nowhere = self.worker(f"[{local}]:5555", *key, prefix=hosts.at("w1"))
+        wait_for(lambda: "needs the interface of this host" in nowhere.log(), "the worker's word")
+        nowhere.send(signal.SIGTERM)
+        self.assertEqual(nowhere.wait(), 0, nowhere.tail())
+        worker = self.worker(f"[{local}%e0]:5555", *key, prefix=hosts.at("w1"))
+        self.finish(coordinator, [worker])
+
+
+class Names(FaultTest):
+    """Hosts that know their own names, and not each other's."""
+    budget = 2000
+
+    def campaign(self, address, *arguments):
+        hosts = Hosts(self, ["w1"])
+        keys = self.keygen(self.folder / "keys")
+        coordinator = self.serve("--keys", keys, *arguments, bind="0.0.0.0:5555",
+                                 prefix=hosts.known_as("c", "debian12", address))
+        worker = self.start("worker", WORKER, "--coordinator", self.folder / "campaign.db.coordinator", "--slots", "1",
+                            "--key", keys / "worker.key", prefix=hosts.at("w1"))
+        return coordinator, worker
+
+    def test_a_name_of_loopback_is_not_advertised(self):
+        """As Debian's installer writes it: 127.0.1.1 debian12."""
+        coordinator, worker = self.campaign("127.0.1.1")
+        self.assertEqual(coordinator.address(), "10.77.0.1:5555")
+        self.finish(coordinator, [worker])
+
+    def test_the_numbers_of_a_name_that_others_do_not_know_are_told_too(self):
+        coordinator, worker = self.campaign("10.77.0.1")
+        self.assertEqual(coordinator.address(), "debian12:5555")
+        self.finish(coordinator, [worker])
+
+    def test_a_worker_says_which_name_it_does_not_know(self):
+        coordinator, worker = self.campaign("127.0.1.1", "--advertise", "debian12")
+        began = time.monotonic()
+        wait_for(lambda: "the name `debian12`" in worker.log(), "the worker's word", 20)
+        print(f"\n  said after {time.monotonic() - began:.1f} s", end="")
+        self.assertTrue(worker.alive(), "it tries on")
+        worker.send(signal.SIGTERM)
+        self.assertEqual(worker.wait(), 0, worker.tail())
+        coordinator.send(signal.SIGTERM)
+        coordinator.wait()
 
 
 class Netem(HostsTest):

@@ -6,7 +6,7 @@ import time
 import unittest
 
 from network import Proxy
-from rig import FaultTest, call, events, rows, wait_for
+from rig import FaultTest, events, rows, wait_for
 from visited import Visited
 from wire import MAJOR, MINOR, Peer, frame, message, varint
 
@@ -68,9 +68,9 @@ class Liars(Visited):
                          [(0,)])
 
     def test_plausible_scores(self):
-        """It answers all that it is asked, and invents. Without keys it is one of all on this host,
-        which have proved themselves: an audit finds it, and the campaign says that it cannot be
-        believed."""
+        """It answers all that it is asked, and invents. That others of this host have proved
+        themselves says nothing of it: the referee finds it at its first words, and none of them is
+        stored."""
         peer, welcome = self.enter()
         rng = random.Random(4)
         told = 0
@@ -96,13 +96,11 @@ class Liars(Visited):
             with contextlib.suppress(OSError):
                 self.say(peer, sequence, results={"scenario": welcome["scenario"],
                                                   "results": results})
-        self.assertEqual(self.coordinator.wait(), 3, self.coordinator.tail())
-        self.assertIn("scores in the store are not reliable", self.coordinator.log())
+        self.finish_undisturbed()
         self.count("invented score", told)
         [found] = events(self.store, "workers in quarantine")
-        print(f"\n  found after {told} of its scores", end="")
         self.assertEqual(found["who"], "loopback")
-        self.assertIn("wrong, or may be", call("verify", self.store).stdout)
+        self.assertGreater(found["worker"], 0, "one process of this host")
 
     def test_somebody_elses_leases(self):
         """It returns and fails what others hold, says old words, and leaves again."""

@@ -119,7 +119,8 @@ class Peer:
             if flags is None:
                 continue
             if not flags & COMMAND:
-                self.waiting.append(body)
+                if body:  # an empty one asks whether this connection stands
+                    self.waiting.append(body)
             elif body.startswith(b"\x05READY"):
                 self.is_ready = True
             elif body.startswith(b"\x04PING"):

@@ -18,11 +18,13 @@ PasswordAuthentication no
 KbdInteractiveAuthentication no
 UsePAM no
 PrintMotd no
+MaxStartups {max_startups}
+LogLevel VERBOSE
 SetEnv XDG_CACHE_HOME={folder}/cache
 """
 
 CLIENT = """\
-Host node1 node2
+Host node*
   HostName 127.0.0.1
   Port {port}
 Host silent
@@ -57,10 +59,10 @@ def _program(name):
 
 
 class OneHostSsh:
-    """Hosts node1 and node2 are this one; `silent` takes connections and says nothing; `closed`
+    """Hosts node1, node2 and so on are this one; `silent` takes connections and says nothing; `closed`
     has nobody who listens. `client_config` is what ssh -F takes. Accounts keep things in `cache`."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, max_startups="100"):
         self.folder = pathlib.Path(folder)
         self.cache = self.folder / "cache"
         port, closed = free_ports(2)
@@ -76,13 +78,17 @@ class OneHostSsh:
         self.client_config.write_text(CLIENT.format(
             port=port, closed=closed, silent=self.quiet.getsockname()[1], folder=self.folder))
         server = self.folder / "sshd_config"
-        server.write_text(SERVER.format(port=port, folder=self.folder))
+        server.write_text(SERVER.format(port=port, folder=self.folder, max_startups=max_startups))
         pathlib.Path("/run/sshd").mkdir(mode=0o755, exist_ok=True)  # where sshd locks itself in
         # Started again for each connection, so by its whole path.
         with open(self.folder / "sshd.log", "w") as log:
             self.sshd = subprocess.Popen([_program("sshd"), "-D", "-e", "-f", server], stderr=log,
                                          stdin=subprocess.DEVNULL, preexec_fn=_end_with_the_test)
         wait_for(lambda: "listening" in (self.folder / "sshd.log").read_text(), "sshd")
+
+    def turned_away(self):
+        """Connections that came while too many others had not logged in yet."""
+        return (self.folder / "sshd.log").read_text().count("drop connection")
 
     def stop(self):
         self.quiet.close()

@@ -1,5 +1,6 @@
 """Workers behind a real sshd: whichever end dies, nothing stays behind, and the answer is the same."""
 import contextlib
+import json
 import os
 import pathlib
 import shutil
@@ -34,13 +35,15 @@ def processes(word, parent=None, program=None):
     return found
 
 
-class Ssh(ProgramTest):
+class SshTest(ProgramTest):
+    max_startups = "100"
+
     def setUp(self):
         why = one_host_ssh.why_not()
         if why:
             self.skipTest(why)
         super().setUp()
-        self.ssh = one_host_ssh.OneHostSsh(self.folder)
+        self.ssh = one_host_ssh.OneHostSsh(self.folder, self.max_startups)
         self.addCleanup(self.ssh.stop)
         # A name of its own, by which this test's workers are told from others.
         self.worker = self.folder / "the worker"
@@ -99,6 +102,8 @@ class Ssh(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.digest(self.store), self.digest(local))
 
+
+class Ssh(SshTest):
     def test_hosts_that_do_not_answer_and_workers_and_ssh_that_are_killed(self):
         # Long enough to be running still when the second worker has come back.
         self.campaign("node1 slots=1\nnode2 slots=1 # the same host\nsilent\nclosed\n", 5000)
@@ -215,6 +220,35 @@ exec xz "$@"
     def run_to_its_end(self, *words):
         return subprocess.run([SWARMSMITH, "run", self.file, "--store", self.store, *words],
                               env=self.environment, capture_output=True, text=True, timeout=60 * PATIENCE)
+
+
+class ManyHosts(SshTest):
+    """One sshd for 24 hosts, as where all are reached through a login node, which lets three log in at a time."""
+    max_startups = "3:100:3"
+
+    def test_all_come_though_few_may_log_in_at_a_time(self):
+        self.campaign("".join(f"node{i} slots=1\n" for i in range(24)))
+        process = self.run_by_ssh()
+        seen = []
+
+        def all_run():
+            done = call("status", self.store, "--json", "--key", self.folder / "keys/reader.key")
+            live = json.loads(done.stdout) if done.returncode == 0 else {}
+            if "launcher" not in live:
+                return False
+            seen.append((live["launcher"]["running"], live["workers"]))
+            return live["launcher"]["running"] == 24
+
+        wait_for(all_run, "24 workers", 120)
+        # Workers count, not processes of ssh; both numbers are of the same moment, but for a tenth of a second.
+        self.assertEqual(seen[-1], (24, 24), seen)
+        for running, connected in seen:
+            self.assertLessEqual(running, connected + 2, seen)
+        print(f"\n  {self.ssh.turned_away()} logins turned away", end="")
+        self.assertLessEqual(self.ssh.turned_away(), 12)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
+        self.wait_for_nobody()
 
 
 if __name__ == "__main__":

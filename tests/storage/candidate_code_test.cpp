@@ -206,6 +206,27 @@ TEST_F(CandidateCodeTest, APhraseThatIsMissingIsFoundAndNothingIsMadeUp) {
   EXPECT_THROW(candidates_in(*reader), StoreFailure);
 }
 
+TEST_F(CandidateCodeTest, ACodeThatMakesMoreThanATextHasIsRefusedBeforeItIsMade) {
+  write(candidates(4, 0));
+  change("UPDATE phrase SET modules = printf('%.900000c', 'x') WHERE id = 1;"
+         "UPDATE candidate SET module_code = '[' || printf('%.20000c', '1') || ']' WHERE id = 2;"
+         "UPDATE candidate SET module_code = replace(module_code, '11', '1,1') WHERE id = 2;"
+         "UPDATE candidate SET module_code = replace(module_code, '11', '1,1') WHERE id = 2");
+  EXPECT_EQ(one("SELECT length(module_code) > 20000 FROM candidate WHERE id = 2"), "1");
+  const auto reader = open_reader(path);
+  EXPECT_THROW(candidates_in(*reader), StoreFailure);
+  EXPECT_THAT(reader->integrity(), testing::Contains(HasSubstr("more text")));
+}
+
+TEST_F(CandidateCodeTest, CodesThatMakeManyTimesTheFileAreRefused) {
+  write(candidates(4, 0));
+  // Each text is one that a store may have; together they are not.
+  change("UPDATE phrase SET modules = printf('%.100000c', 'x') WHERE id = 1;"
+         "UPDATE candidate SET module_code = '[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]'");
+  EXPECT_GT(std::stoi(one("SELECT count(*) FROM candidate")), 60);
+  EXPECT_THROW(candidates_in(*open_reader(path)), StoreFailure);
+}
+
 TEST_F(CandidateCodeTest, ACodeThatIsNoneIsFound) {
   write(candidates(4, 0));
   EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());

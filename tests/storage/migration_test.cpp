@@ -46,7 +46,8 @@ struct MigrationTest : testing::TestWithParam<OldStore> {
     return open_store(path, campaign);
   }
   std::string schema_of(const std::filesystem::path& file) {
-    const sqlite::Connection connection(file.string(), SQLITE_OPEN_READONLY);
+    sqlite::Connection connection(file.string(), SQLITE_OPEN_READONLY);
+    connection.allow_views(true);
     return sqlite::text_of(connection,
                            "SELECT group_concat(name || ' ' || columns, '; ') FROM (SELECT s.name,"
                            " (SELECT group_concat(i.name || ' ' || i.type || ' ' || i.\"notnull\""

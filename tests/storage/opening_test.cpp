@@ -122,12 +122,32 @@ TEST_F(OpeningTest, SaysThatAFolderIsMissingOrThatAStoreIsAFile) {
 }
 
 TEST_F(OpeningTest, KnowsSharedFileSystemsFromLocalOnes) {
-  for (const long shared : {0x6969L, 0x517bL, 0xff534d42L, 0x0bd00bd0L, 0x65735546L}) {
-    EXPECT_TRUE(is_network_file_system(shared)) << shared;
+  for (const long shared : {0x6969L, 0x517bL, 0xff534d42L, 0x0bd00bd0L}) {
+    EXPECT_THAT(kind_of_shared(shared, ""), "a network file system") << shared;
   }
+  EXPECT_EQ(kind_of_shared(0x6969, "nfs4"), "nfs4, a network file system");
   for (const long local : {0xef53L, 0x58465342L, 0x9123683eL, 0x01021994L, 0x794c7630L}) {
-    EXPECT_FALSE(is_network_file_system(local)) << local;
+    EXPECT_EQ(kind_of_shared(local, "ext4"), "") << local;
   }
+}
+
+TEST_F(OpeningTest, KnowsWhichProgramsBehindFuseAreLocal) {
+  constexpr long kFuse = 0x65735546;
+  for (const char* local : {"fuseblk", "fuse.bindfs", "fuse.gocryptfs", "fuse.encfs",
+                            "fuse.fuse-overlayfs", "fuse.ntfs-3g"}) {
+    EXPECT_EQ(kind_of_shared(kFuse, local), "") << local;
+  }
+  for (const char* shared : {"fuse.sshfs", "fuse.glusterfs", "fuse.mergerfs", "fuse.new-thing",
+                             "virtiofs", "bindfs", "fuse.fuse.bindfs"}) {
+    EXPECT_THAT(kind_of_shared(kFuse, shared), testing::StartsWith(shared)) << shared;
+  }
+  for (const char* unknown : {"", "fuse"})
+    EXPECT_THAT(kind_of_shared(kFuse, unknown), HasSubstr("unknown kind")) << unknown;
+}
+
+TEST_F(OpeningTest, FindsTheFileSystemOfAFolderOfThisHost) {
+  EXPECT_EQ(shared_file_system("/proc/self"), "");
+  EXPECT_EQ(shared_file_system("/dev"), "");
 }
 
 TEST_F(OpeningTest, RefusesASecondWriterOfTheSameProcess) {
@@ -196,7 +216,9 @@ TEST_F(OpeningTest, NamesTheProcessThatHoldsTheStoreAndOpensWhenItHasDied) {
 TEST_F(OpeningTest, LooksAtEveryPageAfterAnUncleanEnd) {
   make_store();
   // A page in the middle; its kind, 0, is none that SQLite knows.
+  const auto closed = std::filesystem::last_write_time(path);
   overwrite(8192 * 5, std::string(200, '\0'));
+  std::filesystem::last_write_time(path, closed);
   EXPECT_NE(open_store(path, campaign), nullptr) << "a clean end was not followed by a check";
   std::ofstream(path.string() + ".lock") << "pid=1 host=x\n";
   EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);
@@ -234,6 +256,7 @@ TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
        [](sqlite::Connection& c) { c.execute("UPDATE design SET note = 'moved'"); }},
   };
   migrate(connection, path, steps);
+  connection.allow_views(true);
   EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), kSchemaVersion + 2);
   EXPECT_EQ(sqlite::text_of(connection, "SELECT note FROM design"), "moved");
   EXPECT_EQ(sqlite::text_of(connection, "SELECT state FROM v_designs"), "finished");

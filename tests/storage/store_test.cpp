@@ -244,8 +244,37 @@ TEST_F(StoreTest, RemembersWhoIsNotBelieved) {
   const StoredTrust trust = store->trust();
   EXPECT_EQ(trust.audited, std::set<EvaluationKey>{audited});
   EXPECT_TRUE(trust.distrusted);
-  EXPECT_EQ(trust.quarantined, std::vector<std::string>{"node@10.0.0.5"});
+  ASSERT_EQ(trust.quarantined.size(), 1U);
+  EXPECT_EQ(trust.quarantined[0].principal, "node@10.0.0.5");
+  EXPECT_EQ(trust.quarantined[0].identity, "");
   EXPECT_EQ(trust.principals.at(4), "node@10.0.0.5");
+}
+
+TEST_F(StoreTest, RemembersWhyAndForgetsWhomAPersonForgives) {
+  auto store = begun();
+  WorkerRow keyed{.id = 4, .identity = "aa", .state = WorkerState::Quarantined, .client = "node"};
+  keyed.principal = "node@10.0.0.5";
+  WorkerRow plain{.id = 5, .identity = "bb", .state = WorkerState::Quarantined};
+  plain.principal = "loopback";
+  store->append({keyed, plain,
+                 event_row("error", "workers in quarantine",
+                           {{"who", "node@10.0.0.5"}, {"reason", "it \"lied\""}}),
+                 event_row("error", "workers in quarantine",
+                           {{"who", "loopback"}, {"reason", "another"}, {"worker", 9}}),
+                 event_row("error", "workers in quarantine",
+                           {{"who", "loopback"}, {"reason", "its own"}, {"worker", 5}})});
+  store->flush();
+  std::vector<Quarantine> all = store->trust().quarantined;
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].reason, "it \"lied\"");
+  EXPECT_EQ(all[0].since.size(), std::string("2026-01-02T03:04:05.678Z").size());
+  EXPECT_EQ(all[1].identity, "bb") << "without a key it is one process";
+  EXPECT_EQ(all[1].reason, "its own");
+  store->append({ForgivenRow{"node@10.0.0.5"}});
+  store->flush();
+  all = store->trust().quarantined;
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].principal, "loopback");
 }
 
 TEST_F(StoreTest, KeepsASecretUntilTheCampaignIsFinished) {

@@ -2,13 +2,17 @@
 #include <string>
 #include <vector>
 
+#include "base/process/begin_program.h"
 #include "cli/completion/offer_stored.h"
+#include "console/fault.h"
 #include "storage/store.h"
 #include "tracking/app/commands.h"
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   using namespace swarmsmith::cli;
   Output output = standard_output();
+  swarmsmith::set_check_listener([&](const std::string& text) { print_note(output, text); });
   const Program program{
       "swarmsmith track", "Scores runs of real robots, filmed from above.", track_commands(),
       "docs/tracking.md leads from an empty arena to a first scored run.", offer_stored};
@@ -29,6 +33,6 @@ int main(int argc, char** argv) {
               std::string("the store cannot be used: ") + failure.what(), failure.file()}));
   } catch (const std::exception& error) {
     // What the environment refused: a full disk, no memory, a device that goes away.
-    return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));
+    return static_cast<int>(fail(output, ExitCode::Failed, sentence_of_fault(error)));
   }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/http/page_server.h"
+#include "base/peer_user.h"
 #include "embedded/kLivePage.h"
 #include "tracking/overlay/picture_bytes.h"
 
@@ -114,7 +115,8 @@ class Pages final : public LivePages {
     std::atomic<int>* watchers_;
   };
 
-  /// A name that somebody else pointed at this host (DNS rebinding) is not ours.
+  /// A name that somebody else pointed at this host (DNS rebinding) is not ours, and neither is
+  /// another user of it.
   httplib::Server::HandlerResponse gate(const httplib::Request& request,
                                         httplib::Response& response) const {
     response.set_header("X-Content-Type-Options", "nosniff");
@@ -127,6 +129,11 @@ class Pages final : public LivePages {
     if (host != kHost + port && host != "localhost" + port) {
       response.status = 403;
       response.set_content("ask for 127.0.0.1" + port + "\n", "text/plain");
+      return httplib::Server::HandlerResponse::Handled;
+    }
+    if (!is_of_same_user(PageServer::socket_of_request())) {
+      response.status = 403;
+      response.set_content("these pages are of another user of this host\n", "text/plain");
       return httplib::Server::HandlerResponse::Handled;
     }
     if (request.method == "GET") return httplib::Server::HandlerResponse::Unhandled;

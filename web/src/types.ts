@@ -112,6 +112,16 @@ export interface Worker {
   last_heard_s: number;
 }
 
+/// Workers that get nothing until a person forgives who answers for them.
+export interface Quarantine {
+  who: string;
+  reason: string;
+  since: string;
+  /// The one process of `who` that is meant; 0: all.
+  worker: number;
+  workers: number;
+}
+
 export type Cell = string | number | null;
 
 export type Row = Record<string, Cell>;

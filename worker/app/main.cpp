@@ -16,13 +16,16 @@
 #include <thread>
 #include <vector>
 
-#include "base/descriptor_limit.h"
 #include "base/local_secret.h"
 #include "base/log.h"
+#include "base/process/begin_program.h"
 #include "base/process/guard.h"
+#include "base/process_limits.h"
 #include "base/shown_text.h"
+#include "base/worker_words.h"
 #include "console/complete.h"
 #include "console/declared.h"
+#include "proto/access/address.h"
 #include "proto/access/find_coordinator.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -36,10 +39,18 @@ namespace {
 
 // Signal handlers reach nothing else.
 std::atomic<bool> g_drain{false};
+std::atomic<bool> g_out_of_time{false};
 Wakeup* g_wakeup = nullptr;
 
 void on_signal(int) {
   if (g_drain.exchange(true)) std::_Exit(static_cast<int>(ExitCode::Interrupted));
+  if (g_wakeup != nullptr) g_wakeup->notify();
+}
+
+/// Comes again with each second of processor time.
+void on_processor_limit(int) {
+  g_out_of_time = true;
+  g_drain = true;
   if (g_wakeup != nullptr) g_wakeup->notify();
 }
 
@@ -49,6 +60,8 @@ void handle_signals(Wakeup& wakeup) {
   action.sa_handler = on_signal;
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
+  action.sa_handler = on_processor_limit;
+  sigaction(SIGXCPU, &action, nullptr);
 }
 
 /// The parent may have died before the wish was known: then it is another one by now.
@@ -74,6 +87,8 @@ struct Arguments {
 /// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
 /// the process does not have to wait for it.
 void watch_input() {
+  // Whoever listened at the other end has gone first: no reason not to drain.
+  std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {
     std::array<char, 256> ignored{};
     ssize_t size = 0;
@@ -94,8 +109,6 @@ Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
     allowed.programs.push_back(std::move(*program));
   }
   if (allowed.programs.empty()) return allowed;
-  // A running program takes three.
-  raise_descriptor_limit(4 * static_cast<int>(kMaxSlots));
   if (auto started = start_guard(); !started) return Unexpected(started.error());
   return allowed;
 }
@@ -103,6 +116,28 @@ Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
 int fail(const Error& error) {
   log_event(LogLevel::Error, "worker", "failed", {{"reason", to_string(error)}});
   return static_cast<int>(ExitCode::Usage);
+}
+
+/// What the socket and the simulator need, and each slot.
+Expected<void> check_limits(const Arguments& arguments, int slots) {
+  constexpr std::int64_t kDescriptors = 24;
+  constexpr std::int64_t kDescriptorsOfProgram = 4;
+  // Measured; a thread's stack alone takes 8 MiB of address space.
+  constexpr std::uint64_t kSpace = std::uint64_t{96} << 20U;
+  constexpr std::uint64_t kSpaceOfSlot = std::uint64_t{12} << 20U;
+  constexpr std::uint64_t kMemory = std::uint64_t{16} << 20U;
+  constexpr std::uint64_t kMemoryOfSlot = std::uint64_t{1} << 20U;
+  const std::string who =
+      "a worker with " + std::to_string(slots) + (slots == 1 ? " slot" : " slots");
+  const bool programs = !arguments.allow.empty() || arguments.allow_shell;
+  const std::int64_t descriptors = kDescriptors + (programs ? kDescriptorsOfProgram * slots : 0);
+  if (auto enough = provide_descriptors(descriptors, descriptors, who); !enough) return enough;
+  const auto number = static_cast<std::uint64_t>(slots);
+  return check_memory(kSpace + number * kSpaceOfSlot, kMemory + number * kMemoryOfSlot, who);
+}
+
+void tell_launcher(bool connected) {
+  std::cout << (connected ? kWorkerConnected : kWorkerAlone) << '\n' << std::flush;
 }
 
 /// How the coordinator is found, again before each try to connect. What a person must mend first is
@@ -116,13 +151,14 @@ Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
   const auto find = [search]() -> Expected<CoordinatorAddress> {
     Expected<FoundCoordinator> found = find_coordinator(search);
     if (!found) return Unexpected(found.error());
-    return CoordinatorAddress{found->endpoint, std::move(found->keys)};
+    return CoordinatorAddress{found->endpoint, std::move(found->keys), std::move(found->others)};
   };
   const auto first = find();
   if (!first && first.error().kind != ErrorKind::NotFound) return Unexpected(first.error());
   return WorkerServiceOptions{
       .endpoint = arguments.connect.empty() ? arguments.coordinator : arguments.connect,
       .find = find,
+      .on_connected = arguments.watch_input ? tell_launcher : nullptr,
       .protocol = {},
       .socket = {}};
 }
@@ -135,6 +171,7 @@ int run(const Arguments& arguments) {
                             make_evaluators(), STDIN_FILENO, STDOUT_FILENO);
   }
   const int slots = arguments.slots > 0 ? arguments.slots : available_slots();
+  if (const auto enough = check_limits(arguments, slots); !enough) return fail(enough.error());
   WorkerIdentity identity = identity_of_this_process(slots, SWARMSMITH_VERSION);
   identity.engine_version = kEngineVersion;
   identity.self_test = self_test_digest();
@@ -154,6 +191,11 @@ int run(const Arguments& arguments) {
   const WorkerEnd end = serve(*options, identity, pool, wakeup, g_drain);
   const LogLevel level = end.code == ExitCode::Done ? LogLevel::Debug : LogLevel::Error;
   log_event(level, "worker", "ended", {{"reason", end.reason}});
+  if (g_out_of_time) {
+    log_event(LogLevel::Error, "worker", "stopped",
+              {{"reason", "this process has used the processor time that it may use (ulimit -t)"}});
+    std::_Exit(128 + SIGXCPU);
+  }
   // Slots that still run have missed the grace time; nobody waits for them any more.
   std::_Exit(static_cast<int>(end.code));
 }
@@ -197,7 +239,7 @@ int run_command_line(int argc, char** argv) {
   app.name("swarmsmith-worker");
   CLI::Option_group* where = app.add_option_group("Address of the coordinator, one of");
   where->add_option("--connect", arguments.connect, "Address of the coordinator")
-      ->type_name("tcp://HOST:PORT");
+      ->type_name("HOST:PORT");
   where
       ->add_option("--coordinator", arguments.coordinator,
                    "File that the coordinator writes (STORE.coordinator); read again before each "
@@ -243,9 +285,10 @@ int run_command_line(int argc, char** argv) {
     std::cerr << as_shown(errors.str());  // with the words that it was given
     return code == 0 ? 0 : static_cast<int>(ExitCode::Usage);
   }
-  if (!arguments.connect.empty() && !is_tcp_address(arguments.connect)) {
-    return fail(
-        {ErrorKind::BadInput, "invalid address; expected tcp://HOST:PORT", arguments.connect});
+  if (!arguments.connect.empty()) {
+    const auto endpoint = endpoint_of(arguments.connect, true);
+    if (!endpoint) return fail(endpoint.error());
+    arguments.connect = *endpoint;
   }
   return run(arguments);
 }
@@ -254,6 +297,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace swarmsmith
 
 int main(int argc, char** argv) {
+  swarmsmith::begin_program();
   try {
     return swarmsmith::run_command_line(argc, argv);
   } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 
 #include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -139,8 +140,9 @@ void write_scores(ReportDraft& draft, const DesignRecord& design) {
        {"mean", Show::Number},
        {"most", Show::Number}},
       of_design("SELECT candidate, source, purpose, count(score), min(score), avg(score), "
-                "max(score) FROM v_evaluations WHERE design = # AND purpose IN ('test', 'score') "
-                "GROUP BY candidate, source, purpose ORDER BY candidate, purpose, source",
+                "max(score) FROM v_evaluations WHERE design = # AND purpose IN " +
+                    words_in_sql(is_score_of_winner) +
+                    " GROUP BY candidate, source, purpose ORDER BY candidate, purpose, source",
                 design.design));
 }
 

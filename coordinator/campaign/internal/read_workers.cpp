@@ -2,22 +2,13 @@
 
 #include <vector>
 
+#include "base/address.h"
+
 namespace swarmsmith {
 namespace {
 
-constexpr std::int64_t kLargestPort = 65'535;
 /// In lines of a batch script, and on command lines.
 constexpr std::string_view kNoBreaks = "\n\r";
-
-/// "127.0.0.1:5555", "[::1]:5555"; port 0 is any free one.
-bool is_address(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return false;
-  const std::string port = text.substr(colon + 1);
-  if (port.empty() || port.size() > 5) return false;
-  if (port.find_first_not_of("0123456789") != std::string::npos) return false;
-  return std::stol(port) <= kLargestPort;
-}
 
 /// `local` is the one key with two types.
 void read_local(TableReader& table, Campaign& campaign) {
@@ -102,10 +93,14 @@ void read_launcher(TableReader& table, const std::filesystem::path& folder, Laun
 
 std::optional<std::string> read_bind(TableReader& table) {
   const auto bind = table.text("bind");
-  if (!bind || is_address(*bind)) return bind;
+  if (!bind) return bind;
+  constexpr std::string_view kScheme = "tcp://";
+  std::string_view address = *bind;
+  if (address.starts_with(kScheme)) address.remove_prefix(kScheme.size());
+  if (parse_address(address)) return bind;
   table.complain("bind",
-                 "`bind` must be an address with a port, such as \"127.0.0.1:5555\"; this "
-                 "is \"" +
+                 "`bind` must be an address with a port, such as \"127.0.0.1:5555\" or "
+                 "\"[fd00::1]:5555\"; this is \"" +
                      *bind + "\"");
   return std::nullopt;
 }

@@ -40,6 +40,11 @@ std::string quoted(std::string_view text) {
   return std::string("`").append(text).append("`");
 }
 
+Error expected_error(std::string_view name, const Token& found) {
+  return error_at(found, "expected " + quoted(name) +
+                             (found.text.empty() ? "" : ", found " + quoted(found.text)));
+}
+
 std::vector<Token> tokens_of(std::string_view text) {
   std::vector<Token> tokens;
   std::size_t at = 0;

@@ -38,6 +38,9 @@ Error error_at(const Token& token, std::string message);
 
 std::string quoted(std::string_view text);
 
+/// "expected `--s0`, found `--robots`", at the found word, which may be the one of the end.
+Error expected_error(std::string_view name, const Token& found);
+
 /// The words, and an empty one that stands for the end of the text.
 std::vector<Token> tokens_of(std::string_view text);
 

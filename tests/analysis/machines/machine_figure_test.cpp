@@ -129,13 +129,16 @@ TEST_F(ControllerFigureTest, OfAllKindsIsASheetWithTheColumnsOfAll) {
 
 TEST(ControllerOf, NeedsTheFlavour) {
   MachineRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
-  EXPECT_THAT(controller_of(record).error().message, HasSubstr("`swarmsmith backup"));
+  // A program may have the switches of machines.
+  EXPECT_THAT(controller_of(record, 11).error().message,
+              HasSubstr("c7 is a configuration of a program, not a machine"));
+  EXPECT_THAT(controller_of(record, 3).error().message, HasSubstr("`swarmsmith backup"));
   record.flavour = "melon";
-  EXPECT_THAT(controller_of(record).error().message, HasSubstr("flavour melon"));
+  EXPECT_THAT(controller_of(record, 11).error().message, HasSubstr("flavour melon"));
   record.flavour = "watermelon";
-  EXPECT_TRUE(controller_of(record));
+  EXPECT_TRUE(controller_of(record, 11));
   record.machine = "--x 3.5";
-  EXPECT_THAT(controller_of(record).error().message, HasSubstr("configuration of a program"));
+  EXPECT_THAT(controller_of(record, 11).error().message, HasSubstr("configuration of a program"));
 }
 
 TEST(MachineCsv, HasARowForEachStateAndTransition) {

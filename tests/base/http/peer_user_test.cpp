@@ -1,4 +1,4 @@
-#include "base/http/peer_user.h"
+#include "base/peer_user.h"
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>

@@ -101,6 +101,30 @@ TEST_F(SlurmQueue, JobsThatFailAtOnceAreReplacedMoreAndMoreSlowly) {
   EXPECT_GE(late, 4 * 7);
 }
 
+TEST_F(SlurmQueue, JobsThatCompleteAtOnceAgainAndAgainAreTheEnd) {
+  for (int i = 0; i < 10 && jobs.trouble().empty(); ++i) {
+    step();
+    for (QueuedJob& job : queue)
+      job.state = "COMPLETED";
+    run_for(minutes(1));
+  }
+  EXPECT_THAT(jobs.trouble(), HasSubstr("is their program swarmsmith-worker?"));
+}
+
+TEST_F(SlurmQueue, JobsThatAreDrainedAfterAWhileAreReplacedForEver) {
+  for (int i = 0; i < 10; ++i) {
+    step();
+    for (QueuedJob& job : queue)
+      if (job.state == "PENDING") job.state = "RUNNING";
+    run_for(minutes(2));
+    for (QueuedJob& job : queue)
+      job.state = "COMPLETED";
+    run_for(minutes(12));
+  }
+  EXPECT_EQ(jobs.trouble(), "");
+  EXPECT_EQ(jobs.status().pending, 4);
+}
+
 TEST_F(SlurmQueue, CancelledJobsAreNotReplaced) {
   step();
   run_for(seconds(10));

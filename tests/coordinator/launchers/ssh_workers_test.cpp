@@ -3,6 +3,7 @@
 #include "coordinator/launchers/ssh_workers.h"
 
 #include <gmock/gmock.h>
+#include <algorithm>
 #include <fstream>
 #include <thread>
 
@@ -13,6 +14,8 @@ namespace {
 
 using std::chrono::milliseconds;
 using testing::HasSubstr;
+
+const std::string kConnected = "echo swarmsmith-worker: connected\n";
 
 class Ssh : public testing::Test {
  protected:
@@ -55,10 +58,46 @@ class Ssh : public testing::Test {
 
 TEST_F(Ssh, WorkersRunUntilTheirInputEnds) {
   const std::string log = (folder / "log").string();
-  SshWorkers workers = start("cat; echo $host ended >>" + log + "\n", {{"a"}, {"b"}});
-  EXPECT_EQ(workers.status().running, 2);
+  SshWorkers workers = start(kConnected + "cat; echo $host ended >>" + log + "\n", {{"a"}, {"b"}});
+  EXPECT_EQ(workers.status().running, 0);
+  ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 2; }));
   EXPECT_EQ(workers.stop(std::chrono::seconds(60)), "");
   EXPECT_EQ(starts(), 2);
+}
+
+/// A process that runs is no worker yet, and one that lost its coordinator is none any more.
+TEST_F(Ssh, WorkersCountWhenTheyAreConnected) {
+  const std::string log = (folder / "log").string();
+  const std::string go = (folder / "go").string();
+  SshWorkers workers = start("echo x >>" + log + "\n" + kConnected + "while test ! -e " + go +
+                                 "; do sleep 0.01; done\necho swarmsmith-worker: alone\ncat\n",
+                             {{"a"}});
+  ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 1; }));
+  std::ofstream(go).close();
+  ASSERT_TRUE(eventually(workers, [&] { return workers.status().pending == 1; }));
+  EXPECT_EQ(starts(), 1);
+}
+
+/// An sshd refuses more than a few who have not logged in yet.
+TEST_F(Ssh, FewLoginsAreUnderWayAtATime) {
+  const std::string most = (folder / "most").string();
+  const std::string now = (folder / "now").string();
+  // A login is a file until it is over.
+  std::vector<SshHost> hosts;
+  for (int i = 0; i < 24; ++i)
+    hosts.push_back({.name = "h" + std::to_string(i)});
+  std::filesystem::create_directory(now);
+  SshWorkers workers =
+      start("touch " + now + "/$host\nset -- " + now + "/*\necho $# >>" + most +
+                "\ntest $# -gt 3 && rm " + now + "/$host && exit 255\n" + "sleep 0.02\nrm " + now +
+                "/$host\necho swarmsmith-worker: begins\n" + kConnected + "exec cat\n",
+            hosts);
+  ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 24; }));
+  std::ifstream counts(most);
+  int highest = 0;
+  for (int count = 0; counts >> count;)
+    highest = std::max(highest, count);
+  EXPECT_LE(highest, 9);
 }
 
 TEST_F(Ssh, AHostThatDoesNotAnswerIsTriedAgainAndNamed) {
@@ -77,7 +116,8 @@ TEST_F(Ssh, AHostThatDoesNotAnswerIsTriedAgainAndNamed) {
 TEST_F(Ssh, AHostOfAnotherBuildIsLeftAlone) {
   const std::string log = (folder / "log").string();
   SshWorkers workers =
-      start("echo x >>" + log + "\ntest $host = old && exit 7\nexec cat\n", {{"old"}, {"new"}});
+      start("echo x >>" + log + "\ntest $host = old && exit 7\n" + kConnected + "exec cat\n",
+            {{"old"}, {"new"}});
   ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 1 && starts() == 2; }));
   EXPECT_THAT(workers.status().note,
               HasSubstr("old: the worker there and the coordinator are different builds"));
@@ -89,6 +129,12 @@ TEST_F(Ssh, WhenAllAreRefusedNothingCanBeHad) {
   ASSERT_TRUE(eventually(workers, [&] { return !trouble_of(workers).empty(); }));
   EXPECT_THAT(trouble_of(workers),
               HasSubstr("ssh: a: the worker there and the coordinator are different builds"));
+}
+
+TEST_F(Ssh, AProgramThatEndsAtOnceWithoutAnErrorIsNoWorker) {
+  SshWorkers workers = start("exit 0\n", {{"a"}});
+  ASSERT_TRUE(eventually(workers, [&] { return !trouble_of(workers).empty(); }));
+  EXPECT_THAT(trouble_of(workers), HasSubstr("is it swarmsmith-worker?"));
 }
 
 TEST(SshProgram, ThatIsMissingIsSaid) {

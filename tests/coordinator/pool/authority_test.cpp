@@ -233,7 +233,7 @@ TEST_F(Authority, StopsTheCampaignWhenAWorkerThatWasBelievedLies) {
   ASSERT_EQ(all<StopCampaign>().size(), 1U);
   EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
   const std::string reason = all<StopCampaign>()[0].reason;
-  for (const char* part : {"10.0.0.1", "99", "1 results", "new store"})
+  for (const char* part : {"10.0.0.1", "99", "1 results", "--without-key \"10.0.0.1\""})
     EXPECT_NE(reason.find(part), std::string::npos) << reason;
   EXPECT_EQ(std::ranges::count(kinds(), "a stored score is wrong"), 1);
 }
@@ -404,10 +404,137 @@ TEST_F(Authority, KeepsALiarInQuarantineUnderEveryId) {
 }
 
 TEST_F(Authority, RemembersWhoWasInQuarantineBefore) {
-  options.quarantined = {"node@10.0.0.1"};
+  options.quarantined = {
+      {.principal = "node@10.0.0.1", .since = "2026-01-02", .reason = "it lied"}};
   scheduler = Scheduler(options);
   enter(1, "10.0.0.1", 1, 1, "node");
   EXPECT_EQ(scheduler.workers().connected(), 0U);
+  const std::string sentence = all<SendReject>().at(0).sentence;
+  for (const char* part : {"since 2026-01-02", "it lied", "forgive STORE \"node@10.0.0.1\""})
+    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  enter(2, "10.0.0.2", 1, 1, "node");
+  EXPECT_EQ(scheduler.workers().connected(), 1U);
+}
+
+TEST_F(Authority, BelievesAKeyThatWasCutOutFromNoAddress) {
+  options.quarantined = {{.principal = "node"}};
+  scheduler = Scheduler(options);
+  enter(1, "10.0.0.1", 1, 1, "node");
+  enter(2, "10.0.0.2", 1, 1, "node");
+  enter(3, "10.0.0.1", 1, 1, "other");
+  EXPECT_EQ(scheduler.workers().connected(), 1U);
+  EXPECT_FALSE(scheduler.forgive("node@10.0.0.2", "a person", now).empty());
+  enter(4, "10.0.0.1", 1, 1, "node");
+  enter(5, "10.0.0.2", 1, 1, "node");
+  EXPECT_EQ(scheduler.workers().trusted(), 3U);
+}
+
+TEST_F(Authority, TellsAWorkerThatItIsInQuarantineAndWhenThatIsOver) {
+  enter(1, "10.0.0.1", 1, 1, "node");
+  credit(1, 1);
+  want(1, 3);
+  answer(1, 1, 99);
+  rule_score(1);
+  ASSERT_EQ(all<SendNotice>().size(), 1U);
+  EXPECT_EQ(all<SendNotice>()[0].peer, 1U);
+  EXPECT_NE(all<SendNotice>()[0].sentence.find("it gave 99"), std::string::npos);
+  credit(1, 1);
+  const std::size_t before = given[1].size();
+  EXPECT_TRUE(scheduler.forgive("10.0.0.9", "a person", now).empty());
+  EXPECT_EQ(scheduler.forgive("node", "a person", now), std::vector<std::string>{"node@10.0.0.1"});
+  take();
+  EXPECT_EQ(all<Forgiven>().size(), 1U);
+  EXPECT_EQ(all<SendNotice>().size(), 2U);
+  EXPECT_EQ(all<WorkerChanged>().back().row.state, WorkerState::Connected);
+  EXPECT_EQ(std::ranges::count(kinds(), "workers forgiven"), 1);
+  // It works again as one that nobody knows: the referee makes its first results again.
+  credit(1, 1);
+  ASSERT_GT(given[1].size(), before);
+  const std::size_t accepted = all<OutcomeAccepted>().size();
+  answer(1, given[1].back());
+  EXPECT_EQ(all<OutcomeAccepted>().size(), accepted);
+  EXPECT_EQ(asked(), key(given[1].back()));
+  rule_score(given[1].back());
+  EXPECT_EQ(all<OutcomeAccepted>().size(), accepted + 1);
+  EXPECT_TRUE(scheduler.forgive("node", "a person", now).empty());
+}
+
+// --- without keys a process is blamed ---
+
+TEST_F(Authority, BlamesAProcessWhereThereAreNoKeys) {
+  enter(1, "127.0.0.1");
+  prove(1, 1);
+  enter(2, "127.0.0.1");
+  credit(2, 1);
+  want(10, 1);
+  ASSERT_EQ(given[2], std::vector<std::int64_t>{10});
+  answer(2, 10, 99);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 2U) << "that the other one is known says nothing of it";
+  rule_score(10);
+  EXPECT_EQ(scheduler.counters().quarantined, 1U);
+  EXPECT_EQ(scheduler.workers().trusted(), 1U);
+  EXPECT_TRUE(all<StopCampaign>().empty()) << "nothing of it counts, and the other one is here";
+  // The same process may not come again, another may.
+  enter(2, "127.0.0.1", 1, 2);
+  EXPECT_EQ(scheduler.workers().trusted(), 1U);
+  enter(3, "127.0.0.1");
+  EXPECT_EQ(scheduler.workers().trusted(), 2U);
+  credit(1, 1);
+  want(20, 1);
+  EXPECT_EQ(given[1].back(), 20);
+}
+
+TEST_F(Authority, BelievesNothingOfAnEarlierProcessThatMayHaveBeenTheLiar) {
+  enter(1, "127.0.0.1");
+  prove(1, 1);
+  credit(1, 1);
+  want(5, 1);
+  answer(1, 5);
+  if (asked()) rule_score(5);
+  // A result of it that nobody made again; then it leaves, and one comes that lies.
+  for (std::int64_t i = 6; i < 60; ++i) {
+    credit(1, 1);
+    want(i, 1);
+    answer(1, i);
+    if (asked()) rule_score(i);
+  }
+  scheduler.on_goodbye({1, 1, ++sequence}, now);
+  move();
+  enter(2, "127.0.0.1");
+  credit(2, 1);
+  want(100, 1);
+  answer(2, 100, 99);
+  rule_score(100);
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+}
+
+TEST_F(Authority, QuarantinesAHostWithoutKeysAfterThreeLiars) {
+  for (PeerId peer = 1; peer <= 3; ++peer) {
+    enter(peer, "127.0.0.1");
+    ASSERT_EQ(scheduler.workers().trusted(), 1U);
+    const auto candidate = static_cast<std::int64_t>(peer);
+    credit(peer, 1);
+    want(candidate, 1);
+    answer(peer, candidate, 99);
+    rule_score(candidate);
+  }
+  enter(4, "127.0.0.1");
+  EXPECT_EQ(scheduler.workers().trusted(), 0U);
+  EXPECT_TRUE(scheduler.principals().all().at("loopback").quarantined);
+  EXPECT_FALSE(scheduler.forgive("loopback", "a person", now).empty());
+  enter(5, "127.0.0.1");
+  EXPECT_EQ(scheduler.workers().trusted(), 4U) << "the liars of before, too";
+}
+
+TEST_F(Authority, RemembersAProcessWithoutAKey) {
+  options.quarantined = {
+      {.principal = "loopback", .identity = hexadecimal(std::string(15, 's') + 'b')}};
+  scheduler = Scheduler(options);
+  enter(1, "127.0.0.1");
+  enter(2, "127.0.0.1");
+  EXPECT_EQ(all<SendReject>().size(), 1U);
+  EXPECT_EQ(scheduler.workers().trusted(), 1U);
 }
 
 TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
@@ -431,8 +558,8 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   ASSERT_EQ(all<ConflictFound>().size(), 1U);
   ASSERT_EQ(asked(), key(10));
   rule_score(10);
-  EXPECT_TRUE(scheduler.principals().all().at("10.0.0.1").quarantined);
-  EXPECT_FALSE(scheduler.principals().all().at("10.0.0.2").quarantined);
+  EXPECT_EQ(scheduler.principals().all().at("10.0.0.1").liars.size(), 1U);
+  EXPECT_TRUE(scheduler.principals().all().at("10.0.0.2").liars.empty());
   EXPECT_TRUE(all<StopCampaign>().empty()) << "all that it said before was made again";
   EXPECT_TRUE(std::ranges::any_of(all<AttemptEnded>(), [](const AttemptEnded& ended) {
     return pack(ended.row.key) == key(10) && ended.row.outcome == AttemptOutcome::Audited;

@@ -36,7 +36,7 @@ TEST(Principal, IsItselfWhenThisProcessStartedIt) {
 TEST(Principals, ForgetThoseOfWhomNothingIsKnown) {
   Principals principals;
   principals.at("a");
-  principals.at("b").unchecked_of(0) = 1;
+  principals.at("b").standing(1).unchecked_of(0) = 1;
   principals.at("c").quarantined = true;
   principals.forget_idle();
   EXPECT_EQ(principals.find("a"), nullptr);

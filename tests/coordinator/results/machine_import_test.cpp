@@ -5,6 +5,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "sim/files/machine_file.h"
+#include "sim/files/profile_file.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -36,7 +39,7 @@ TEST(MachineImport, ReadsATextALineWithNamesOrWithout) {
   EXPECT_EQ(machines->at(1).place, "m.txt:4");
   EXPECT_EQ(to_string(read_machine_lines("stop\n", "m.txt").error().front()),
             "m.txt:1: control software begins with one of --nstates, --fsm-config, --nroot, "
-            "--bt-config, --network");
+            "--rootnode, --bt-config, --network, genomestart");
   EXPECT_FALSE(read_machine_lines("# nothing\n", "m.txt"));
 }
 
@@ -89,6 +92,91 @@ TEST(MachineImport, MakesAFinishedDesignOfEachMachine) {
   const auto& state = std::get<DesignStateRow>(addition->rows[1]);
   EXPECT_EQ(state.state, DesignState::Finished);
   EXPECT_EQ(state.best, candidate.id);
+}
+
+/// A mission of one's own, as heads of files have it.
+MissionEntry shelter(int robots = 5) {
+  MissionEntry entry{built_in_mission("aggregation").value()};
+  entry.mission.name = "shelter";
+  entry.mission.robots = robots;
+  return entry;
+}
+
+std::string filed(const MissionEntry& mission, const std::string& profile = "rvr") {
+  return head_text({.flavour = "watermelon-argos3",
+                    .profile = built_in_profile(profile).value(),
+                    .mission = mission}) +
+         "--nstates 1 --s0 1\n";
+}
+
+TEST(MachineImport, KeepsTheWorldThatHeadsDescribe) {
+  const auto machines = read_machine_lines(filed(shelter(), "argos3"), "m.fsm");
+  ASSERT_TRUE(machines);
+  const auto addition = import_machines(*machines, into_empty_store());
+  ASSERT_TRUE(addition) << to_string(addition.error().front());
+  EXPECT_EQ(addition->designs.front().row.mission, "shelter");
+  const auto world = read_imported_world(addition->campaign->file);
+  ASSERT_TRUE(world) << to_string(world.error());
+  EXPECT_THAT(world->missions, ElementsAre(shelter()));
+  EXPECT_EQ(world->profile, built_in_profile("argos3").value());
+  EXPECT_THAT(addition->campaign->deciding, HasSubstr("\"mission.shelter.score.kind\":"));
+  // Nothing is kept that each program knows.
+  const auto built_in =
+      read_machine_lines(filed(MissionEntry{built_in_mission("aggregation").value()}), "m.fsm");
+  EXPECT_EQ(import_machines(*built_in, into_empty_store())->campaign->file, "");
+}
+
+TEST(MachineImport, GivesAMissionANewNameAndKeepsWhatItIs) {
+  MachineImport known = into_empty_store();
+  known.missions.renamed = {{"shelter", "cave"}};
+  const auto addition = import_machines(*read_machine_lines(filed(shelter()), "m.fsm"), known);
+  ASSERT_TRUE(addition) << to_string(addition.error().front());
+  EXPECT_EQ(addition->designs.front().row.mission, "cave");
+  const auto world = read_imported_world(addition->campaign->file);
+  ASSERT_TRUE(world);
+  ASSERT_EQ(world->missions.size(), 1U);
+  EXPECT_EQ(world->missions[0].mission.name, "cave");
+  EXPECT_EQ(world->missions[0].mission.robots, 5);
+  // A built-in one is what it is.
+  known.missions.renamed = {{"shelter", "aggregation"}};
+  EXPECT_EQ(import_machines(*read_machine_lines(filed(shelter()), "m.fsm"), known)->campaign->file,
+            "");
+}
+
+TEST(MachineImport, TakesMissionsOfFiles) {
+  const auto machines = read_machine_lines("--nstates 1 --s0 1\n", "m.fsm");
+  MachineImport known = into_empty_store();
+  known.missions = {
+      .of_all = "shelter", .renamed = {}, .of_files = {shelter()}, .all_of_file = true};
+  const auto addition = import_machines(*machines, known);
+  ASSERT_TRUE(addition) << to_string(addition.error().front());
+  EXPECT_THAT(read_imported_world(addition->campaign->file)->missions, ElementsAre(shelter()));
+  // It is that of all designs, whatever they call theirs; but not of two missions.
+  const auto one =
+      parse_csv("mission,fsm\nhole,--nstates 1 --s0 1\nhole,--nstates 1 --s0 1\n", "m.csv");
+  EXPECT_EQ(import_machines(*read_machine_table(*one), known)->designs[1].row.mission, "shelter");
+  const auto two =
+      parse_csv("mission,fsm\nhole,--nstates 1 --s0 1\ncave,--nstates 1 --s0 1\n", "m.csv");
+  const auto refused = import_machines(*read_machine_table(*two), known);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(to_string(refused.error().front()),
+              HasSubstr("m.csv:3: the file has the missions hole and cave"));
+  known.missions = {.of_all = "",
+                    .renamed = {{"hole", "shelter"}},
+                    .of_files = {shelter()},
+                    .all_of_file = false};
+  EXPECT_THAT(import_machines(*read_machine_table(*two), known).error().front().message,
+              HasSubstr("there is no mission `cave`"));
+}
+
+TEST(MachineImport, RefusesTwoWorldsOfOneName) {
+  const auto of = [](const std::string& text) {
+    const auto addition = import_machines(*read_machine_lines(text, "m.fsm"), into_empty_store());
+    return addition ? "read" : to_string(addition.error().front());
+  };
+  EXPECT_EQ(of(filed(shelter()) + filed(shelter())), "read");
+  EXPECT_THAT(of(filed(shelter()) + filed(shelter(6))), HasSubstr("another mission shelter"));
+  EXPECT_THAT(of(filed(shelter()) + filed(shelter(), "argos3")), HasSubstr("the profile argos3"));
 }
 
 TEST(MachineImport, NamesEveryBadRowByItsLine) {

@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "storage/answer.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -184,6 +187,25 @@ TEST(MissionWords, NameOneForAllAndRenameOthers) {
   for (const auto& wrong :
        std::vector<std::vector<std::string>>{{"a", "b"}, {"a=b", "a=c"}, {"=b"}, {"a="}})
     EXPECT_FALSE(read_mission_words(wrong)) << wrong.front();
+}
+
+TEST(MissionWords, NameFilesOfMissions) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "cave.toml").string();
+  std::ofstream(file) << "format = 1\nname = \"cave\"\npreset = \"aggregation\"\nrobots = 5\n";
+  const auto one = read_mission_words({"hole=" + file});
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->name_of("hole"), "cave");
+  EXPECT_EQ(one->name_of("shelter"), "shelter");
+  ASSERT_EQ(one->of_files.size(), 1U);
+  EXPECT_EQ(one->of_files[0].mission.robots, 5);
+  const auto all = read_mission_words({file});
+  ASSERT_TRUE(all);
+  EXPECT_EQ(all->name_of(""), "cave");
+  EXPECT_EQ(all->name_of("hole"), "cave");
+  const auto missing = read_mission_words({(folder / "none.toml").string()});
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(to_string(missing.error().front()), HasSubstr("none.toml"));
 }
 
 }  // namespace

@@ -10,28 +10,19 @@
 namespace swarmsmith {
 namespace {
 
-TEST(HttpAddress, IsHostAndPort) {
-  EXPECT_EQ(parse_http_address("127.0.0.1:8347")->port, 8347);
-  EXPECT_EQ(parse_http_address("[::1]:80")->host, "::1");
-  EXPECT_EQ(parse_http_address("localhost:*")->port, 0);
-  EXPECT_EQ(parse_http_address("localhost:0")->port, 0);
-  for (const char* wrong : {"", "8347", "a:", "a:-1", "a:65536", "a:80x", ":80", "[::1]", "[::1"})
-    EXPECT_FALSE(parse_http_address(wrong)) << wrong;
-}
-
 TEST(HttpAddress, OnLoopbackOnlyItsOwnNamesAreOurs) {
-  const HttpAddress here{"127.0.0.1", 8347};
+  const Address here{"127.0.0.1", 8347};
   for (const char* ours : {"127.0.0.1:8347", "localhost", "LOCALHOST:1", "[::1]:8347"})
     EXPECT_TRUE(is_our_host(ours, here, "node1")) << ours;
-  for (const char* other :
-       {"", "evil.example:8347", "127.0.0.1.evil.example", "node1", "10.0.0.1",
-        "localhost.evil.example", "[::1", "localhost:8347@evil.example", "localhost:http"})
+  for (const char* other : {"", "evil.example:8347", "127.0.0.1.evil.example", "node1", "10.0.0.1",
+                            "localhost.evil.example", "[::1", "localhost:8347@evil.example",
+                            "localhost:http", "::1:8347"})
     EXPECT_FALSE(is_our_host(other, here, "node1")) << other;
 }
 
 TEST(HttpAddress, ElsewhereOurNameAndNumbersAreOurs) {
-  const HttpAddress all{"0.0.0.0", 8347};
-  for (const char* ours : {"node1:8347", "10.0.0.1:8347", "localhost:8347"})
+  const Address all{"0.0.0.0", 8347};
+  for (const char* ours : {"node1:8347", "10.0.0.1:8347", "[fd00::1]:8347", "localhost:8347"})
     EXPECT_TRUE(is_our_host(ours, all, "node1")) << ours;
   EXPECT_FALSE(is_our_host("evil.example:8347", all, "node1"));
 }

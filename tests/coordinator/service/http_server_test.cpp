@@ -87,6 +87,67 @@ TEST(HttpServerTest, NamesThatWereGivenCountWhateverTheirCase) {
               StartsWith("HTTP/1.1 421"));
 }
 
+/// A proxy may take the second of two headers, where we take the first.
+TEST(HttpServerTest, ARequestWithTwoMeaningsIsRefused) {
+  const auto server = HttpServer::start(on_loopback()).value();
+  server->publish({});
+  const std::string line = "GET /status HTTP/1.1\r\n";
+  const std::string host = "Host: localhost\r\n";
+  for (const std::string& headers :
+       {host + host, host + "Host: evil.example\r\n", "hOST: evil.example\r\n" + host,
+        host + "Authorization: Bearer a\r\nAuthorization: Bearer b\r\n",
+        host + "Content-Length: 0\r\nContent-Length: 5\r\n",
+        host + "Content-Length: 0\r\nTransfer-Encoding: chunked\r\n",
+        host + "Origin: http://localhost\r\nOrigin: http://evil.example\r\n",
+        host + "Sec-Fetch-Site: none\r\nSec-Fetch-Site: cross-site\r\n",
+        std::string("Host: local\r\n host\r\n"), std::string("Host : localhost\r\n"),
+        host + "X\r\n"}) {
+    EXPECT_THAT(HttpPeer(port_of(*server)).say(line + headers + "\r\n").hear(),
+                StartsWith("HTTP/1.1 400"))
+        << headers;
+  }
+  EXPECT_THAT(
+      HttpPeer(port_of(*server))
+          .say(line + host + "Accept: a\r\nAccept: b\r\nX-Empty:\r\nContent-Length: 0\r\n\r\n")
+          .hear(),
+      StartsWith("HTTP/1.1 200"));
+}
+
+/// Of a site that computes for whoever asks.
+class Computing final : public HttpSite {
+ public:
+  bool is_open(std::string_view) const override { return false; }
+  bool is_api(std::string_view path) const override { return path.starts_with("/api/"); }
+  bool is_act(std::string_view) const override { return false; }
+  std::string error_json(std::string_view kind, std::string_view) const override {
+    return std::string(kind);
+  }
+  void publish(const LiveStatus&) override {}
+  SiteAnswer answer(const SiteRequest&) override {
+    return {.status = 200, .type = "text/plain", .body = "computed"};
+  }
+};
+
+TEST(HttpServerTest, PicturesOfAnotherPageLetNothingBeComputed) {
+  HttpOptions options = on_loopback();
+  options.site = std::make_shared<Computing>();
+  const auto server = HttpServer::start(options).value();
+  const std::string port = std::to_string(port_of(*server));
+  for (const std::string& from :
+       {std::string("Sec-Fetch-Site: cross-site"), std::string("Sec-Fetch-Site: same-site"),
+        std::string("Referer: http://evil.example/page"), std::string("Origin: null"),
+        std::string("Referer: http://localhost:1/")}) {
+    const std::string answer = get(std::stoi(port), "/api/v1/query", from + "\r\n");
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 403")) << from;
+    EXPECT_THAT(answer, EndsWith("other_origin")) << from;
+  }
+  for (const std::string& from :
+       {std::string("X: y"), std::string("Sec-Fetch-Site: same-origin"),
+        std::string("Sec-Fetch-Site: none"), std::string("Referer: http://localhost/page")}) {
+    EXPECT_THAT(get(std::stoi(port), "/api/v1/query", from + "\r\n"), EndsWith("computed")) << from;
+  }
+}
+
 TEST(HttpServerTest, RangesMultiplyNoAnswer) {
   const auto server = HttpServer::start(on_loopback()).value();
   server->publish(large_status());

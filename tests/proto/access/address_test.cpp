@@ -1,44 +1,63 @@
 #include "proto/access/address.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "proto/socket.h"
 
 namespace swarmsmith {
 namespace {
 
-bool loopback(const std::string& endpoint) {
-  return is_loopback(address_of(endpoint).value());
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Endpoints, AreWhatAPersonTypesWithItsScheme) {
+  EXPECT_EQ(endpoint_of("node1:5555", true), "tcp://node1:5555");
+  EXPECT_EQ(endpoint_of("tcp://[fd00::1]:5555", true), "tcp://[fd00::1]:5555");
+  EXPECT_EQ(endpoint_of("[::]:0", false), "tcp://[::]:*");
+  EXPECT_THAT(endpoint_of("node1:*", true).error().message, HasSubstr("node1:5555"));
+  EXPECT_THAT(endpoint_of("fd00::1:5555", true).error().message, HasSubstr("brackets"));
+  EXPECT_FALSE(endpoint_of("http://node1:5555", true));
 }
 
-TEST(Addresses, AreTakenApart) {
-  EXPECT_EQ(address_of("tcp://node1:5555")->host, "node1");
-  EXPECT_EQ(address_of("tcp://[::1]:5555")->host, "[::1]");
-  EXPECT_EQ(address_of("tcp://[::1]:5555")->port, "5555");
+TEST(Endpoints, AreTakenApart) {
+  EXPECT_EQ(address_of("tcp://node1:5555"), (Address{"node1", 5555}));
+  EXPECT_EQ(address_of("tcp://[::1]:5555"), (Address{"::1", 5555}));
   EXPECT_FALSE(address_of("node1:5555"));
   EXPECT_FALSE(address_of("tcp://node1"));
 }
 
-TEST(Addresses, OfThisHostOnlyAreKnown) {
-  EXPECT_TRUE(loopback("tcp://127.0.0.1:1"));
-  EXPECT_TRUE(loopback("tcp://127.8.0.1:1"));
-  EXPECT_TRUE(loopback("tcp://[::1]:1"));
-  EXPECT_TRUE(loopback("tcp://localhost:1"));
-  EXPECT_FALSE(loopback("tcp://0.0.0.0:1"));
-  EXPECT_FALSE(loopback("tcp://*:1"));
-  EXPECT_FALSE(loopback("tcp://10.0.0.1:1"));
-  // A name of somebody else's, not a number.
-  EXPECT_FALSE(loopback("tcp://127.example.org:1"));
-  EXPECT_FALSE(loopback("tcp://localhost.example.org:1"));
+TEST(Endpoints, AreAdvertisedAsOthersReachThem) {
+  EXPECT_EQ(advertised_endpoint("tcp://10.0.0.1:5555", ""), "tcp://10.0.0.1:5555");
+  EXPECT_EQ(advertised_endpoint("tcp://[fd00::1]:5555", ""), "tcp://[fd00::1]:5555");
+  EXPECT_EQ(advertised_endpoint("tcp://0.0.0.0:5555", "login1"), "tcp://login1:5555");
+  EXPECT_EQ(advertised_endpoint("tcp://[::]:5555", "fd00::1"), "tcp://[fd00::1]:5555");
+  EXPECT_EQ(advertised_endpoint("tcp://[::]:5555", "[fd00::1]"), "tcp://[fd00::1]:5555");
+  for (const char* all : {"tcp://0.0.0.0:5555", "tcp://[::]:5555", "tcp://*:5555"}) {
+    const auto found = address_of(advertised_endpoint(all, ""));
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(is_wildcard(found->host));
+    EXPECT_EQ(found->port, 5555);
+    // A name that is known here by numbers of loopback alone is none for others.
+    if (!numbers_of_this_host().empty() && !is_host_number(found->host)) {
+      EXPECT_THAT(numbers_of(found->host).value(),
+                  testing::Contains(testing::Truly([](const auto& n) { return !is_loopback(n); })));
+    }
+  }
 }
 
-TEST(Addresses, AreAdvertisedAsOthersReachThem) {
-  EXPECT_EQ(advertised_endpoint("tcp://10.0.0.1:5555", ""), "tcp://10.0.0.1:5555");
-  EXPECT_EQ(advertised_endpoint("tcp://0.0.0.0:5555", "login1"), "tcp://login1:5555");
-  EXPECT_EQ(advertised_endpoint("tcp://10.0.0.1:5555", "login1"), "tcp://login1:5555");
-  const auto found = address_of(advertised_endpoint("tcp://0.0.0.0:5555", ""));
-  ASSERT_TRUE(found);
-  EXPECT_FALSE(is_wildcard(*found));
-  EXPECT_EQ(found->port, "5555");
+TEST(Endpoints, AreAdvertisedByNumbersToo) {
+  EXPECT_THAT(advertised_numbers("tcp://10.0.0.1:5555", ""), IsEmpty());
+  EXPECT_THAT(advertised_numbers("tcp://0.0.0.0:5555", "login1"), IsEmpty());
+  for (const std::string& endpoint : advertised_numbers("tcp://*:5555", ""))
+    EXPECT_TRUE(is_host_number(address_of(endpoint)->host)) << endpoint;
+  for (const std::string& endpoint : advertised_numbers("tcp://0.0.0.0:5555", ""))
+    EXPECT_EQ(endpoint.find('['), std::string::npos) << endpoint;
+}
+
+TEST(Endpoints, AreReachedFromThisHost) {
   EXPECT_EQ(local_endpoint("tcp://0.0.0.0:5555"), "tcp://127.0.0.1:5555");
+  EXPECT_EQ(local_endpoint("tcp://[::]:5555"), "tcp://127.0.0.1:5555");
   EXPECT_EQ(local_endpoint("tcp://10.0.0.1:5555"), "tcp://10.0.0.1:5555");
 }
 

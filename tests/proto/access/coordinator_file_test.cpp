@@ -34,6 +34,7 @@ TEST(CoordinatorFiles, ReadBackAsTheyArePrinted) {
   file.public_key.clear();
   file.insecure_plaintext = true;
   file.http.clear();
+  file.others = {"tcp://10.0.0.1:5555", "tcp://[fd00::1]:5555"};
   EXPECT_EQ(parse_coordinator_file(text_of(file), "f").value(), file);
 }
 
@@ -49,6 +50,8 @@ TEST(CoordinatorFiles, SayWhatIsWrongAndWhere) {
               HasSubstr("address to connect to"));
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://a:1\"\nkey = \"x\"\n"),
               HasSubstr("c.db.coordinator:3:7: `key` must be a public key"));
+  EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://a:1\"\nothers = [\"10.0.0.1\"]\n"),
+              HasSubstr("c.db.coordinator:3:10: `others` must be"));
   EXPECT_THAT(complaint_about("format = 2\nendpoint = \"tcp://a:1\"\n"), HasSubstr("newer"));
 }
 
@@ -71,6 +74,23 @@ TEST(CoordinatorFiles, AreRemovedByWhoWroteThem) {
   EXPECT_FALSE(std::filesystem::exists(path));
   // Nothing of the writing is left behind.
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+/// On loopback without keys nobody but the coordinator's own user comes in.
+TEST(CoordinatorFiles, AreForThoseWhoMayConnect) {
+  const TemporaryFolder folder;
+  const auto mode = [&](const std::string& endpoint, const std::string& key) {
+    CoordinatorFile file = example();
+    file.endpoint = endpoint;
+    file.public_key = key;
+    EXPECT_TRUE(write_coordinator_file(folder / "f", file));
+    struct stat status = {};
+    EXPECT_EQ(stat((folder / "f").c_str(), &status), 0);
+    return status.st_mode & 0777U;
+  };
+  EXPECT_EQ(mode("tcp://127.0.0.1:1", ""), 0600U);
+  EXPECT_EQ(mode("tcp://127.0.0.1:1", example().public_key), 0644U);
+  EXPECT_EQ(mode("tcp://login1:1", ""), 0644U);
 }
 
 TEST(CoordinatorFiles, AreRefusedWhenOthersMayWriteThem) {

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 
 namespace swarmsmith {
@@ -84,8 +85,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"nstates 1", "token 1, column 1", "expected a switch such as `--s0`"},
         BadText{"--nstates", "token 2, column 10", "`--nstates` has no value"},
         BadText{"--nstates --s0 1", "token 2, column 11", "`--nstates` has no value"},
-        BadText{"--nstates 5 --s0 1", "token 2, column 11", "must be from 1 to 4, not 5"},
-        BadText{"--nstates 0", "token 2, column 11", "must be from 1 to 4, not 0"},
+        BadText{"--nstates 5 --s0 1", "token 2, column 11",
+                "a machine of 5 states; machines of 1 to 4 states are read"},
+        BadText{"--nstates 0", "token 2, column 11",
+                "a machine of 0 states; machines of 1 to 4 states are read"},
         BadText{"--nstates 1.0 --s0 1", "token 2, column 11", "wants an integer, not `1.0`"},
         BadText{"--nstates 1", "token 3, column 12", "expected `--s0`"},
         BadText{"--nstates 1 --s1 1", "token 3, column 13", "expected `--s0`"},
@@ -151,6 +154,19 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"--nstates 2 --s0 1 --n0 1 --n0x0 0 --n0x0 0 --c0x0 5 --p0x0 1 --s1 1",
                 "token 9, column 36", "appears twice"},
         BadText{"--nstates 2 --s0 1 --n0 5 --s1 1", "token 6, column 25", "from 1 to 4, not 5"}));
+
+TEST(ControllerText, NamesTheOptionsBeforeAMachineThatItDoesNotKnow) {
+  // As AutoMoDe-private, branch HardwareOptimization, Results/controllers.
+  const auto read =
+      parse_controller("--robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1", watermelon());
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "token 1, column 1");
+  EXPECT_THAT(read.error().message, HasSubstr("not known here: `--robots`, `--rabsi`, `--rabar`;"));
+  EXPECT_THAT(parse_controller("--nstates 1 --robots 22 --s0 1", watermelon()).error().message,
+              HasSubstr("expected `--s0`, found `--robots`"));
+  EXPECT_THAT(parse_controller("--nstates 1 --s0 1 --robots 22", watermelon()).error().message,
+              HasSubstr("`--robots` does not belong"));
+}
 
 TEST(MachineText, NumbersMeanWhatTheFlavoursTableSays) {
   Flavour renumbered = watermelon();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "tests/sim/control/fake_senses.h"
 
@@ -149,6 +150,101 @@ TEST(NetworkText, SaysWhatIsWrongAndWhere) {
     light += ",0";
   EXPECT_THAT(complaint(light), HasSubstr("the flavour watermelon has not"));
   EXPECT_TRUE(parse_network(light, chocolate()));
+}
+
+/// A genome as NEAT 1.2.1 writes those of EvoStick: a node a line (number, trait, 1 for sensors,
+/// then 1 input, 3 bias, 2 output, 0 hidden), then the genes (trait, from, to, weight, recurrent,
+/// innovation, mutation, enabled). Results-Transferability has 300 of them; the weights are ours.
+struct Genome {
+  int sensors = 15;
+  std::string hidden;      ///< lines of further nodes
+  std::string genes;       ///< lines of further genes
+  bool by_output = false;  ///< the order of CMA-ES and xNES; else that of EvoStick
+
+  static std::string weight(int input, bool right) {
+    return std::to_string(input) + (right ? ".5" : ".25");
+  }
+  std::string gene(int input, bool right) const {
+    return "gene 1 " + std::to_string(input) + " " + std::to_string(sensors + (right ? 2 : 1)) +
+           " " + weight(input, right) + " 0 1 0 1\n";
+  }
+  std::string text() const {
+    std::string text = "genomestart 2\ntrait 1 0.1 0 0 0 0 0 0 0 \n";
+    for (int i = 1; i <= sensors + 2; ++i) {
+      const bool is_sensor = i <= sensors;
+      text += "node " + std::to_string(i) + (is_sensor ? " 1 1 " : " 1 0 ") +
+              (i < sensors    ? "1"
+               : i == sensors ? "3"
+                              : "2") +
+              "\n";
+    }
+    text += hidden;
+    for (int i = 0; i < 2 * sensors; ++i)
+      text += by_output ? gene(i % sensors + 1, i >= sensors) : gene(i / 2 + 1, i % 2 == 1);
+    return text + genes + "genomeend 2\n";
+  }
+};
+
+TEST(GenomeText, OfAFlatNetworkIsReadInBothOrdersOfItsGenes) {
+  Network wanted{.inputs = NetworkInputs::Rm12, .weights = {}};
+  for (const double fraction : {0.25, 0.5})
+    for (int i = 1; i <= 15; ++i)
+      wanted.weights.push_back(i + fraction);
+  for (const bool by_output : {false, true}) {
+    Genome genome;
+    genome.by_output = by_output;
+    const auto read = parse_controller(genome.text(), chocolate());
+    ASSERT_TRUE(read) << to_string(read.error());
+    EXPECT_EQ(std::get<Network>(*read), wanted);
+  }
+}
+
+TEST(GenomeText, ADisabledOrMissingGeneCountsNothing) {
+  std::string text = Genome().text();
+  text.replace(text.find("3.25 0 1 0 1"), 12, "3.25 0 1 0 0");
+  text.erase(text.find(Genome().gene(4, false)), Genome().gene(4, false).size());
+  const auto read = parse_controller(text, chocolate());
+  ASSERT_TRUE(read) << to_string(read.error());
+  const auto& weights = std::get<Network>(*read).weights;
+  EXPECT_EQ(weights[1], 2.25);
+  EXPECT_EQ(weights[2], 0);
+  EXPECT_EQ(weights[3], 0);
+  EXPECT_EQ(weights[4], 5.25);
+}
+
+TEST(GenomeText, SaysWhatCannotBeRead) {
+  const auto complaint = [](const std::string& text) {
+    const auto read = parse_controller(text, chocolate());
+    return read ? "read" : read.error().message;
+  };
+  Genome evolved;
+  evolved.hidden = "node 19 1 0 0\nnode 29 1 0 0\n";
+  evolved.genes = "gene 1 1 19 0.5 0 40 0 1\n";
+  EXPECT_THAT(complaint(evolved.text()),
+              HasSubstr("a genome of NEAT with 2 hidden nodes; networks without a hidden layer"));
+  Genome raw;
+  raw.sensors = 25;
+  EXPECT_THAT(complaint(raw.text()), HasSubstr("a genome of 25 inputs"));
+  const std::string good = Genome().text();
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return complaint(text);
+  };
+  EXPECT_EQ(complaint(good), "read");
+  EXPECT_THAT(changed("genomeend 2\n", ""), HasSubstr("`genomeend` is missing"));
+  EXPECT_THAT(changed("genomeend 2\n", "genomeend 2 more\n"), HasSubstr("expected the end"));
+  EXPECT_THAT(changed("trait 1", "trail 1"), HasSubstr("`trail`"));
+  EXPECT_THAT(changed("2.25", "x"), HasSubstr("wants a number, not `x`"));
+  EXPECT_THAT(changed("2.25", "nan"), HasSubstr("finite"));
+  EXPECT_THAT(changed("2.25 0 1 0 1", "2.25 1 1 0 1"), HasSubstr("recurrent"));
+  EXPECT_THAT(changed("gene 1 2 16", "gene 1 1 16"), HasSubstr("from node 1 to node 16 twice"));
+  EXPECT_THAT(changed("gene 1 2 16", "gene 1 99 16"), HasSubstr("from node 99 to node 16"));
+  EXPECT_THAT(changed("node 15 1 1 3", "node 15 1 1 1"), HasSubstr("bias"));
+  EXPECT_THAT(changed("node 17 1 0 2\n", ""), HasSubstr("2 outputs"));
+  EXPECT_THAT(changed("node 3 1", "node 2 1"), HasSubstr("node 2 twice"));
+  EXPECT_THAT(parse_controller(good, watermelon()).error().message,
+              HasSubstr("the flavour watermelon has not"));
 }
 
 }  // namespace

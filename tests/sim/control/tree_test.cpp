@@ -103,6 +103,50 @@ TEST(TreeText, ReadsAndPrintsTheFormOfThePrograms) {
   }
 }
 
+/// The form of 2018: AutoMoDe-private, branch BehaviorTree, Experiments/Controllers.
+constexpr const char* kOldForm =
+    "--rootnode 0 --nchildsroot 3 --n0 0 --nc0 1 --c0x0 5 --p0x0 0.16 --a0 4 --att0 3.26 "
+    "--n1 0 --nc1 1 --c1x0 3 --p1x0 6 --w1x0 10.24 --a1 1 "
+    "--n2 0 --nc2 1 --c2x0 0 --p2x0 0.45 --a2 0 --rwm2 21";
+
+TEST(TreeText, ReadsTheOlderFormAndPrintsTheNewerOne) {
+  for (const char* prefix : {"", "--bt-config "}) {
+    const auto tree = parse_tree(std::string(prefix) + kOldForm, chocolate());
+    ASSERT_TRUE(tree) << to_string(tree.error());
+    EXPECT_EQ(print_tree(*tree, chocolate()), kPublished);
+  }
+  const auto any = parse_controller(kOldForm, chocolate());
+  ASSERT_TRUE(any) << to_string(any.error());
+  EXPECT_EQ(architecture_of(*any), Architecture::Tree);
+}
+
+TEST(TreeText, OfTheOlderFormSaysWhatIsWrongAndWhere) {
+  const std::string good = "--rootnode 0 --nchildsroot 1 --n0 0 --nc0 1 --c0x0 0 --p0x0 1 --a0 1";
+  ASSERT_TRUE(parse_tree(good, watermelon()));
+  const auto complaint = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    const auto read = parse_tree(text, watermelon());
+    return read ? "read" : read.error().where + ": " + read.error().message;
+  };
+  EXPECT_THAT(complaint("--rootnode 0", "--rootnode 1"),
+              HasSubstr("token 2, column 12: `--rootnode` must be 0"));
+  EXPECT_THAT(complaint("--nchildsroot 1", "--nchildsroot 5"), HasSubstr("from 1 to 4"));
+  EXPECT_THAT(complaint("--nchildsroot 1", "--nchildsroot 2"), HasSubstr("expected `--n1`"));
+  EXPECT_THAT(complaint("--nchildsroot 1 ", ""), HasSubstr("expected `--nchildsroot`"));
+  EXPECT_THAT(complaint("--n0 0", "--n0 2"), HasSubstr("only Maple's trees"));
+  EXPECT_THAT(complaint("--nc0 1", "--nc0 0"), HasSubstr("a subtree of 0 conditions"));
+  EXPECT_THAT(complaint("--nc0 1", "--nc0 2"),
+              HasSubstr("a subtree of 2 conditions; trees with one"));
+  EXPECT_THAT(complaint("--p0x0 1", "--p0x0 1 --c0x1 0 --p0x1 1"),
+              HasSubstr("`--c0x1` is of a condition beyond the one that `--nc0` announces"));
+  EXPECT_THAT(complaint("--a0 1", ""), HasSubstr("expected `--a0`"));
+  EXPECT_THAT(complaint("--a0 1", "--a0 99"), HasSubstr("has no module 99"));
+  EXPECT_THAT(complaint("--a0 1", "--a0 1 --rwm0 4"), HasSubstr("does not belong to stop"));
+  EXPECT_THAT(complaint("--a0 1", "--a0 1 --n1 0"), HasSubstr("expected the end"));
+  EXPECT_THAT(complaint("--a0 1", "--a0 1 --robots 20"), HasSubstr("`--robots`"));
+}
+
 TEST(TreeText, SaysWhatIsWrongAndWhere) {
   const std::string good =
       "--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 --a01 1 --p01 0";
@@ -118,6 +162,7 @@ TEST(TreeText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("--nchildroot 1", "--nchildroot 5"), HasSubstr("from 1 to 4"));
   EXPECT_THAT(complaint("--nchildroot 1", "--nchildroot 2"), HasSubstr("expected `--n1`"));
   EXPECT_THAT(complaint("--n0 0", "--n0 2"), HasSubstr("only Maple's trees"));
+  EXPECT_THAT(complaint("--nchild0 2", "--nchild0 3"), HasSubstr("`--nchild0` must be 2"));
   EXPECT_THAT(complaint("--n00 6", "--n00 5"), HasSubstr("a condition"));
   EXPECT_THAT(complaint("--p01 0", "--p01 1"), HasSubstr("never reports success"));
   EXPECT_THAT(complaint("--p01 0", ""), HasSubstr("expected `--p01`"));
@@ -126,7 +171,7 @@ TEST(TreeText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("--a01 1", "--a01 99"), HasSubstr("has no module 99"));
   EXPECT_THAT(complaint("--p00 1", "--p00 7"), HasSubstr("`--p00`"));
   EXPECT_THAT(complaint("--p00 1", "--p00 1 --w00 3"), HasSubstr("does not belong to black_floor"));
-  EXPECT_THAT(complaint("--n0 0", "--n0 0 --n02 5"), HasSubstr("children 0 and 1"));
+  EXPECT_THAT(complaint("--n0 0", "--n0 0 --n02 5"), HasSubstr("children 0 to 1"));
   EXPECT_THAT(complaint("--p01 0", "--p01 0 --n1 0"), HasSubstr("expected the end"));
 }
 

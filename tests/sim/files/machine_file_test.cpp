@@ -7,6 +7,7 @@
 namespace swarmsmith {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -93,10 +94,77 @@ TEST(MachineFile, NamesThePlaceOfWhatIsWrong) {
               ElementsAre(HasSubstr("m.fsm:1:")));
   EXPECT_THAT(complaints_about("stop\n"),
               ElementsAre("m.fsm:1: control software begins with one of --nstates, --fsm-config, "
-                          "--nroot, --bt-config, --network"));
+                          "--nroot, --rootnode, --bt-config, --network, genomestart"));
   EXPECT_THAT(complaints_about("--s0 1\n"), ElementsAre(HasSubstr("m.fsm:1: ")));
   EXPECT_THAT(complaints_about("# nothing\n"), ElementsAre("m.fsm: the file holds no machine"));
   EXPECT_THAT(complaints_about(kStop), testing::IsEmpty());
+}
+
+TEST(MachineFile, ANameHasNoOptions) {
+  // As AutoMoDe-private, branch HardwareOptimization, Results/controllers: the options before the
+  // machine say how many robots there are, and what their sensors cost.
+  const std::string waffle = " --robots 22 --rabsi 2 --rabar 0.7 --nstates 1 --s0 1\n";
+  EXPECT_THAT(
+      complaints_about(waffle),
+      ElementsAre(AllOf(HasSubstr("m.fsm:1: options before the machine that are not known here: "),
+                        HasSubstr("`--robots`, `--rabsi`, `--rabar`"))));
+  EXPECT_THAT(complaints_about(waffle + waffle + waffle),
+              ElementsAre(AllOf(HasSubstr("m.fsm:1: "), HasSubstr("2 more lines"))));
+  EXPECT_THAT(complaints_about("best: --robots 22 --nstates 1 --s0 1\n"),
+              ElementsAre(HasSubstr("`--robots`")));
+  EXPECT_THAT(
+      complaints_about("automode_main -n -c x.argos --seed 3 --fsm-config " + std::string(kStop)),
+      ElementsAre(HasSubstr("`-n`, `-c`, `--seed`")));
+  EXPECT_THAT(complaints_about("hA1 - the best, of 10: " + std::string(kStop)), testing::IsEmpty());
+}
+
+/// NEAT's form (tests/sim/control/network_test.cpp); too short to be a controller of ours.
+constexpr const char* kGenome =
+    "/* Organism #2 Fitness: 8483.2 Time: 0 */\ngenomestart 2\ntrait 1 0.1 0 0 0 0 0 0 0 \n"
+    "node 1 1 1 3\nnode 2 1 0 2\ngene 1 1 2 -0.5 0 1 -0.5 1\ngenomeend 2\n";
+
+TEST(MachineFile, TakesGenomesAsTheyAre) {
+  const auto read = parse_machine_file(kGenome + std::string(kStop) + kGenome, "gen_0");
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  ASSERT_EQ(read->size(), 3U);
+  EXPECT_EQ(read->at(0).text,
+            "genomestart 2 trait 1 0.1 0 0 0 0 0 0 0 node 1 1 1 3 node 2 1 0 2 gene 1 1 2 -0.5 0 1 "
+            "-0.5 1 genomeend 2");
+  EXPECT_EQ(read->at(0).place, "gen_0:2");
+  EXPECT_EQ(read->at(0).name, "");
+  EXPECT_EQ(read->at(1).text, "--nstates 1 --s0 1");
+  EXPECT_EQ(read->at(2).place, "gen_0:10");
+}
+
+TEST(MachineFile, SaysOnceWhatAWrongFileSeemsToBe) {
+  const auto about = [](const std::string& text) {
+    const auto said = complaints_about(text);
+    return said.size() == 1 ? said.front() : std::to_string(said.size()) + " lines";
+  };
+  const std::string expected = "; expected machines, trees or networks as texts";
+  for (const auto& [text, kind] : std::vector<std::pair<std::string, std::string>>{
+           {std::string("SQLite format 3\0..", 18), "a store"},
+           {"\x89PNG\r\n\x1a\n....", "a picture (PNG)"},
+           {"\xff\xd8\xff\xe0....", "a picture (JPEG)"},
+           {"%PDF-1.4\n....", "a PDF"},
+           {"<?xml version=\"1.0\"?>\n<argos-configuration>\n</argos-configuration>\n",
+            "an experiment of ARGoS"},
+           {"<svg xmlns=\"http://www.w3.org/2000/svg\">\n</svg>\n", "a picture (SVG)"},
+           {"# mine\nformat = 1\nname = \"x\"\n\n[arena]\nside = 3\n", "a mission file"},
+           {"format = 1\n[campaign]\n[[mission]]\nname = \"aggregation\"\n[[method]]\nbaseline "
+            "= \"--nstates 1 --s0 1\"\n",
+            "a campaign file"},
+           {"format = 1\n[proximity]\nrange = 0.4\n", "a profile"},
+           {"{\"a\": 1,\n\"b\": 2}\n", "JSON"},
+           {"fsm_id,mission,fsm\nhA1,aggregation,--nstates 1 --s0 1\n", "a table (CSV)"},
+           {std::string("a\0b\nc\n", 6), "no text"}}) {
+    EXPECT_THAT(about(text), AllOf(HasSubstr("m.fsm: this is " + kind), HasSubstr(expected)));
+  }
+  std::string lines;
+  for (int i = 0; i < 80; ++i)
+    lines += "line " + std::to_string(i) + "\n";
+  EXPECT_THAT(about(lines), AllOf(HasSubstr("m.fsm:1: control software begins with"),
+                                  HasSubstr("79 more lines")));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ import { command, Empty, pairs, Panel, state_word, store_word, Table } from "../
 import { count, duration, number, percent, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
-import { History, SlotTimes, Status, Worker } from "../types";
+import { History, Quarantine, SlotTimes, Status, Worker } from "../types";
 
 /// Why slots idle, and what a person can do.
 interface Cause { name: string; why: string; todo: string }
@@ -93,6 +93,14 @@ function workers_table(workers: Worker[], is_running: boolean) {
       "connections"]} />;
 }
 
+function quarantine_table(quarantine: Quarantine[]) {
+  return quarantine.length > 0 && <div>
+    <Table<Quarantine> name="q" caption="In quarantine: these get nothing" rows={quarantine} row_class={() => "bad"} columns={[
+      { key: "who", show: ({ who, worker }) => worker ? `${who}, worker ${worker}` : who },
+      "since", { key: "reason", label: "because" }, { key: "workers", label: "here" }]} />
+    <p><small><code>swarmsmith forgive {store_word()} KEY|HOST</code> lets them work again.</small></p></div>;
+}
+
 export function Fleet({ live: { status, running } }: PageProps) {
   const launcher = status?.launcher;
   return <div>
@@ -109,7 +117,8 @@ export function Fleet({ live: { status, running } }: PageProps) {
         <Get<{ causes: Cause[] }> path="causes" render={(one) => slot_time(status, one.causes)} /></Panel>}
       {running && <Panel title="The last minutes"><Get<History> path="history" grows="t_s" every_s={2} render={past} /></Panel>}
       <Panel wide title="Workers, worst first" command={command("status", "--watch")}>
-        <Get<{ workers: Worker[] }> path="workers" every_s={running ? 1 : 30} render={(one) => workers_table(one.workers, running)} /></Panel>
+        <Get<{ workers: Worker[]; quarantine: Quarantine[] }> path="workers" every_s={running ? 1 : 30}
+          render={(one) => <div>{quarantine_table(one.quarantine)}{workers_table(one.workers, running)}</div>} /></Panel>
     </div>
   </div>;
 }

@@ -1,10 +1,11 @@
-#include "base/http/peer_user.h"
+#include "base/peer_user.h"
 
 #include <arpa/inet.h>
 #include <linux/inet_diag.h>
 #include <linux/netlink.h>
 #include <linux/sock_diag.h>
 #include <netinet/in.h>
+#include <pwd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <array>
@@ -16,10 +17,33 @@
 namespace swarmsmith {
 namespace {
 
+/// A descriptor that is closed at the end.
+struct Descriptor {
+  explicit Descriptor(int opened) : number(opened) {}
+  ~Descriptor() {
+    if (number >= 0) close(number);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number;
+};
+
 struct Ends {
   sockaddr_storage ours = {};
   sockaddr_storage theirs = {};
 };
+
+/// An IPv4 address within IPv6, as a socket of both families has it, as one of IPv4.
+void unmap(sockaddr_storage& end) {
+  const auto six = reinterpret_cast<const sockaddr_in6&>(end);
+  if (end.ss_family != AF_INET6 || !IN6_IS_ADDR_V4MAPPED(&six.sin6_addr)) return;
+  sockaddr_in four = {};
+  four.sin_family = AF_INET;
+  four.sin_port = six.sin6_port;
+  std::memcpy(&four.sin_addr, &six.sin6_addr.s6_addr[12], sizeof four.sin_addr);
+  end = {};
+  std::memcpy(&end, &four, sizeof four);
+}
 
 std::optional<Ends> ends_of(int socket) {
   Ends ends;
@@ -28,6 +52,8 @@ std::optional<Ends> ends_of(int socket) {
   size = sizeof ends.theirs;
   if (getpeername(socket, reinterpret_cast<sockaddr*>(&ends.theirs), &size) != 0)
     return std::nullopt;
+  unmap(ends.ours);
+  unmap(ends.theirs);
   return ends;
 }
 
@@ -129,6 +155,58 @@ std::optional<uid_t> user_of_peer(int socket) {
   // A kernel that knows our end and not theirs says that theirs is elsewhere.
   if (ask_kernel(ends->ours, ends->theirs)) return std::nullopt;
   return user_in_list(*ends);
+}
+
+bool is_same_user(uid_t user) {
+  return user == geteuid() || user == 0;
+}
+
+bool is_of_same_user(int socket) {
+  const auto user = user_of_peer(socket);
+  return user && is_same_user(*user);
+}
+
+std::optional<uid_t> user_who_listens(const std::string& number, int port) {
+  sockaddr_storage own = {};
+  auto& six = reinterpret_cast<sockaddr_in6&>(own);
+  auto& four = reinterpret_cast<sockaddr_in&>(own);
+  if (inet_pton(AF_INET, number.c_str(), &four.sin_addr) == 1) {
+    own.ss_family = AF_INET;
+  } else if (inet_pton(AF_INET6, number.c_str(), &six.sin6_addr) == 1) {
+    own.ss_family = AF_INET6;
+  } else {
+    return std::nullopt;
+  }
+  four.sin_port = htons(static_cast<std::uint16_t>(port));  // where IPv6 has it, too
+  sockaddr_storage none = {};
+  none.ss_family = own.ss_family;
+  const auto found = ask_kernel(own, none);
+  return found ? holder(found->idiag_uid, found->idiag_inode) : std::nullopt;
+}
+
+bool kernel_names_users() {
+  const Descriptor listening(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const Descriptor theirs(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  auto* const place = reinterpret_cast<sockaddr*>(&address);
+  socklen_t size = sizeof address;
+  if (bind(listening.number, place, size) != 0 || listen(listening.number, 1) != 0 ||
+      getsockname(listening.number, place, &size) != 0 ||
+      connect(theirs.number, place, size) != 0) {
+    return false;
+  }
+  const Descriptor ours(accept4(listening.number, nullptr, nullptr, SOCK_CLOEXEC));
+  return user_of_peer(ours.number) == geteuid();
+}
+
+std::string name_of_user(uid_t user) {
+  std::array<char, 4096> room{};
+  passwd entry = {};
+  passwd* found = nullptr;
+  getpwuid_r(user, &entry, room.data(), room.size(), &found);
+  return found != nullptr ? std::string(found->pw_name) : std::to_string(user);
 }
 
 std::string address_of_peer(int socket) {

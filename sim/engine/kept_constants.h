@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "sim/mission/solid.h"
+
+namespace swarmsmith {
+
+/// What a robot of another shape keeps of the RVR.
+struct KeptConstants {
+  double mass_kg = 0;
+  double drive_N = 0;
+  double treads_m = 0;                    ///< their distance
+  double ground_sensor_m = 0;             ///< ahead of the centre
+  bool ground_sensor_is_outside = false;  ///< of this body
+  double height_m = 0;
+  double neighbours_m = 0;  ///< how far they are seen
+};
+
+/// Nothing for the RVR's own body.
+std::optional<KeptConstants> kept_constants(const Outline& body);
+
+}  // namespace swarmsmith

@@ -1,0 +1,152 @@
+#include "storage/internal/row_sums.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace swarmsmith {
+namespace {
+
+using sqlite::Statement;
+
+constexpr std::string_view kKey = "row_sums";
+
+struct Summed {
+  const char* table;
+  const char* cells;
+  const char* rest = "";
+};
+
+/// In the order of RowSums::Table. The columns of a row that is written once are all of it.
+constexpr std::array<Summed, RowSums::kTables> kSummed{{
+    {"candidate",
+     "id, iteration, parent, states, transitions, modules, machine, parameters, code, module_code"},
+    {"phrase", "id, machine, parameters, modules"},
+    {"source", "id, name"},
+    {"pair", "design, purpose, number, instance, seed"},
+    {"evaluation",
+     "candidate, purpose, pair, status, score, state_digest, source, wall_us, worker, attempt,"
+     " time, bound"},
+    {"evaluation", "candidate, purpose, pair, iteration", " WHERE iteration IS NOT NULL"},
+    {"iteration",
+     "design, number, planned, budget, configurations, elites, soft_restart, model_digest,"
+     " postselection"},
+    {"race_step",
+     "design, step, iteration, pair, marker, evaluated, alive_before, alive_after, best, mean_best,"
+     " used, statistic, p_value, kendall_w, spearman_rho, qvar, digest, bound"},
+    {"elimination", "candidate, iteration, step, rank_sum, reason"},
+    {"elite", "design, iteration, rank, candidate, mean, runs"},
+    {"candidate_totals", "candidate, runs, score_sum, score_squares"},
+    {"design", "id, state, used, iteration, best, best_mean, reason"},
+    {"campaign", "id, state"},
+    {"command", "number, kind, design, step, budget, who"},
+}};
+
+}  // namespace
+
+RowHash& RowHash::add(std::string_view text) {
+  add(4, text.size());
+  for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
+    add(5, word);
+  }
+  return *this;
+}
+
+std::string cells_of_rows(RowSums::Table table) {
+  const Summed& summed = kSummed[static_cast<std::size_t>(table)];
+  return fmt::format("SELECT {} FROM {}{}", summed.cells, summed.table, summed.rest);
+}
+
+std::uint64_t hash_of(const Statement& row) {
+  RowHash hash;
+  const int columns = sqlite3_column_count(row.handle());
+  for (int column = 0; column < columns; ++column) {
+    switch (sqlite3_column_type(row.handle(), column)) {
+      case SQLITE_NULL:
+        hash.add(std::nullopt);
+        break;
+      case SQLITE_INTEGER:
+        hash.add(row.integer(column));
+        break;
+      case SQLITE_FLOAT:
+        hash.add(row.real(column));
+        break;
+      default: {
+        const auto* bytes = static_cast<const char*>(sqlite3_column_blob(row.handle(), column));
+        const int size = sqlite3_column_bytes(row.handle(), column);
+        hash.add(std::string_view(bytes == nullptr ? "" : bytes, static_cast<std::size_t>(size)));
+      }
+    }
+  }
+  return hash.value();
+}
+
+std::optional<RowSums> RowSums::stored(const sqlite::Connection& connection) {
+  Statement row(connection, "SELECT value FROM meta WHERE key = ?");
+  row.bind(kKey);
+  if (!row.step()) return std::nullopt;
+  const std::string text = row.text(0);
+  RowSums sums;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  // "1200 8f2a... 17 90ab...": a number of rows and a sum, table by table.
+  for (Sum& sum : sums.sums_) {
+    const auto rows = std::from_chars(at, end, sum.rows);
+    if (rows.ec != std::errc() || rows.ptr == end) return RowSums();
+    const auto hash = std::from_chars(rows.ptr + 1, end, sum.sum, 16);
+    if (hash.ec != std::errc()) return RowSums();
+    at = hash.ptr == end ? end : hash.ptr + 1;
+  }
+  return sums;
+}
+
+RowSums RowSums::found(const sqlite::Connection& connection) {
+  RowSums sums;
+  for (std::size_t i = 0; i < kTables; ++i)
+    sums.count(connection, static_cast<Table>(i));
+  return sums;
+}
+
+void RowSums::count(const sqlite::Connection& connection, Table table) {
+  of(table) = {};
+  Statement row(connection, cells_of_rows(table));
+  while (row.step())
+    add(table, hash_of(row));
+}
+
+void RowSums::write(const sqlite::Connection& connection) const {
+  std::string text;
+  for (const Sum& sum : sums_)
+    text += fmt::format("{}{} {:016x}", text.empty() ? "" : " ", sum.rows, sum.sum);
+  Statement(connection, "INSERT OR REPLACE INTO meta VALUES (?,?)").run(kKey, text);
+}
+
+std::string RowSums::differences(const RowSums& found) const {
+  std::string text;
+  for (std::size_t i = 0; i < kTables; ++i) {
+    if (sums_[i] == found.sums_[i]) continue;
+    if (i == static_cast<std::size_t>(Table::Used) && text.find("evaluation") != std::string::npos)
+      continue;
+    text += fmt::format("{}{} (", text.empty() ? "" : ", ", kSummed[i].table);
+    text += sums_[i].rows == found.sums_[i].rows
+                ? "other values)"
+                : fmt::format("{} rows for {})", found.sums_[i].rows, sums_[i].rows);
+  }
+  return text;
+}
+
+std::string changed_rows(const sqlite::Connection& connection) {
+  const auto stored = RowSums::stored(connection);
+  if (!stored) return {};
+  const std::string differences = stored->differences(RowSums::found(connection));
+  if (differences.empty()) return {};
+  return "its rows are not those that were committed last: " + differences +
+         "; another program has changed them, or the file is a copy that was made while a campaign "
+         "wrote the store (`swarmsmith backup` makes whole ones)";
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/hash.h"
+#include "storage/internal/sqlite.h"
+
+namespace swarmsmith {
+
+/// A hash of the cells of a row in order, by type and value. Finds damage, and is no defence
+/// against somebody who makes it on purpose.
+class RowHash {
+ public:
+  RowHash& add(std::int64_t value) { return add(1, static_cast<std::uint64_t>(value)); }
+  RowHash& add(std::uint64_t value) { return add(1, value); }
+  RowHash& add(int value) { return add(static_cast<std::int64_t>(value)); }
+  RowHash& add(bool value) { return add(static_cast<std::int64_t>(value)); }
+  RowHash& add(double value) { return add(2, std::bit_cast<std::uint64_t>(value + 0.0)); }
+  RowHash& add(const double* value) { return value != nullptr ? add(*value) : add(std::nullopt); }
+  RowHash& add(std::nullopt_t) { return add(3, 0); }
+  RowHash& add(std::string_view text);
+  RowHash& add(const std::string& text) { return add(std::string_view(text)); }
+  template <class T>
+  RowHash& add(const std::optional<T>& value) {
+    return value ? add(*value) : add(std::nullopt);
+  }
+  std::uint64_t value() const { return state_; }
+
+  template <class... Cells>
+  static std::uint64_t of(const Cells&... cells) {
+    RowHash hash;
+    (hash.add(cells), ...);
+    return hash.value();
+  }
+
+ private:
+  RowHash& add(std::uint64_t type, std::uint64_t bits) {
+    state_ = mix64((state_ ^ bits) + type * 0x9e3779b97f4a7c15U);
+    return *this;
+  }
+
+  std::uint64_t state_ = 0x243f6a8885a308d3U;
+};
+
+/// For each table of the answer how many rows it has, and a sum over them. Each commit writes it,
+/// so that any state of a file whose rows give what it says is one that its writer committed: not
+/// one in which another program has changed, added or removed rows, and not a copy of which some
+/// pages are older than others. SQLite's own checks find neither.
+class RowSums {
+ public:
+  /// `Used`: the iterations of evaluations, which come and go.
+  enum class Table {
+    Candidate,
+    Phrase,
+    Source,
+    Pair,
+    Evaluation,
+    Used,
+    Iteration,
+    RaceStep,
+    Elimination,
+    Elite,
+    Totals,
+    Design,
+    Campaign,
+    Command,
+  };
+  static constexpr std::size_t kTables = 14;
+
+  void add(Table table, std::uint64_t hash) {
+    ++of(table).rows;
+    of(table).sum += hash;
+  }
+  void remove(Table table, std::uint64_t hash) {
+    --of(table).rows;
+    of(table).sum -= hash;
+  }
+  void replace(Table table, std::uint64_t old_hash, std::uint64_t hash) {
+    of(table).sum += hash - old_hash;
+  }
+
+  /// As the last commit wrote them; none in a store of a version that did not. Throws SqliteError.
+  static std::optional<RowSums> stored(const sqlite::Connection& connection);
+  /// Of the rows that are there.
+  static RowSums found(const sqlite::Connection& connection);
+  /// One table is counted anew.
+  void count(const sqlite::Connection& connection, Table table);
+  void write(const sqlite::Connection& connection) const;
+
+  /// "evaluation (1190 rows, 1200 were committed), elite (other values)": what was found, against
+  /// these; empty when they agree.
+  std::string differences(const RowSums& found) const;
+
+  friend bool operator==(const RowSums&, const RowSums&) = default;
+
+ private:
+  struct Sum {
+    std::int64_t rows = 0;
+    std::uint64_t sum = 0;
+    friend bool operator==(const Sum&, const Sum&) = default;
+  };
+  Sum& of(Table table) { return sums_[static_cast<std::size_t>(table)]; }
+
+  std::array<Sum, kTables> sums_{};
+};
+
+/// The cells of a table's rows that a sum is over: a SELECT without a condition.
+std::string cells_of_rows(RowSums::Table table);
+/// The hash of the row at which a statement of `cells_of_rows` stands.
+std::uint64_t hash_of(const sqlite::Statement& row);
+
+/// A sentence's end about rows that are not those that were committed; empty when all are, or when
+/// the store does not say. Throws SqliteError.
+std::string changed_rows(const sqlite::Connection& connection);
+
+}  // namespace swarmsmith

@@ -1,0 +1,197 @@
+#include "storage/internal/schema_check.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "storage/internal/row_reader.h"
+#include "storage/internal/schema.h"
+
+namespace swarmsmith {
+namespace {
+
+using sqlite::Connection;
+using sqlite::Statement;
+
+struct Column {
+  std::string name;
+  std::string type;
+  bool hidden = false;  ///< generated, or of a virtual table
+
+  friend bool operator==(const Column&, const Column&) = default;
+};
+
+/// Type and name, to the table that it belongs to and the text that makes it.
+using Objects = std::map<std::pair<std::string, std::string>, std::pair<std::string, std::string>>;
+
+/// Without what SQLite may write otherwise when it changes a text: blanks and quotes.
+std::string bare(std::string text) {
+  std::erase_if(text, [](char c) {
+    return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '"' || c == '`' || c == '[' ||
+           c == ']';
+  });
+  return text;
+}
+
+Objects objects_of(const Connection& connection, bool with_views) {
+  Objects objects;
+  Statement row(connection,
+                "SELECT type, name, tbl_name, coalesce(sql, '') FROM sqlite_schema"
+                " WHERE name NOT GLOB 'sqlite_stat[134]'");
+  while (row.step()) {
+    if (!with_views && row.text(0) == "view") continue;
+    objects[{row.text(0), row.text(1)}] = {row.text(2), bare(row.text(3))};
+  }
+  return objects;
+}
+
+Connection made_anew(std::int64_t schema, bool with_views) {
+  Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  create_tables(memory, schema);
+  if (with_views) finish_schema(memory, schema);
+  return memory;
+}
+
+/// Virtual ones are none.
+std::vector<std::string> tables_of(const Connection& connection) {
+  std::vector<std::string> names;
+  Statement table(connection,
+                  "SELECT name FROM main.sqlite_schema WHERE type = 'table' AND rootpage > 0"
+                  " AND name NOT GLOB 'sqlite_*' ORDER BY name");
+  while (table.step())
+    names.push_back(table.text(0));
+  return names;
+}
+
+std::vector<Column> columns_of(const Connection& connection, const std::string& table) {
+  std::vector<Column> columns;
+  Statement column(connection,
+                   "SELECT name, type, hidden FROM pragma_table_xinfo(?, 'main') ORDER BY cid");
+  column.bind(table);
+  while (column.step())
+    columns.push_back({column.text(0), column.text(1), column.integer(2) != 0});
+  return columns;
+}
+
+/// "column note added, column score missing"; "another text" when the columns are ours.
+std::string difference(const std::vector<Column>& wanted, const std::vector<Column>& found) {
+  std::vector<std::string> parts;
+  const auto differ = [&](const auto& all, const auto& some, const char* what) {
+    for (const Column& column : some) {
+      if (std::ranges::find(all, column) == all.end())
+        parts.push_back(fmt::format("column {} {}", column.name, what));
+    }
+  };
+  differ(wanted, found, "added");
+  differ(found, wanted, "missing");
+  return parts.empty() ? "another text" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+using Tables = std::vector<std::pair<std::string, std::vector<Column>>>;
+
+/// Ours of a schema; made once.
+const Tables& tables_made(std::int64_t schema) {
+  static std::mutex mutex;
+  static std::map<std::int64_t, Tables> made;
+  const std::scoped_lock lock(mutex);
+  const auto [known, is_new] = made.try_emplace(schema);
+  if (!is_new) return known->second;
+  const Connection ours = made_anew(schema, false);
+  for (const std::string& table : tables_of(ours))
+    known->second.emplace_back(table, columns_of(ours, table));
+  return known->second;
+}
+
+constexpr const char* kNotOurs = "is not as Swarmsmith made it";
+
+}  // namespace
+
+std::vector<std::string> foreign_objects(const Connection& connection, std::int64_t schema) {
+  const bool with_views = schema == kSchemaVersion;
+  const Connection ours = made_anew(schema, with_views);
+  const Objects wanted = objects_of(ours, with_views);
+  const Objects found = objects_of(connection, with_views);
+  std::vector<std::string> foreign;
+  for (const auto& [key, what] : found) {
+    const auto& [type, name] = key;
+    const auto known = wanted.find(key);
+    if (known == wanted.end()) {
+      foreign.push_back(type + " " + name);
+    } else if (known->second != what) {
+      const std::string how = type == "table"
+                                  ? difference(columns_of(ours, name), columns_of(connection, name))
+                                  : "another text";
+      foreign.push_back(fmt::format("{} {} ({})", type, name, how));
+    }
+  }
+  for (const auto& [key, what] : wanted) {
+    if (!found.contains(key)) foreign.push_back(key.first + " " + key.second + " (missing)");
+  }
+  return foreign;
+}
+
+std::string listed_objects(const std::vector<std::string>& objects) {
+  constexpr std::size_t kMost = 10;
+  const std::size_t shown = std::min(objects.size(), kMost);
+  std::string text = fmt::format("{}", fmt::join(std::span(objects).first(shown), ", "));
+  if (objects.size() > shown) text += fmt::format(" and {} more", objects.size() - shown);
+  return text;
+}
+
+Expected<void> check_schema(const Connection& connection, const std::filesystem::path& path) {
+  const auto foreign = foreign_objects(connection, schema_of(connection));
+  if (foreign.empty()) return {};
+  return unexpected(
+      ErrorKind::Corrupt,
+      fmt::format("the store's schema is not as Swarmsmith made it: {}; nothing is written to it. "
+                  "`swarmsmith backup {} copy.db` copies our rows alone into a new store, which "
+                  "can be used in its place",
+                  listed_objects(foreign), path.filename().string()),
+      path.string());
+}
+
+Expected<void> check_tables(const Connection& connection, const std::filesystem::path& path) {
+  const std::vector<std::string> found = tables_of(connection);
+  for (const auto& [table, wanted] : tables_made(schema_of(connection))) {
+    std::string how;
+    if (std::ranges::find(found, table) == found.end()) {
+      how = "it is missing, or no table";
+    } else {
+      std::vector<Column> has = columns_of(connection, table);
+      if (has.size() > wanted.size()) has.resize(wanted.size());
+      if (wanted != has) how = difference(wanted, has);
+    }
+    if (how.empty()) continue;
+    return unexpected(ErrorKind::Corrupt,
+                      fmt::format("the store's table {} {} ({}); take the store from a backup, or "
+                                  "let `swarmsmith recover` make a new one of what can be read",
+                                  table, kNotOurs, how),
+                      path.string());
+  }
+  return {};
+}
+
+void copy_rows(const Connection& from, const Connection& to) {
+  for (const std::string& table : tables_of(to)) {
+    std::vector<std::string> names;
+    for (const Column& column : columns_of(to, table))
+      names.push_back(column.name);
+    const std::string columns = fmt::format("{}", fmt::join(names, ", "));
+    const std::vector<std::string> values(names.size(), "?");
+    Statement row(from, fmt::format("SELECT {} FROM main.{}", columns, table));
+    Statement put(
+        to, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, fmt::join(values, ",")));
+    while (row.step()) {
+      put.reset();
+      for (int i = 0; i < static_cast<int>(names.size()); ++i)
+        sqlite3_bind_value(put.handle(), i + 1, sqlite3_column_value(row.handle(), i));
+      put.step();
+    }
+  }
+}
+
+}  // namespace swarmsmith

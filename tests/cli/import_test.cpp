@@ -1,0 +1,195 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/cli/cli_support.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Aggregation with five robots for ten seconds, as heads of exported files have it, and as a file.
+const std::string kMission =
+    "name = \"cave\"\npreset = \"aggregation\"\nrobots = 5\nduration = \"10 s\"\n";
+const std::string kHead =
+    "#: format = 1\n#: flavour = \"watermelon\"\n#: profile = \"argos3\"\n#: [[mission]]\n"
+    "#: name = \"cave\"\n#: preset = \"aggregation\"\n#: robots = 5\n#: duration = \"10 s\"\n";
+
+std::ptrdiff_t lines_in(const std::string& text) {
+  return std::ranges::count(text, '\n');
+}
+
+class Import : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) {
+    write_file(folder_ / name, text);
+    return (folder_ / name).string();
+  }
+
+  TemporaryFolder folder_;
+  std::string store_ = (folder_ / "q.db").string();
+};
+
+/// Scores alone, without who has them.
+std::vector<std::string> scores_in(const std::string& json_lines) {
+  std::vector<std::string> scores;
+  std::istringstream lines(json_lines);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find("\"score\"");
+    scores.push_back(line.substr(at, line.find_first_of(",}", at) - at));
+  }
+  return scores;
+}
+
+TEST_F(Import, KeepsTheWholeMissionAndProfileOfAHead) {
+  const std::string machines = file("m.fsm", kHead + kExploreText + "\n");
+  const Ran imported = run({"import", machines, "--into", store_});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  const Ran direct = run({"evaluate", machines, "--seeds", "1-3", "--json"});
+  ASSERT_EQ(direct.code, 0) << direct.err;
+  const Ran stored = run({"evaluate", "best", store_, "--seeds", "1-3", "--json", "--no-store"});
+  ASSERT_EQ(stored.code, 0) << stored.err;
+  EXPECT_EQ(scores_in(stored.out), scores_in(direct.out));
+  EXPECT_THAT(stored.out, HasSubstr("argos3"));
+  // What is exported again says it, too.
+  const Ran exported = run({"export", store_, "--design", "d1"});
+  ASSERT_EQ(exported.code, 0) << exported.err;
+  EXPECT_THAT(exported.out, AllOf(HasSubstr("#: robots = 5\n"), HasSubstr("\"argos3\"")));
+}
+
+TEST_F(Import, TakesAMissionFile) {
+  const std::string mission = file("cave.toml", "format = 1\n" + kMission);
+  const std::string machines = file("m.txt", "a " + kExploreText + "\nb " + kStopText + "\n");
+  const Ran all =
+      run({"import", machines, "--flavour", "watermelon", "--mission", mission, "--into", store_});
+  ASSERT_EQ(all.code, 0) << all.err;
+  const std::string table = file("m.csv", "mission,fsm\nhole," + kExploreText + "\n");
+  const Ran one = run({"import", table, "--flavour", "watermelon", "--mission", "hole=" + mission,
+                       "--into", store_});
+  ASSERT_EQ(one.code, 0) << one.err;
+  const Ran direct = run({"evaluate", machines, "--flavour", "watermelon", "--mission", mission,
+                          "--seeds", "7", "--json"});
+  const Ran stored = run({"evaluate", "best", store_, "--seeds", "7", "--json"});
+  ASSERT_EQ(stored.code, 0) << stored.err;
+  auto wanted = scores_in(direct.out);
+  wanted.push_back(wanted.front());
+  EXPECT_EQ(scores_in(stored.out), wanted);
+  const Ran missing = run({"import", machines, "--flavour", "watermelon", "--mission",
+                           (folder_ / "none.toml").string(), "--into", store_});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("none.toml"));
+}
+
+TEST_F(Import, SaysThatTheStoreHasAnotherMissionOfThisName) {
+  write_store(store_);  // of the built-in aggregation
+  const auto imported = [&](const std::string& robots) {
+    const std::string head =
+        "#: format = 1\n#: flavour = \"watermelon\"\n#: [[mission]]\n"
+        "#: name = \"aggregation\"\n#: preset = \"aggregation\"\n" +
+        robots;
+    return run({"import", file("m.fsm", head + kExploreText + "\n"), "--into", store_});
+  };
+  EXPECT_EQ(imported("").err, "");
+  const Ran other = imported("#: robots = 7\n");
+  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("d1 of the store has another mission aggregation"));
+}
+
+TEST_F(Import, RefusesMachinesBehindOptionsOfAnotherProgram) {
+  const std::string machines =
+      file("ho.txt", " --robots 22 --rabsi 2 --rabar 0.7 " + kStopText + "\n");
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"import", machines, "--flavour", "chocolate", "--mission", "aggregation", "--into",
+            store_},
+           {"evaluate", machines, "--flavour", "chocolate", "--mission", "aggregation"},
+           {"evaluate", "--robots 22 --rabsi 2 --rabar 0.7 " + kStopText, "--flavour", "chocolate",
+            "--mission", "aggregation"}}) {
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_THAT(ran.err, HasSubstr("`--robots`, `--rabsi`, `--rabar`"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(store_));
+  const Ran words = run({"evaluate", "--robots", "22", "--nstates", "1", "--s0", "1", "--flavour",
+                         "chocolate", "--mission", "aggregation"});
+  EXPECT_EQ(words.code, 2);
+  EXPECT_THAT(words.err, HasSubstr("--robots"));
+}
+
+TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
+  std::string genome = "/*Fitness: 8.5*/\ngenomestart 1\n";
+  for (int i = 1; i <= 17; ++i)
+    genome += "node " + std::to_string(i) + (i <= 15 ? " 0 1 " : " 0 0 ") +
+              (i < 15    ? "1"
+               : i == 15 ? "3"
+                         : "2") +
+              "\n";
+  for (int i = 0; i < 30; ++i)
+    genome += "gene 0 " + std::to_string(i % 15 + 1) + (i < 15 ? " 16 " : " 17 ") + "0.5 0 0 1 1\n";
+  genome += "genomeend 1\n";
+  const std::string gen = file("gen_0", genome);
+  const Ran scored = run({"evaluate", gen, "--flavour", "chocolate", "--mission", "aggregation",
+                          "--seeds", "1", "--json"});
+  ASSERT_EQ(scored.code, 0) << scored.err;
+  EXPECT_THAT(scored.err, HasSubstr("read neighbours and floor in other units"));
+  std::string weights = "0.5";
+  for (int i = 1; i < 30; ++i)
+    weights += ",0.5";
+  EXPECT_EQ(scores_in(run({"evaluate", "--network", "rm1.2", "--weights", weights, "--flavour",
+                           "chocolate", "--mission", "aggregation", "--seeds", "1", "--json"})
+                          .out),
+            scores_in(scored.out));
+  ASSERT_EQ(
+      run({"import", gen, "--flavour", "chocolate", "--mission", "aggregation", "--into", store_})
+          .code,
+      0);
+  EXPECT_THAT(run({"show", "c1", store_}).out, HasSubstr("--network rm1.2 --weights 0.5,"));
+
+  const std::vector<std::string> old = {"--rootnode", "0", "--nchildsroot", "1", "--n0",   "0",
+                                        "--nc0",      "1", "--c0x0",        "0", "--p0x0", "0.5",
+                                        "--a0",       "1"};
+  std::vector<std::string> words = {"evaluate"};
+  words.insert(words.end(), old.begin(), old.end());
+  for (const char* word : {"--flavour", "chocolate", "--mission", "aggregation", "--seeds", "1"})
+    words.emplace_back(word);
+  const Ran tree = run(words);
+  EXPECT_EQ(tree.code, 0) << tree.err;
+  std::string text;
+  for (const std::string& word : old)
+    text += word + " ";
+  const std::string trees = file("bt.txt", " " + text + "\n");
+  ASSERT_EQ(
+      run({"import", trees, "--flavour", "chocolate", "--mission", "aggregation", "--into", store_})
+          .code,
+      0);
+  const Ran modules =
+      run({"query", "SELECT module, occurrences FROM v_modules ORDER BY module", store_, "--csv"});
+  EXPECT_EQ(modules.out, "module,occurrences\nblack_floor,1\nstop,1\n");
+  EXPECT_EQ(run({"figure", "machine", store_, "c1000001", "-o", (folder_ / "t.svg").string()}).code,
+            0);
+}
+
+TEST_F(Import, SaysOnceThatAFileIsOfAnotherKind) {
+  const std::string mission = file("cave.toml", "format = 1\n" + kMission);
+  const std::string picture = file("p.png", "\x89PNG\r\n\x1a\nnothing\nmore\n");
+  write_store((folder_ / "demo.db").string());
+  for (const std::string& wrong : {mission, picture}) {
+    for (const auto& words : std::vector<std::vector<std::string>>{
+             {"evaluate", wrong, "--flavour", "chocolate", "--mission", "aggregation"},
+             {"import", wrong, "--flavour", "chocolate", "--into", store_}}) {
+      const Ran ran = run(words);
+      EXPECT_EQ(ran.code, 2);
+      EXPECT_THAT(ran.err, AllOf(HasSubstr(wrong + ": this is a "), HasSubstr("; expected ")));
+      EXPECT_LE(lines_in(ran.err), 2) << ran.err;
+    }
+  }
+  const Ran store =
+      run({"import", (folder_ / "demo.db").string(), "--flavour", "chocolate", "--into", store_});
+  EXPECT_EQ(store.code, 2);
+  EXPECT_THAT(store.err, HasSubstr("this is a store"));
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

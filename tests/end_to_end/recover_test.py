@@ -1,0 +1,181 @@
+"""`recover` of an undamaged store gives its answer again, whatever is in it."""
+import contextlib
+import json
+import os
+import pathlib
+import shutil
+import sqlite3
+import subprocess
+import sys
+import unittest
+
+from programs import ProgramTest, call
+
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
+STORES = SOURCE / "tests" / "golden" / "stores"
+
+#: Searches of each kind, under a further profile.
+CAMPAIGN = """\
+format = 1
+
+[campaign]
+name = "kinds"
+seed = 5
+repetitions = {repetitions}
+store = "unused.db"
+
+[[mission]]
+name = "aggregation"
+duration = "5 s"
+  [mission.instances]
+  test = {{ count = 6 }}
+{methods}
+[race]
+max_experiments = {budget}
+
+[tests]
+profiles = ["rvr", "pseudo-reality"]
+"""
+
+METHODS = {
+    "machine": "",
+    "random": "",
+    "evostick": "[method.evolution]\npopulation = 10\nruns = 3\nfinal_runs = 5",
+    "cma-es": "[method.cma-es]\npopulation = 10\nruns = 3\nfinal_runs = 5",
+    "icepop": "",
+    "maple": "",
+}
+
+SCENARIO = """\
+targetRunner = "./target-runner"
+targetEvaluator = "./target-evaluator"
+trainInstancesFile = "train.txt"
+testInstancesFile = "test.txt"
+parameterFile = "parameters.txt"
+maxExperiments = 180
+seed = 42
+testIterationElites = 1
+"""
+
+TUNER = """
+import swarmsmith
+swarmsmith.tune(lambda trial: abs(trial.configuration["x"] - 0.3), {"x": swarmsmith.Real(0, 1)},
+                max_experiments=150, seed=1, store="tuned.db")
+"""
+
+
+class Recover(ProgramTest):
+    def done(self, *arguments, cwd=None):
+        process = call(*arguments, cwd=cwd)
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        return process.stdout
+
+    def run_kinds(self, store, methods, repetitions=1, budget=1400):
+        tables = "".join(f'\n[[method]]\nname = "{name}"\n' + (f'method = "{name}"\n' if name != "machine" else "") +
+                         METHODS[name] + "\n" for name in methods)
+        self.file.write_text(CAMPAIGN.format(methods=tables, repetitions=repetitions, budget=budget))
+        done = self.run_campaign(store, "--workers", "2")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def count(self, store):
+        """Rows of each table; what programs say of themselves is not in it."""
+        tables = [row["name"] for row in self.query(store, "SELECT name FROM sqlite_master WHERE type = 'table'"
+                                                           " AND name NOT LIKE 'sqlite_%' AND name <> 'meta'")]
+        return {table: self.query(store, f"SELECT count(*) AS n FROM {table}")[0]["n"] for table in tables}
+
+    def recovered(self, store, replayed=True, sample=("--sample", "10")):
+        """The same answer, all rows, and as clean as before; `replayed`: this version plays its races."""
+        out = store.with_name("recovered-" + store.name)
+        said = json.loads(self.done("recover", store, "-o", out, "--json"))
+        self.assertEqual(said["orphans"], 0, said)
+        if replayed:
+            self.assertEqual(said["complaints"], [])
+        self.assertEqual(sum(design["unasked"] for design in said["designs"]), 0, said)
+        self.assertEqual(self.digest(out), self.digest(store))
+        if replayed:
+            self.assertEqual(self.count(out), self.count(store))
+            self.done("verify", out, *sample)
+        return out
+
+    def test_of_every_search_under_further_profiles(self):
+        store = self.folder / "kinds.db"
+        self.run_kinds(store, METHODS)
+        self.done("evaluate", "best", store, "--seeds", "1-3")
+        found = {row["purpose"] for row in self.query(store, "SELECT DISTINCT purpose FROM v_evaluations")}
+        self.assertLessEqual({"race", "test", "transfer", "score"}, found)
+        self.recovered(store)
+        self.a_test_under_a_further_profile_is_found(store)
+
+    def a_test_under_a_further_profile_is_found(self, store):
+        """Its id is that of the views, in what evaluates it again and in what misses it."""
+        [one] = self.query(store, "SELECT id, candidate, seed, score FROM v_evaluations WHERE purpose = 'transfer'"
+                                  " ORDER BY pair LIMIT 1")
+        again = json.loads(self.done("evaluate", f"c{one['candidate']}", store, "--profile", "pseudo-reality",
+                                     "--seeds", one["seed"], "--json").splitlines()[0])
+        self.assertEqual(again["score"], one["score"])
+        with contextlib.closing(sqlite3.connect(store)) as db:
+            db.execute("DELETE FROM evaluation WHERE purpose = 6 AND candidate = ? AND pair = ?",
+                       (one["candidate"], int(one["id"][1:-1]) % 100_000))
+            db.commit()
+        done = call("verify", store, "--sample", "0")
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertIn(one["id"], done.stdout + done.stderr)
+
+    def test_after_commands_and_merged(self):
+        one, two, both = (self.folder / name for name in ("one.db", "two.db", "both.db"))
+        self.run_campaign(one, "--workers", "1")
+        self.done("extend", one, "d1", "--budget", "200")
+        self.run_campaign(one, "--workers", "1")
+        self.recovered(one)
+        self.run_kinds(two, ["random"], repetitions=2)
+        self.done("merge", one, two, "-o", both)
+        self.recovered(both)
+
+    def test_of_a_cancelled_design(self):
+        store = self.folder / "cancelled.db"
+        process = self.start_campaign(store, "--workers", "1")
+        self.until(lambda: call("cancel", store, "d1").returncode == 0 or process.poll() is not None, "no command")
+        process.wait(60)
+        self.recovered(store)
+
+    def test_of_results_from_elsewhere(self):
+        store = self.folder / "imported.db"
+        self.done("import", SOURCE / "tests/golden/argos/argos-thesis-designs.csv", "--flavour", "watermelon-argos3",
+                  "--mission", "grid=grid_exploration", "--mission", "color=color_selection", "--into", store)
+        self.recovered(store)
+        log = self.folder / "log.db"
+        self.done("import", SOURCE / "tests/golden/irace/log-acotsp", "--into", log)
+        self.recovered(log)
+
+    def test_of_irace_with_an_evaluator(self):
+        for name, last in (("target-runner", "exit 0"), ("target-evaluator", "echo $(( ($3 + $1 * 7) % 101 ))")):
+            file = self.folder / name
+            file.write_text(f"#!/bin/sh\n{last}\n")
+            file.chmod(0o755)
+        (self.folder / "parameters.txt").write_text('x "--x " i (0,100)\n')
+        (self.folder / "train.txt").write_text("1\n2\n3\n")
+        (self.folder / "test.txt").write_text("4\n5\n")
+        (self.folder / "scenario.txt").write_text(SCENARIO)
+        self.done("irace", "--scenario", "scenario.txt", "--store", "irace.db", cwd=self.folder)
+        store = self.folder / "irace.db"
+        self.assertIn({"purpose": "evaluator"}, self.query(store, "SELECT DISTINCT purpose FROM v_evaluations"))
+        self.recovered(store, sample=())
+
+    def test_of_a_tuned_function(self):
+        done = subprocess.run([sys.executable, "-c", TUNER], cwd=self.folder, capture_output=True, text=True, timeout=120,
+                              env={**os.environ, "PYTHONPATH": str(SOURCE / "analysis" / "python")})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.recovered(self.folder / "tuned.db", sample=())
+
+    def test_of_stores_of_earlier_versions(self):
+        for golden in sorted(STORES.glob("*.sqlite")):
+            with self.subTest(golden.name):
+                store = self.folder / golden.name
+                for ending in ("", "-wal", "-shm"):
+                    if pathlib.Path(f"{golden}{ending}").exists():
+                        shutil.copy(f"{golden}{ending}", f"{store}{ending}")
+                self.recovered(store, replayed=False)
+
+
+if __name__ == "__main__":
+    unittest.main()
