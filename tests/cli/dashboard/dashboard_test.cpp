@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <latch>
 #include <mutex>
@@ -47,6 +48,7 @@ class DashboardTest : public WithStore {
     DashboardOptions dashboard{.stores = {{store_, 0}}};
     dashboard.program = SWARMSMITH_BIN_DIR "/swarmsmith";
     dashboard.version = "swarmsmith test";
+    dashboard.patience = patience_;
     dashboard.act = [this](const std::filesystem::path&, const CommandRow& command) {
       commands_.push_back(command);
       return Expected<std::string>("done");
@@ -71,8 +73,40 @@ class DashboardTest : public WithStore {
   std::shared_ptr<HttpSite> site_;
   std::unique_ptr<HttpServer> server_;
   std::vector<CommandRow> commands_;
+  /// Of a loaded machine, too, answers are wanted.
+  std::chrono::milliseconds patience_ = std::chrono::hours(1);
   int port_ = 0;
 };
+
+TEST_F(DashboardTest, WhatTakesLongIsToldAndFetchedFromTheSameAddress) {
+  patience_ = std::chrono::milliseconds(0);
+  serve();
+  int told = 0;
+  // Each width is another question.
+  for (int width = 60; width < 80; ++width) {
+    const std::string path =
+        "/api/v1/c1/figures/convergence.csv?width=" + std::to_string(width) + "mm";
+    std::string answer = get(path);
+    while (answer.starts_with("HTTP/1.1 202")) {
+      ++told;
+      EXPECT_EQ(header_of(answer, "Location"), path);
+      EXPECT_EQ(header_of(answer, "Retry-After"), "1");
+      const json pending = json::parse(body_of(answer))["pending"];
+      EXPECT_EQ(pending["place"], path);
+      EXPECT_GE(pending["seconds"].get<double>(), 0);
+      EXPECT_TRUE(pending["state"] == "computing" || pending["state"] == "waiting");
+      answer = get(path);
+    }
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 200")) << answer;
+    EXPECT_THAT(body_of(answer), HasSubstr("design")) << answer;
+  }
+  EXPECT_GT(told, 0);
+  // What is wrong with a question is told in the same way.
+  std::string wrong = get("/api/v1/c1/designs/d77/race");
+  while (wrong.starts_with("HTTP/1.1 202"))
+    wrong = get("/api/v1/c1/designs/d77/race");
+  EXPECT_THAT(wrong, StartsWith("HTTP/1.1 404"));
+}
 
 TEST_F(DashboardTest, PagesComeWithTheirPolicies) {
   serve();
