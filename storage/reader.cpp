@@ -60,6 +60,7 @@ class SqliteReader final : public StoreReader {
   std::string digest() override;
   void each_answer_row(const std::function<void(const Row&)>& on_row) override;
   std::vector<std::string> integrity() override;
+  void rest() override { sqlite3_db_release_memory(connection_->handle()); }
   Expected<QueryEnd> query(const std::string& sql, const QueryLimits& limits,
                            const std::function<void(const std::vector<std::string>&)>& on_columns,
                            const std::function<void(const std::vector<Cell>&)>& on_row) override;

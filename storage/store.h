@@ -195,6 +195,8 @@ class StoreReader {
     std::int64_t rows = 0;
     bool truncated = false;
   };
+  /// Gives back the memory in which SQLite keeps pages for the next statement.
+  virtual void rest() {}
   virtual Expected<QueryEnd> query(
       const std::string& sql, const QueryLimits& limits,
       const std::function<void(const std::vector<std::string>&)>& on_columns,

@@ -273,6 +273,7 @@ class Readers {
               std::unique_ptr<StoreReader> returned(back);
               // After a failure of the disk nothing is known of it.
               if (std::uncaught_exceptions() > 0) return;
+              returned->rest();
               const std::scoped_lock lock(mutex_);
               if (kept_.size() < kMost) kept_.push_back({name, file, std::move(returned)});
             }};

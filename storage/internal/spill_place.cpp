@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -61,14 +60,15 @@ const char* vfs_that_spills_beside(const std::string& database) {
   const fs::path folder = fs::absolute(database, trouble).parent_path();
   if (trouble || ::access(folder.c_str(), W_OK) != 0) return nullptr;
   static std::mutex mutex;
-  static std::map<fs::path, std::unique_ptr<SpillPlace>> places;
+  // Never destroyed: a thread may have a store open when the process ends.
+  static auto& places = *new std::map<fs::path, SpillPlace*>;
   const std::scoped_lock lock(mutex);
-  std::unique_ptr<SpillPlace>& place = places[folder];
-  if (!place) {
+  SpillPlace*& place = places[folder];
+  if (place == nullptr) {
     if (sqlite3_initialize() != SQLITE_OK) return nullptr;
     sqlite3_vfs* system = sqlite3_vfs_find("unix");
     if (system == nullptr) return nullptr;
-    place = std::make_unique<SpillPlace>(folder, *system);
+    place = new SpillPlace(folder, *system);
     sqlite3_vfs_register(&place->vfs, 0);
   }
   return place->name.c_str();
