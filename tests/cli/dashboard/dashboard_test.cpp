@@ -13,6 +13,7 @@
 
 #include "base/text/gzip.h"
 #include "cli/dashboard/live_answers.h"
+#include "coordinator/service/http_address.h"
 #include "coordinator/service/http_server.h"
 #include "tests/cli/dashboard/asking.h"
 #include "tests/support/http_peer.h"
