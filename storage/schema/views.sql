@@ -183,7 +183,7 @@ WITH tried AS (
   SELECT f.design, f.iteration, s.step, s.pair, r.value AS candidate, e.score
   FROM race_step AS f
   CROSS JOIN json_each((
-    SELECT json_group_array(candidate) FROM (
+    SELECT '[' || group_concat(candidate) || ']' FROM (
       SELECT c.id AS candidate FROM candidate AS c
       WHERE c.iteration = f.iteration
         AND c.id BETWEEN (f.design - 1) * 1000000 + 1 AND f.design * 1000000

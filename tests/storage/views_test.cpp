@@ -348,7 +348,7 @@ TEST_F(MachineViewsTest, SayTheSameToOurProgramsAndToOthers) {
       "--nstates 5 --s0 2 --att0 1.5 --n0 1 --n0x0 1 --c0x0 0 --p0x0 1 --s1 3 --rep1 2 --n1 1 "
       "--n1x0 0 --c1x0 5 --p1x0 1 --s2 1 --n2 2 --n2x0 2 --c2x0 3 --p2x0 4 --w2x0 2.5 --n2x1 2 "
       "--c2x1 3 --p2x1 4 --w2x1 2.5 --s3 0 --rwm3 7 --n3 1 --n3x0 2 --c3x0 6 --p3x0 1 --l3x0 1 "
-      "--s4 4 --n4 1 --n4x0 3 --c4x0 99 --p4x0 1",
+      "--s4 1 --n4 1 --n4x0 3 --c4x0 99 --p4x0 1",
       "--nroot 3 --nchildroot 2 --n0 0 --nchild0 3 --n00 6 --c00 0 --p00 0.5 --n01 6 --c01 3 "
       "--p01 1 --n02 5 --a02 2 --att02 2.1 --n1 0 --nchild1 2 --n10 6 --c10 5 --p10 0.26 --n11 5 "
       "--a11 1 --p11 0"};
