@@ -45,21 +45,23 @@ std::vector<Group> own_groups(const fs::path& root) {
   return groups;
 }
 
-bool is_only_up(const fs::path& path) {
+bool goes_up(const fs::path& path) {
+  return std::find(path.begin(), path.end(), "..") != path.end();
+}
+
+bool only_goes_up(const fs::path& path) {
   return std::all_of(path.begin(), path.end(),
                      [](const fs::path& name) { return name == "/" || name == ".."; });
 }
 
 /// Folders of a group and of those above it, as far as the mount shows them.
 std::vector<fs::path> folders_of(const Group& group, const Mount& mount) {
-  const fs::path inside = group.path.lexically_relative(mount.root);
-  const bool is_inside = !inside.empty() && *inside.begin() != "..";
   // A mount from outside of the namespace of our group shows a group above it, but not which one
   // below is ours.
-  if (!is_inside) {
-    return mount.root != "/" && is_only_up(mount.root) ? std::vector{mount.point}
-                                                       : std::vector<fs::path>();
-  }
+  if (goes_up(mount.root))
+    return only_goes_up(mount.root) ? std::vector{mount.point} : std::vector<fs::path>();
+  const fs::path inside = group.path.lexically_relative(mount.root);
+  if (inside.empty() || goes_up(inside)) return {};
   std::vector<fs::path> folders{mount.point};
   for (const fs::path& name : inside) {
     if (name != ".") folders.push_back(folders.back() / name);

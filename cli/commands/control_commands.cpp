@@ -95,8 +95,8 @@ Expected<void> check(const Arguments& arguments, const Wish& wish) {
   }
   if (arguments.kind == CommandKind::Forgive && wish.whom.empty()) {
     return bad_input(
-        "nobody to forgive is given: name a key, an address or a host, as `swarmsmith status` "
-        "has them under quarantine");
+        "no key or host given: name a key, an address or a host that is in quarantine, as "
+        "`swarmsmith status` lists them");
   }
   if (arguments.kind == CommandKind::Extend && !arguments.budget) {
     return bad_input("no budget given: name the number of further experiments with --budget N");

@@ -149,12 +149,6 @@ Expected<void> compare_missions(const Addition& addition, StoreReader& store, Ou
 ExitCode import_machines_into(const ImportArguments& arguments,
                               OrErrors<std::vector<MachineText>> machines, Output& output) {
   if (!machines) return fail_all(output, machines.error());
-  for (const MachineText& machine : *machines) {
-    const auto remark = remark_about(machine.text);
-    if (!remark) continue;
-    print_note(output, machine.place + ": " + *remark);
-    break;
-  }
   const auto named = flavour_of(*machines, arguments.flavour);
   if (!named) return fail(output, ExitCode::Usage, named.error());
   const auto flavour = find_flavour(*named);
@@ -173,6 +167,12 @@ ExitCode import_machines_into(const ImportArguments& arguments,
                                   .method = arguments.method.empty() ? *named : arguments.method,
                                   .designs = target->designs});
   if (!addition) return fail_all(output, addition.error());
+  for (const MachineText& machine : *machines) {
+    const auto remark = remark_about(machine.text);
+    if (!remark) continue;
+    print_note(output, machine.place + ": " + *remark);
+    break;
+  }
   if (target->reader) {
     if (const auto compared = compare_missions(*addition, *target->reader, output); !compared)
       return fail(output, ExitCode::Store, compared.error());

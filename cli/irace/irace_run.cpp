@@ -210,6 +210,8 @@ class ScenarioRun {
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   RunOptions options;
   options.keeps_store = store.is_kept();
+  // All processors that may be used: what the launcher does without a word.
+  if (!slots.workers && !slots.parallel) return options;
   options.workers = slots.workers.value_or(1);
   if (slots.parallel) {
     const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);

@@ -246,12 +246,6 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
   EvaluationPlan plan;
   const auto machines = machines_of(arguments, output);
   if (!machines) return Unexpected(machines.error());
-  for (const NamedMachine& named : *machines) {
-    const auto remark = remark_about(named.text);
-    if (!remark) continue;
-    print_note(output, named.place + ": " + *remark);
-    break;
-  }
   plan.of_store = static_cast<bool>(machines->front().candidate);
   plan.stores = plan.of_store && !arguments.no_store;
   for (const NamedMachine& named : *machines) {
@@ -269,6 +263,12 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
     if (!seeds) return Unexpected(seeds.error());
     job->seeds = std::move(*seeds);
     plan.jobs.push_back(std::move(*job));
+  }
+  for (const NamedMachine& named : *machines) {
+    const auto remark = remark_about(named.text);
+    if (!remark) continue;
+    print_note(output, named.place + ": " + *remark);
+    break;
   }
   ExplicitInstances given;
   if (auto read = read_instances(arguments, plan, given, output); !read) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
@@ -72,13 +73,33 @@ Expected<void> write(Store& store, std::vector<CommandRow> commands, std::int64_
   return store.flush();
 }
 
-Expected<std::string> forgive(Store& store, const CommandRow& command) {
+/// Who answers for workers in quarantine on the host of that name.
+Expected<std::vector<std::string>> principals_on(const std::filesystem::path& path,
+                                                 const std::string& host) {
+  const auto reader = StoreReader::open(path);
+  if (!reader) return Unexpected(reader.error());
+  const auto rows = select(**reader,
+                           "SELECT DISTINCT principal FROM v_workers WHERE state = "
+                           "'quarantined' AND host = " +
+                               sql_text(host));
+  if (!rows) return Unexpected(rows.error());
+  std::vector<std::string> principals;
+  for (const auto& cells : rows->cells)
+    principals.push_back(cells.front().text);
+  return principals;
+}
+
+Expected<std::string> forgive(Store& store, const std::filesystem::path& path,
+                              const CommandRow& command) {
+  const auto on_host = principals_on(path, command.whom);
+  if (!on_host) return Unexpected(on_host.error());
   std::vector<std::string> names, known;
   std::vector<Row> rows;
   for (const Quarantine& one : store.trust().quarantined) {
     if (std::ranges::find(known, one.principal) != known.end()) continue;
     known.push_back(one.principal);
-    if (!is_named(one.principal, command.whom)) continue;
+    const bool is_on_host = std::ranges::find(*on_host, one.principal) != on_host->end();
+    if (!is_on_host && !is_named(one.principal, command.whom)) continue;
     names.push_back(one.principal);
     rows.emplace_back(ForgivenRow{one.principal});
     rows.emplace_back(
@@ -95,7 +116,7 @@ Expected<std::string> forgive(Store& store, const CommandRow& command) {
 Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
                                       const std::filesystem::path& path,
                                       const CommandRow& command) {
-  if (command.kind == CommandKind::Forgive) return forgive(store, command);
+  if (command.kind == CommandKind::Forgive) return forgive(store, path, command);
   const std::vector<CommandRow> commands = store.commands();
   const std::int64_t last = commands.empty() ? 0 : commands.back().number;
   if (is_of_leases(command.kind)) {

@@ -34,6 +34,20 @@ std::string reason_of(sqlite3* handle) {
                      : fmt::format("{} ({})", sqlite3_errmsg(handle), std::strerror(reason));
 }
 
+/// "disk I/O error" alone does not say which: the system's words do. A commit that fails leaves them
+/// with the log's file.
+std::string message_of(sqlite3* handle, int code) {
+  if ((code & 0xff) != SQLITE_IOERR) return sqlite3_errmsg(handle);
+  if (sqlite3_system_errno(handle) != 0) return reason_of(handle);
+  sqlite3_file* log = nullptr;
+  int reason = 0;
+  sqlite3_file_control(handle, "main", SQLITE_FCNTL_JOURNAL_POINTER, static_cast<void*>(&log));
+  if (log != nullptr && log->pMethods != nullptr)
+    log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &reason);
+  const std::string message = sqlite3_errmsg(handle);
+  return reason == 0 ? message : fmt::format("{} ({})", message, std::strerror(reason));
+}
+
 /// Listens to SQLite while it opens a database in this thread, for the descriptor that it does not
 /// tell. SQLite's calls of the system can be replaced (sqlite3_vfs::xSetSystemCall).
 class Listener {
@@ -145,7 +159,7 @@ void Connection::execute(const std::string& sql) {
 }
 
 void Connection::fail(int code) const {
-  throw SqliteError(code, sqlite3_errmsg(handle_.get()), file_of(handle_.get()));
+  throw SqliteError(code, message_of(handle_.get(), code), file_of(handle_.get()));
 }
 
 void Connection::fail(int code, const std::string& message) const {
@@ -165,7 +179,7 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
   sqlite3* connection = sqlite3_db_handle(handle_.get());
-  const std::string message = sqlite3_errmsg(connection);  // which `reset` takes away
+  const std::string message = message_of(connection, code);  // which `reset` takes away
   reset();
   throw SqliteError(code, message, file_of(connection));
 }

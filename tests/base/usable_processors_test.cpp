@@ -126,7 +126,7 @@ TEST(Processors, AreThoseOfTheMask) {
   EXPECT_EQ(usable_processors(nothing.path()), CPU_COUNT(&before));
   cpu_set_t one;
   CPU_ZERO(&one);
-  for (int cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
+  for (std::size_t cpu = 0; CPU_COUNT(&one) == 0; ++cpu)
     if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &one);
   ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
   EXPECT_EQ(usable_processors(), 1);

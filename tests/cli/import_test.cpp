@@ -147,6 +147,15 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
       0);
   EXPECT_THAT(run({"show", "c1", store_}).out, HasSubstr("--network rm1.2 --weights 0.5,"));
 
+  // A refusal is one line.
+  std::string evolved = genome;
+  evolved.insert(evolved.find("gene 0"), "node 19 0 0 0\n");
+  const Ran refused = run(
+      {"evaluate", file("gen_1", evolved), "--flavour", "chocolate", "--mission", "aggregation"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("a genome of NEAT with 1 hidden node"));
+  EXPECT_EQ(lines_in(refused.err), 1) << refused.err;
+
   const std::vector<std::string> old = {"--rootnode", "0", "--nchildsroot", "1", "--n0",   "0",
                                         "--nc0",      "1", "--c0x0",        "0", "--p0x0", "0.5",
                                         "--a0",       "1"};
@@ -167,7 +176,9 @@ TEST_F(Import, ReadsGenomesAndTreesOfTheOlderForm) {
   const Ran modules =
       run({"query", "SELECT module, occurrences FROM v_modules ORDER BY module", store_, "--csv"});
   EXPECT_EQ(modules.out, "module,occurrences\nblack_floor,1\nstop,1\n");
-  EXPECT_EQ(run({"figure", "machine", store_, "c1000001", "-o", (folder_ / "t.svg").string()}).code,
+  EXPECT_EQ(run({"figure", "machine", store_, "--candidate", "c1000001", "-o",
+                 (folder_ / "t.svg").string()})
+                .code,
             0);
 }
 

@@ -13,6 +13,7 @@ import sqlite3
 import subprocess
 import unittest
 
+from every_command import ARGUMENTS, commands, invocations
 from programs import CAMPAIGN, SWARMSMITH, ProgramTest, call
 
 LEAST = 1350  # what the whole space needs
@@ -21,46 +22,6 @@ LEAST = 1350  # what the whole space needs
 # a byte that is no UTF-8; a line of its own, and what HTML and a spreadsheet would obey.
 HOSTILE = (b"\x1b]0;mine\x07\x1b[31m\r\x00\x7f\xc2\x9b1m\xe2\x80\xae\xe2\x81\xa6\x9b\nswarmsmith: all is well\t"
            b"<script>'\"&\\")
-
-# Commands that want more than a store: {store}, {file}, {folder}, {new} are replaced.
-ARGUMENTS = {
-    "run": [["{file}", "--store", "{store}", "--no-dashboard", "--workers", "1"]],
-    "init": [["{new}"]],
-    "check": [["{file}"]],
-    "profile": [[], ["{store}"]],
-    "serve": [["{file}", "--store", "{store}", "--bind", "{store}"]],
-    "worker": [["--connect", "{store}"], ["--connect", "tcp://127.0.0.1:1", "--key", "{store}"],
-               ["--slots", "{store}"]],
-    "pause": [["{store}"], ["{store}", "d1"]],
-    "cancel": [["{store}", "d1"]],
-    "extend": [["{store}", "d1", "--budget", "5000"]],
-    "keygen": [["{new}"]],
-    "ls": [[what, "{store}"] for what in ("designs", "candidates", "evaluations", "elites",
-                                          "workers", "events", "real-runs")],
-    "show": [[what, "{store}"] for what in ("d1", "c1", "c8", "e800001", "r1")],
-    "explain": [["e800001", "{store}"], ["e100001", "{store}"]],
-    "query": [["{store}", "SELECT * FROM " + view] for view in
-              ("v_campaign", "v_designs", "v_candidates", "v_workers", "v_events", "v_failures",
-               "v_conflicts", "v_commands", "v_evaluations LIMIT 3", "failure")],
-    "compare": [["{store}"], ["{store}", "--by", "method"]],
-    "evaluate": [["best", "--store", "{store}", "--seeds", "1-2"], ["{store}"]],
-    "assess": [["--flavour", "{store}"]],
-    "replay": [["e800001", "{store}"]],
-    "figure": [["scores", "{store}", "-o", "{new}.svg"], ["{store}", "{store}"]],
-    "export": [["{store}"], ["{store}", "--format", "json"]],
-    "import": [["{file}", "--into", "{store}"]],
-    "report": [["{store}", "-o", "{new}.html"]],
-    "supplement": [["{store}", "-o", "{new}"]],
-    "dashboard": [["{store}", "--export", "{new}.html"], ["{store}", "--http", "{store}"]],
-    "backup": [["{store}", "{new}.db"]],
-    "merge": [["{store}", "{store}", "-o", "{new}.db"]],
-    "recover": [["{store}", "-o", "{new}.db"]],
-    "irace": [["--check"], ["--scenario", "{file}"], ["--{store}"]],
-    "robot": [["replay", "{file}"], ["run", "--robot", "{new}", "--machine", "{file}"], ["{store}"],
-              ["check", "--robots", "{store}"]],
-    "track": [["check", "{file}"], ["{store}"], ["report", "r1", "{store}"]],
-    "version": [[]],
-}
 
 
 def controls_in(output, allowed=b"\n\t"):
@@ -153,26 +114,6 @@ class HostileTexts(ProgramTest):
         path.write_bytes(HostileTexts.finished)
         return path
 
-    def commands(self):
-        """The first words of all that the program's help lists."""
-        listed = re.findall(r"^  ([a-z]+(?: [a-z]+)?)  ", call("--help").stdout, re.MULTILINE)
-        self.assertGreater(len(listed), 25)
-        return listed
-
-    def invocations(self, store, file):
-        """Every command with all its words."""
-        number = 0
-        for command in self.commands():
-            for words in ARGUMENTS.get(command, [["{store}"]]):
-                number += 1
-                names = {"{store}": os.fsencode(store), "{file}": os.fsencode(file),
-                         "{new}": os.fsencode(self.folder / f"new{number}")}
-                filled = [os.fsencode(word) for word in words]
-                for key, name in names.items():
-                    filled = [word.replace(key.encode(), name) for word in filled]
-                for form in ([], ["--json"]):
-                    yield [*command.split(), *filled, *form]
-
     def assert_all_shown(self, invocations):
         """Runs all of them; those whose output had something hostile, as escapes."""
         invocations = list(invocations)
@@ -192,14 +133,14 @@ class HostileTexts(ProgramTest):
         return shown
 
     def test_every_command_knows_what_it_is_tried_with(self):
-        self.assertEqual([name for name in ARGUMENTS if name not in self.commands()], [])
+        self.assertEqual([name for name in ARGUMENTS if name not in commands()], [])
 
     def test_texts_of_a_store_are_shown_by_every_command(self):
         store = self.finished_store("all.db")
         change(store, rows_for_empty_tables(store))
         change(store, [hostile(table, column) for table, columns in tables_of(store).items()
                        for column, _ in columns if table != "meta"])
-        self.assertTrue(self.assert_all_shown(self.invocations(store, self.file)))
+        self.assertTrue(self.assert_all_shown(invocations(store, self.file, self.folder)))
 
     def test_texts_of_each_table_are_shown(self):
         """What is hostile elsewhere keeps no command from coming to this table."""
@@ -212,13 +153,13 @@ class HostileTexts(ProgramTest):
             change(store, [hostile(table, column) for column, _ in columns])
             readers = ("status", "ls", "show", "explain", "query", "compare", "verify")
             showed.update(words[0] for words in self.assert_all_shown(
-                words for words in self.invocations(store, self.file)
+                words for words in invocations(store, self.file, self.folder)
                 if words[0] in readers and words[-1] != "--json"))
         self.assertEqual(showed, set(readers))
 
     def test_names_of_files_are_shown_by_every_command(self):
         name = self.folder / os.fsdecode(HOSTILE.replace(b"/", b"").replace(b"\0", b""))
-        self.assertTrue(self.assert_all_shown(self.invocations(name, name)))
+        self.assertTrue(self.assert_all_shown(invocations(name, name, self.folder)))
 
     def test_keys_and_values_of_files_are_shown(self):
         escapes = r"\u001b[31m\u0007\u009b\u202e\u007f\n"

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, used
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 STORES = SOURCE / "tests" / "golden" / "stores"
@@ -65,6 +65,8 @@ swarmsmith.tune(lambda trial: abs(trial.configuration["x"] - 0.3), {"x": swarmsm
 
 
 class Recover(ProgramTest):
+    budget = 1400
+
     def done(self, *arguments, cwd=None):
         process = call(*arguments, cwd=cwd)
         self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
@@ -123,9 +125,11 @@ class Recover(ProgramTest):
 
     def test_after_commands_and_merged(self):
         one, two, both = (self.folder / name for name in ("one.db", "two.db", "both.db"))
-        self.run_campaign(one, "--workers", "1")
-        self.done("extend", one, "d1", "--budget", "200")
-        self.run_campaign(one, "--workers", "1")
+        for words in ((), ("extend", one, "d1", "--budget", "200")):
+            if words:
+                self.done(*words)
+            done = self.run_campaign(one, "--workers", "1")
+            self.assertEqual(done.returncode, 0, done.stderr)
         self.recovered(one)
         self.run_kinds(two, ["random"], repetitions=2)
         self.done("merge", one, two, "-o", both)
@@ -133,8 +137,10 @@ class Recover(ProgramTest):
 
     def test_of_a_cancelled_design(self):
         store = self.folder / "cancelled.db"
+        self.file.write_text(self.file.read_text().replace("seed = 7\n", "seed = 7\nrepetitions = 2\n"))
         process = self.start_campaign(store, "--workers", "1")
-        self.until(lambda: call("cancel", store, "d1").returncode == 0 or process.poll() is not None, "no command")
+        self.until(lambda: used(store, 2) > 0 or process.poll() is not None, "no campaign")
+        self.done("cancel", store, "d2")
         process.wait(60)
         self.recovered(store)
 

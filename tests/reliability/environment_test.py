@@ -42,7 +42,7 @@ class Environment(FaultTest):
     def run_here(self, *arguments, prefix=(), env=None):
         """`run` to its end; exit code and words."""
         run = self.run_local("--workers", "2", *arguments, prefix=prefix, env=env)
-        return run.wait(120), run.log()
+        return run.wait(300), run.log()
 
     def assert_goes_on(self):
         """The same command, where there is enough, gives the usual answer."""
@@ -105,7 +105,7 @@ class Limits(Environment):
         self.assert_goes_on()
 
     def test_files_that_may_not_grow_are_full_disks(self):
-        run = self.run_local("--workers", "2", prefix=limited("RLIMIT_FSIZE", 450_000))
+        run = self.run_local("--workers", "2", prefix=limited("RLIMIT_FSIZE", 1_000_000))
         wait_for(lambda: "store cannot be written" in run.log() or not run.alive(),
                  "the word that the store cannot grow")
         self.assertTrue(run.alive(), run.tail())
@@ -123,7 +123,7 @@ class Limits(Environment):
         self.assert_goes_on()
 
     def test_a_store_that_cannot_be_born_leaves_none_that_is_in_the_way(self):
-        for size in (0, 1000, 20_000):
+        for size in (1000, 20_000):
             with self.subTest(size=size):
                 code, words = self.run_here(prefix=limited("RLIMIT_FSIZE", size))
                 self.assertNotIn(code, (0, -signal.SIGXFSZ), words)
@@ -143,7 +143,7 @@ class Limits(Environment):
 
 
 class ProcessorTime(Environment):
-    budget = 60_000
+    budget = 15_000
 
     def test_the_end_of_processor_time_is_a_clean_stop(self):
         run = self.run_local("--workers", "1")
@@ -231,22 +231,16 @@ setsid sh -c 'exec sleep 0.01' >/dev/null 2>&1 </dev/null &
 echo 1.5
 """
     targets = """format = 1
-
-[campaign]
+[[mission]]
 name = "orphans"
-seed = 3
-store = "unused.db"
-
-[target]
-kind = "command"
-runner = "./program"
-parameters = \"\"\"
-x "" r (0, 1)
-\"\"\"
-instances = ["a", "b"]
-
+[[method]]
+name = "m"
+parameters_text = 'x "--x " r (0, 1)'
 [race]
 max_experiments = 100000
+[simulator]
+kind = "command"
+command = ["./program"]
 """
 
     @staticmethod

@@ -13,7 +13,7 @@ import threading
 import traceback
 
 import wire
-from rig import SWARMSMITH, FaultTest, call, need, need_root, rows, stored, wait_for
+from rig import SWARMSMITH, FaultTest, need, need_root, rows, stored, wait_for
 
 A, B = 20001, 20002
 
@@ -158,7 +158,7 @@ class SharedHost(FaultTest):
     # --- B's ways ---
 
     def try_commands(self):
-        for words in (("cancel", "d1"), ("pause", "d1"), ("extend", "d1", "10"), ("resume", "d1")):
+        for words in (("cancel", "d1"), ("pause", "d1"), ("extend", "d1", "--budget", "10"), ("resume", "d1")):
             done = self.by(B, *words, "--connect", self.address)
             self.assert_refused(done, words)
             self.assertIn("belongs to another user of this host (20001)", done.stderr)
@@ -210,7 +210,7 @@ class SharedHost(FaultTest):
             self.assertNotIn("survival", self.ask_page("GET", path)[1])
 
     def try_acts(self):
-        for path in ("/api/v1/c1/cancel", "/api/v1/c1/designs/d1/cancel", "/api/v1/c1/designs/d1/pause"):
+        for path in ("/api/v1/c1/pause", "/api/v1/c1/designs/d1/cancel", "/api/v1/c1/designs/d1/pause"):
             for headers in ({}, {"Authorization": "Bearer " + "0" * 64}):
                 status, _ = self.ask_page("POST", path, headers)
                 self.assertEqual(status, 403, path)

@@ -82,8 +82,12 @@ class Peer:
             self.socket.sendall(GREETING + ready())
             # Whoever speaks before both are ready is cut off.
             limit = time.monotonic() + timeout
-            while not self.is_ready:
-                self.read(limit)
+            try:
+                while not self.is_ready:
+                    self.read(limit)
+            except OSError:
+                self.close()
+                raise
 
     def __enter__(self):
         return self

@@ -208,10 +208,11 @@ TEST_F(CandidateCodeTest, APhraseThatIsMissingIsFoundAndNothingIsMadeUp) {
 
 TEST_F(CandidateCodeTest, ACodeThatMakesMoreThanATextHasIsRefusedBeforeItIsMade) {
   write(candidates(4, 0));
-  change("UPDATE phrase SET modules = printf('%.900000c', 'x') WHERE id = 1;"
-         "UPDATE candidate SET module_code = '[' || printf('%.20000c', '1') || ']' WHERE id = 2;"
-         "UPDATE candidate SET module_code = replace(module_code, '11', '1,1') WHERE id = 2;"
-         "UPDATE candidate SET module_code = replace(module_code, '11', '1,1') WHERE id = 2");
+  change(
+      "UPDATE phrase SET modules = printf('%.900000c', 'x') WHERE id = 1;"
+      "UPDATE candidate SET module_code = '[' || printf('%.20000c', '1') || ']' WHERE id = 2;"
+      "UPDATE candidate SET module_code = replace(module_code, '11', '1,1') WHERE id = 2;"
+      "UPDATE candidate SET module_code = replace(module_code, '11', '1,1') WHERE id = 2");
   EXPECT_EQ(one("SELECT length(module_code) > 20000 FROM candidate WHERE id = 2"), "1");
   const auto reader = open_reader(path);
   EXPECT_THROW(candidates_in(*reader), StoreFailure);
@@ -221,8 +222,9 @@ TEST_F(CandidateCodeTest, ACodeThatMakesMoreThanATextHasIsRefusedBeforeItIsMade)
 TEST_F(CandidateCodeTest, CodesThatMakeManyTimesTheFileAreRefused) {
   write(candidates(4, 0));
   // Each text is one that a store may have; together they are not.
-  change("UPDATE phrase SET modules = printf('%.100000c', 'x') WHERE id = 1;"
-         "UPDATE candidate SET module_code = '[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]'");
+  change(
+      "UPDATE phrase SET modules = printf('%.100000c', 'x') WHERE id = 1;"
+      "UPDATE candidate SET module_code = '[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]'");
   EXPECT_GT(std::stoi(one("SELECT count(*) FROM candidate")), 60);
   EXPECT_THROW(candidates_in(*open_reader(path)), StoreFailure);
 }
