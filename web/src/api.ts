@@ -90,7 +90,7 @@ async function fetched(path: string, patience_ms: number, headers: Record<string
 }
 
 /// How far an answer is that is not there yet.
-export interface Pending { state: "computing" | "waiting"; seconds: number }
+export interface Pending { seconds: number }
 
 /// Data of a path below api/v1/. An answer that the server says is unchanged (ETag, 304) is the very
 /// same object as before. Throws ApiError.
@@ -106,7 +106,7 @@ export async function ask(path: string, patience_ms = 65000, waits?: (pending: P
       else {
         attempt = 0;
         waits?.((await got.json()).pending);
-        await new Promise((done) => setTimeout(done, 1000 * Number(got.headers.get("Retry-After") ?? 1)));
+        await new Promise((done) => setTimeout(done, 1000));
       }
     } catch (error) {
       const { retry_s } = error as ApiError;

@@ -28,9 +28,7 @@ export function Failure({ error, again }: { error: ApiError; again?: () => void 
 
 /// style.css shows it only after a moment.
 export function Waiting({ pending }: { pending?: Pending }) {
-  return <p class="waiting" aria-busy="true">{!pending ? "Asking the server …"
-    : pending.state === "waiting" ? "The server computes other answers first …"
-      : `The server has computed this for ${Math.round(pending.seconds)} s …`}</p>;
+  return <p class="waiting" aria-busy="true">Asking the server{pending && `, for ${Math.round(pending.seconds)} s`} …</p>;
 }
 
 /// Why there is nothing here, and what to do.
