@@ -5,6 +5,7 @@
 //   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
 //                  [--processes P] [--slots S] [--sleep-us T] [--curve] [--memory] [--keep N]
 
+#include <malloc.h>
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
@@ -173,5 +174,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (swarmsmith::bench::is_worker()) swarmsmith::bench::be_worker();
+  mallopt(M_ARENA_MAX, 1);  // as `run` has it
   return swarmsmith::bench::run(argc, argv);
 }

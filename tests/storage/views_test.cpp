@@ -341,9 +341,7 @@ TEST_F(MachineViewsTest, SayTheSameToOurProgramsAndToOthers) {
   SyntheticCampaign made = synthetic_campaign({.designs = 2, .iterations = 2, .candidates = 60});
   std::vector<Row> machines;
   const std::vector<std::string> texts{
-      kTwoStops,
-      kStopThenExplore,
-      "--nstates 1 --s0 0 --rwm0 4",
+      kTwoStops, kStopThenExplore, "--nstates 1 --s0 0 --rwm0 4",
       // Nothing leads to state 1; 2 and 3 lead to each other; 4 to itself in a circle.
       "--nstates 5 --s0 2 --att0 1.5 --n0 1 --n0x0 1 --c0x0 0 --p0x0 1 --s1 3 --rep1 2 --n1 1 "
       "--n1x0 0 --c1x0 5 --p1x0 1 --s2 1 --n2 2 --n2x0 2 --c2x0 3 --p2x0 4 --w2x0 2.5 --n2x1 2 "

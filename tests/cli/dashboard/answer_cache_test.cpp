@@ -165,8 +165,8 @@ TEST(AnswerCacheTest, WhatIsThereInTimeIsAnAnswerAsEver) {
   AnswerCache cache(1 << 20);
   const auto turn = std::make_shared<std::atomic<bool>>(true);
   const auto in_time = [&](const std::string& bytes) {
-    return cache.get_within("race", "1", kNone, [bytes] { return of(bytes); }, turn,
-                            std::chrono::hours(1));
+    return cache.get_within(
+        "race", "1", kNone, [bytes] { return of(bytes); }, turn, std::chrono::hours(1));
   };
   EXPECT_EQ(in_time("a").answer->packed, "a");
   EXPECT_EQ(in_time("b").answer->packed, "a") << "the same stamp";
