@@ -3,13 +3,15 @@
 // Races are real ones over synthetic scores, or go as recorded ones did.
 //
 //   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
-//                  [--processes P] [--slots S] [--sleep-us T] [--curve] [--memory]
+//                  [--processes P] [--slots S] [--sleep-us T] [--curve] [--memory] [--keep N]
 
+#include <malloc.h>
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,6 +33,7 @@ struct Case {
   std::string recorded;
   std::size_t ahead = 0;  ///< of recorded races
   bool memory = false;
+  std::size_t keep = 0;  ///< finished races, whatever their size; 0: as programs do
   ClusterShape shape{.processes = 8, .each = {.slots = 8}};
 };
 
@@ -136,7 +139,12 @@ int measure(Case& c) {
   }
   auto plans = plans_for(c);
   if (!plans) return std::fprintf(stderr, "%s\n", to_string(plans.error()).c_str()), 1;
-  CampaignRunner source(std::move(*plans), {}, {});
+  OpenDesigns open;
+  if (c.keep > 0) {
+    open.finished = c.keep;
+    open.finished_experiments = std::numeric_limits<std::int64_t>::max();
+  }
+  CampaignRunner source(std::move(*plans), {}, {}, {}, open);
   BusyTime busy(c.budget * c.designs);
   const auto run =
       run_cluster(c.shape, source, watch_of(c), [&](const auto& rows) { busy.add(rows); });
@@ -153,6 +161,7 @@ int run(int argc, char** argv) {
   app.add_flag("--curve", c.shape.curve, "Encrypt the connections");
   app.add_option("--ahead", c.ahead, "Tests that recorded races look ahead, at most");
   app.add_flag("--memory", c.memory, "Say what the coordinator takes, on the way");
+  app.add_option("--keep", c.keep, "Finished races in memory, whatever their size");
   app.add_option("--processes", c.shape.processes);
   app.add_option("--slots", c.shape.each.slots, "Of each process");
   app.add_option("--sleep-us", c.shape.work.us, "Mean time of an evaluation, +- 30 %");
@@ -165,5 +174,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (swarmsmith::bench::is_worker()) swarmsmith::bench::be_worker();
+  mallopt(M_ARENA_MAX, 1);  // as `run` has it
   return swarmsmith::bench::run(argc, argv);
 }

@@ -60,6 +60,7 @@ class SqliteReader final : public StoreReader {
   std::string digest() override;
   void each_answer_row(const std::function<void(const Row&)>& on_row) override;
   std::vector<std::string> integrity() override;
+  void rest() override { sqlite3_db_release_memory(connection_->handle()); }
   Expected<QueryEnd> query(const std::string& sql, const QueryLimits& limits,
                            const std::function<void(const std::vector<std::string>&)>& on_columns,
                            const std::function<void(const std::vector<Cell>&)>& on_row) override;
@@ -136,8 +137,8 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
   if (end || schema >= kSchemaVersion || !end.error().message.starts_with("no such ")) return end;
   Error error = end.error();
   const std::string file = sqlite3_db_filename(connection_->handle(), "main");
-  error.message =
-      older_schema_text(schema, fs::path(file).filename().string()) + " (" + error.message + ")";
+  const std::string lacks = limits.typed ? " (" + error.message + ")" : "";
+  error.message = older_schema_text(schema, fs::path(file).filename().string()) + lacks;
   error.where = file;
   return Unexpected(error);
 }

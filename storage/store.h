@@ -179,8 +179,11 @@ class StoreReader {
     /// Memory of SQLite for the statement: sorting, grouping, computed values. The limit applies to
     /// the whole process, so nothing else may write meanwhile.
     std::int64_t memory = std::int64_t{256} << 20U;
-    /// Large sorts go to temporary files: for statements of our own.
+    /// Large sorts go to temporary files beside the store: for statements of our own.
     bool spill = false;
+    /// Somebody typed the statement: errors say what is wrong with it, and repeat it. Errors of
+    /// other statements are about the store, and name its file: their text is nobody's answer.
+    bool typed = false;
     /// Views that somebody has added to the file can be read: for statements of a person's own.
     bool views_of_file = false;
   };
@@ -192,6 +195,8 @@ class StoreReader {
     std::int64_t rows = 0;
     bool truncated = false;
   };
+  /// Gives back the memory in which SQLite keeps pages for the next statement.
+  virtual void rest() {}
   virtual Expected<QueryEnd> query(
       const std::string& sql, const QueryLimits& limits,
       const std::function<void(const std::vector<std::string>&)>& on_columns,

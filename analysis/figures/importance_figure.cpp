@@ -126,49 +126,78 @@ std::vector<std::size_t> groups_of(const ParameterColumn& column,
 
 std::map<CandidateId, double> candidate_effects(const std::vector<ScoredPair>& scores) {
   constexpr int kMostSweeps = 200;
-  std::map<CandidateId, double> effects;
-  std::map<std::int64_t, double> levels;
-  std::map<CandidateId, double> runs;
-  std::map<std::int64_t, double> seen;
+  // Numbers in place of ids, so that a sweep is no search: in the order of the ids, so that sums
+  // are those of the list.
+  std::map<CandidateId, std::size_t> candidates;
+  std::map<std::int64_t, std::size_t> pairs;
   for (const ScoredPair& score : scores) {
-    effects[score.candidate] = 0;
-    ++runs[score.candidate];
-    ++seen[score.pair];
+    candidates.emplace(score.candidate, 0);
+    pairs.emplace(score.pair, 0);
   }
+  std::size_t next_number = 0;
+  for (auto& [id, number] : candidates)
+    number = next_number++;
+  next_number = 0;
+  for (auto& [id, number] : pairs)
+    number = next_number++;
+  struct Run {
+    std::size_t candidate;
+    std::size_t pair;
+    double score;
+  };
+  std::vector<Run> runs;
+  runs.reserve(scores.size());
+  std::vector<double> n_of_candidate(candidates.size());
+  std::vector<double> n_of_pair(pairs.size());
+  for (const ScoredPair& score : scores) {
+    runs.push_back({candidates.at(score.candidate), pairs.at(score.pair), score.score});
+    ++n_of_candidate[runs.back().candidate];
+    ++n_of_pair[runs.back().pair];
+  }
+  std::vector<double> effects(candidates.size());
+  std::vector<double> levels(pairs.size());
+  std::vector<double> next(candidates.size());
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    for (auto& [pair, level] : levels)
-      level = 0;
-    for (const ScoredPair& score : scores)
-      levels[score.pair] += (score.score - effects[score.candidate]) / seen[score.pair];
-    std::map<CandidateId, double> next;
-    for (const ScoredPair& score : scores)
-      next[score.candidate] += (score.score - levels[score.pair]) / runs[score.candidate];
+    std::ranges::fill(levels, 0);
+    for (const Run& run : runs)
+      levels[run.pair] += (run.score - effects[run.candidate]) / n_of_pair[run.pair];
+    std::ranges::fill(next, 0);
+    for (const Run& run : runs)
+      next[run.candidate] += (run.score - levels[run.pair]) / n_of_candidate[run.candidate];
     double moved = 0;
     double largest = 0;
-    for (const auto& [candidate, effect] : next) {
-      moved = std::max(moved, std::fabs(effect - effects[candidate]));
-      largest = std::max(largest, std::fabs(effect));
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      moved = std::max(moved, std::fabs(next[i] - effects[i]));
+      largest = std::max(largest, std::fabs(next[i]));
     }
-    effects = std::move(next);
+    effects.swap(next);
     if (moved <= 1e-9 * largest) break;
   }
-  return effects;
+  std::map<CandidateId, double> by_id;
+  for (const auto& [id, number] : candidates)
+    by_id.emplace_hint(by_id.end(), id, effects[number]);
+  return by_id;
 }
 
 double eta_squared(const std::vector<std::size_t>& groups, const std::vector<double>& values) {
-  std::map<std::size_t, std::pair<double, double>> sums;  // sum, count
+  struct Sum {
+    double sum = 0;
+    double count = 0;
+  };
+  std::vector<Sum> sums(groups.empty() ? 0 : std::ranges::max(groups) + 1);
   double total = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    auto& [sum, count] = sums[groups[i]];
-    sum += values[i];
-    ++count;
+    Sum& group = sums[groups[i]];
+    group.sum += values[i];
+    ++group.count;
     total += values[i];
   }
   const double mean = total / static_cast<double>(values.size());
   double between = 0;
-  for (const auto& [group, entry] : sums) {
-    const double distance = entry.first / entry.second - mean;
-    between += entry.second * distance * distance;
+  for (const Sum& group : sums) {
+    if (group.count == 0) continue;
+    const double distance = group.sum / group.count - mean;
+    between += group.count * distance * distance;
   }
   double all = 0;
   for (const double value : values)

@@ -72,8 +72,10 @@ ExitCode run_query(QueryArguments& arguments, Output& output) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const std::string statement = sql.empty() ? kViews : sql;
-  if (arguments.csv) return write_csv(**store, statement, arguments.limits(), output);
-  const auto rows = select(**store, statement, arguments.limits());
+  StoreReader::QueryLimits limits = arguments.limits();
+  limits.typed = !sql.empty();
+  if (arguments.csv) return write_csv(**store, statement, limits, output);
+  const auto rows = select(**store, statement, limits);
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   const Form json = arguments.lists ? Form::JsonLists : Form::Json;
   write_rows(output, *rows, output.json ? json : Form::Text);

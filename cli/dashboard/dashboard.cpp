@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -272,6 +273,7 @@ class Readers {
               std::unique_ptr<StoreReader> returned(back);
               // After a failure of the disk nothing is known of it.
               if (std::uncaught_exceptions() > 0) return;
+              returned->rest();
               const std::scoped_lock lock(mutex_);
               if (kept_.size() < kMost) kept_.push_back({name, file, std::move(returned)});
             }};
@@ -292,6 +294,12 @@ class Dashboard final : public HttpSite {
  public:
   explicit Dashboard(DashboardOptions options)
       : options_(std::move(options)), boot_(random_hex(2)), user_(name_of_user()) {}
+  /// Threads that compute use all of this.
+  ~Dashboard() override {
+    heavy_.close();
+    light_.close();
+    cache_.wait_for_all();
+  }
 
   bool is_open(std::string_view path) const override {
     return find_page(path) != nullptr || path == "/";
@@ -408,20 +416,53 @@ class Dashboard final : public HttpSite {
 
   SiteAnswer api(const SiteRequest& request) {
     const auto begin = Clock::now();
-    bool shared = false;
-    AnswerCache::Answer kept;
+    AnswerCache::SoFar found;
     if (const auto act = act_of(request.path)) {
-      kept = std::make_shared<const KeptAnswer>(kept_of(carry_out(*act, request), 0));
+      found.answer = std::make_shared<const KeptAnswer>(kept_of(carry_out(*act, request), 0));
       cache_.forget();
     } else {
-      kept = find(request, shared);
+      found = find(request);
     }
-    const double spent =
-        shared ? 0 : std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    SiteAnswer answer = outgoing(request, *kept, kDataPolicy);
+    if (!found.answer) return not_yet(request, found);
+    const double passed = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    // What was made in the background cost what it took there, whoever fetches it.
+    const double spent = found.seconds > 0 ? 1e3 * found.seconds : found.shared ? 0 : passed;
+    SiteAnswer answer = outgoing(request, *found.answer, kDataPolicy);
     answer.headers.emplace_back("Server-Timing", fmt::format("total;dur={:.1f}", spent));
-    if (kept->status == 503) answer.headers.emplace_back("Retry-After", "1");
+    if (found.answer->status == 503) answer.headers.emplace_back("Retry-After", "1");
     return answer;
+  }
+
+  /// 202: how far it is, and where to ask again, which is the same address.
+  static SiteAnswer not_yet(const SiteRequest& request, const AnswerCache::SoFar& so_far) {
+    std::string place = request.path;
+    for (const auto& [name, value] : request.parameters)
+      place += (place.size() == request.path.size() ? '?' : '&') + as_in_address(name) + '=' +
+               as_in_address(value);
+    const std::string body =
+        answer_object()
+            .add("pending", JsonObject()
+                                .add("state", so_far.goes_on ? "computing" : "waiting")
+                                .add("seconds", so_far.seconds)
+                                .add("place", place))
+            .text() +
+        "\n";
+    SiteAnswer answer = outgoing(
+        request, {.status = 202, .type = "application/json", .packed = gzip(body), .etag = {}},
+        kDataPolicy);
+    answer.headers.emplace_back("Location", place);
+    answer.headers.emplace_back("Retry-After", "1");
+    return answer;
+  }
+
+  static std::string as_in_address(std::string_view text) {
+    std::string escaped;
+    for (const char c : text) {
+      const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                         (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+      escaped += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return escaped;
   }
 
   /// The question's text, the same for equal questions.
@@ -432,15 +473,17 @@ class Dashboard final : public HttpSite {
     return key;
   }
 
-  AnswerCache::Answer find(const SiteRequest& request, bool& shared) {
+  AnswerCache::SoFar find(const SiteRequest& request) {
     std::string_view path =
         std::string_view(request.path).substr(std::min(kApi.size(), request.path.size()));
     const std::string key = key_of(request);
     const auto young = Clock::now() - kFresh;
     const auto made = [&](const std::string& stamp, Clock::time_point oldest,
                           const std::function<Expected<Answer>()>& make) {
-      return cache_.get(
-          key, stamp, oldest, [&] { return timed(make); }, shared);
+      AnswerCache::SoFar found;
+      found.answer = cache_.get(
+          key, stamp, oldest, [&] { return timed(make); }, found.shared);
+      return found;
     };
     for (const auto& [name, value] : request.parameters) {
       // What is handed on would end there.
@@ -467,8 +510,19 @@ class Dashboard final : public HttpSite {
       const auto id = fit(pattern.path, path);
       if (!id) continue;
       // A page asks when `live` has told it of something new: older answers lack it.
-      return made(stamp_of(asked.file), std::max(young, told()),
-                  [&] { return ask(request, asked, pattern, *id); });
+      const std::string stamp = stamp_of(asked.file);
+      const auto oldest = std::max(young, told());
+      const auto turn = std::make_shared<std::atomic<bool>>(false);
+      if (options_.is_snapshot)
+        return made(stamp, oldest, [&] { return ask(request, asked, pattern, *id, *turn); });
+      SiteRequest later = request;
+      later.is_gone = {};  // who asked may leave, and fetch the answer
+      return cache_.get_within(
+          key, stamp, oldest,
+          [this, later = std::move(later), &asked, &pattern, id = *id, turn] {
+            return timed([&] { return ask(later, asked, pattern, id, *turn); });
+          },
+          turn, options_.patience);
     }
     return made("", young, [] { return no_such_path(); });
   }
@@ -496,12 +550,10 @@ class Dashboard final : public HttpSite {
   }
 
   Expected<Answer> ask(const SiteRequest& request, const DashboardStore& store,
-                       const Pattern& pattern, const std::string& id) {
-    std::optional<Turnstile::Pass> pass;
-    if (pattern.is_heavy) {
-      pass = heavy_.enter();
-      if (!pass) return busy();
-    }
+                       const Pattern& pattern, const std::string& id, std::atomic<bool>& turn) {
+    const auto pass = (pattern.is_heavy ? heavy_ : light_).enter();
+    if (!pass) return busy();
+    turn = true;
     const auto reader = readers_.take(store);
     if (!reader) return Unexpected(reader.error());
     Question question{.store = **reader,
@@ -520,10 +572,12 @@ class Dashboard final : public HttpSite {
   }
 
   Expected<Answer> query(const SiteRequest& request, const DashboardStore& store) {
-    const auto pass = heavy_.enter();
-    if (!pass) return busy();
-    const auto turn = sql_.enter();
+    // Together with the statement's own time less than a connection lives.
+    constexpr std::chrono::seconds kPatience{2};
+    const auto turn = sql_.enter(kPatience);
     if (!turn) return busy();
+    const auto pass = heavy_.enter(kPatience);
+    if (!pass) return busy();
     const auto reader = readers_.take(store);
     if (!reader) return Unexpected(reader.error());
     return sql_answer({.store = **reader,
@@ -642,7 +696,8 @@ class Dashboard final : public HttpSite {
   std::string user_;
   Readers readers_;
   AnswerCache cache_{kCacheBytes};
-  Turnstile heavy_{2, 4};
+  Turnstile heavy_{2, 16};
+  Turnstile light_{6, 32};
   Turnstile sql_{1, 4};
   mutable std::mutex mutex_;
   std::shared_ptr<const Published> published_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -34,6 +35,8 @@ struct DashboardOptions {
   bool is_snapshot = false;
   /// What is asked before each `live`: it may publish. Empty: nothing.
   std::function<void()> before_live{};
+  /// A question that takes longer is answered 202, and fetched later. Less than a connection lives.
+  std::chrono::milliseconds patience{5000};
 };
 
 /// The pages of the dashboard and what they ask for (docs/http-api.md).

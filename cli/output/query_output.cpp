@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/text/csv.h"
 #include "base/text/text_table.h"
 #include "console/terminal.h"
@@ -50,6 +52,14 @@ Expected<Rows> select(StoreReader& store, const std::string& sql,
       [&](const std::vector<Cell>& cells) { rows.cells.push_back(cells); });
   if (!end) return Unexpected(end.error());
   rows.truncated = end->truncated;
+  // Of a statement of our own all rows are wanted, or as many as were asked for.
+  if (rows.truncated && end->rows < limits.rows && !limits.typed) {
+    return unexpected(
+        ErrorKind::Unavailable,
+        fmt::format("the store could not be read to the end: it took longer than {} s, or "
+                    "the answer is too long",
+                    limits.seconds));
+  }
   return rows;
 }
 

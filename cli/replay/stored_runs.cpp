@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <functional>
+#include <limits>
+#include <map>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "cli/output/query_output.h"
@@ -20,6 +24,11 @@ using Cell = StoreReader::Cell;
 
 std::int64_t integer_of(const Cell& cell) {
   return std::strtoll(cell.text.c_str(), nullptr, 10);
+}
+
+/// How many of `count` evenly spaced ones are among the first n of so many.
+std::int64_t multiples(std::int64_t n, std::int64_t count, std::int64_t total) {
+  return n * count / total;
 }
 
 /// Who answers for a worker, as far as a store of this schema says it.
@@ -97,23 +106,70 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
   return {};
 }
 
-/// Scores from each who answers for workers in turn. Their order is drawn from numbers below 2^31,
-/// whose squares fit in SQLite's integers.
-std::string in_turn(std::int64_t schema, const std::string& given,
-                    const StoredRuns::Wanted& wanted) {
-  constexpr const char* kSql =
-      "WITH drawn AS (SELECT e.id, {who} AS who, (e.candidate * 100003 + e.pair * 7 + "
-      "(e.purpose = 'test') + {seed}) % {prime} AS x{given} AND e.status = 'ok'{but}), "
-      "mixed AS (SELECT id, who, (x * x + {seed}) % {prime} AS y FROM drawn), "
-      "ordered AS (SELECT id, who, y * y % {prime} AS z FROM mixed), "
-      "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY who ORDER BY z, id) AS n "
-      "FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT {count}";
-  return fmt::format(
-      fmt::runtime(kSql), fmt::arg("seed", wanted.seed), fmt::arg("who", who(schema)),
-      fmt::arg("prime", 2'147'483'629), fmt::arg("given", given),
-      fmt::arg("but", wanted.tests ? " AND e.purpose NOT IN " + words_in_sql(is_test) : ""),
-      fmt::arg("count", wanted.scores));
+/// Of millions of rows, one after the other.
+constexpr StoreReader::QueryLimits kAllRows{.rows = std::numeric_limits<std::int64_t>::max(),
+                                            .seconds = 600,
+                                            .bytes = std::numeric_limits<std::int64_t>::max()};
+
+/// Calls `on_row` with each row; an error when these are not all.
+Expected<void> each_row(StoreReader& store, const std::string& sql,
+                        const std::function<void(const std::vector<Cell>&)>& on_row) {
+  const auto end = store.query(
+      sql, kAllRows, [](const auto&) {}, on_row);
+  if (!end) return Unexpected(end.error());
+  if (end->truncated) {
+    return unexpected(
+        ErrorKind::Unavailable,
+        fmt::format("the evaluations could not be read within {} s", kAllRows.seconds));
+  }
+  return {};
 }
+
+/// The first of all scores in a drawn order, of each who answers for workers as many as are wanted
+/// in all: nothing else of a store is held.
+class Draw {
+ public:
+  explicit Draw(const StoredRuns::Wanted& wanted)
+      : seed_(wanted.seed), count_(static_cast<std::size_t>(wanted.scores)) {}
+
+  /// `key` is different for each. The order is that of numbers below 2^31, whose squares fit.
+  void add(const std::string& who, std::int64_t key, const std::string& id) {
+    constexpr std::int64_t kPrime = 2'147'483'629;
+    const std::int64_t x = (key + seed_) % kPrime;
+    const std::int64_t y = (x * x + seed_) % kPrime;
+    const std::int64_t place = y * y % kPrime;
+    std::vector<Drawn>& first = first_[who];  // a heap: its last one is the front
+    if (first.size() == count_) {
+      if (std::tie(place, id) >= std::tie(first.front().first, first.front().second)) return;
+      std::ranges::pop_heap(first);
+      first.pop_back();
+    }
+    first.emplace_back(place, id);
+    std::ranges::push_heap(first);
+  }
+
+  /// From each who answers in turn.
+  std::vector<std::string> ids() {
+    std::vector<std::pair<std::size_t, Drawn>> all;
+    for (auto& [who, first] : first_) {
+      std::ranges::sort(first);
+      for (std::size_t n = 0; n < first.size(); ++n)
+        all.emplace_back(n, std::move(first[n]));
+    }
+    std::ranges::sort(all);
+    all.resize(std::min(all.size(), count_));
+    std::vector<std::string> ids;
+    for (auto& [n, drawn] : all)
+      ids.push_back(std::move(drawn.second));
+    return ids;
+  }
+
+ private:
+  using Drawn = std::pair<std::int64_t, std::string>;  ///< its place in the order, its id
+  std::int64_t seed_;
+  std::size_t count_;
+  std::map<std::string, std::vector<Drawn>> first_;  ///< by who answers
+};
 
 }  // namespace
 
@@ -216,24 +272,52 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
 
 Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n]. What was not
-  // simulated here has no last state.
-  const std::string number = std::to_string(count);
-  return ids_of(
-      "WITH all_of (id, n, total) AS (SELECT id, row_number() OVER (ORDER BY candidate, "
-      "purpose, pair), count(*) OVER () FROM v_evaluations "
-      "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
-      "AND (state_digest <> 0 OR purpose <> 'score')) "
-      "SELECT id FROM all_of WHERE n * " +
-      number + " / total > (n - 1) * " + number + " / total ORDER BY n");
+  // simulated here has no last state. The view gives rows in the order of candidates.
+  constexpr const char* kSimulated =
+      " FROM v_evaluations WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
+      "AND (state_digest <> 0 OR purpose <> 'score')";
+  std::int64_t total = 0;
+  const auto counted = each_row(*store_, std::string("SELECT count(*)") + kSimulated,
+                                [&](const auto& cells) { total = integer_of(cells.front()); });
+  if (!counted) return Unexpected(counted.error());
+  std::vector<std::string> ids;
+  std::int64_t n = 0;
+  const auto read =
+      each_row(*store_, std::string("SELECT id") + kSimulated, [&](const auto& cells) {
+        ++n;
+        if (n <= total && multiples(n, count, total) > multiples(n - 1, count, total))
+          ids.push_back(cells.front().text);
+      });
+  if (!read) return Unexpected(read.error());
+  return ids;
+}
+
+Expected<std::vector<std::string>> StoredRuns::drawn(const std::string& given,
+                                                     const Wanted& wanted) {
+  std::map<std::int64_t, std::string> who_answers;
+  const auto read_workers =
+      each_row(*store_, "SELECT w.worker, " + who(store_->schema()) + " FROM v_workers AS w",
+               [&](const auto& cells) { who_answers[integer_of(cells[0])] = cells[1].text; });
+  if (!read_workers) return Unexpected(read_workers.error());
+  Draw draw(wanted);
+  const std::string but = wanted.tests ? " AND e.purpose NOT IN " + words_in_sql(is_test) : "";
+  const auto read =
+      each_row(*store_,
+               "SELECT e.id, e.worker, e.candidate * 100003 + e.pair * 7 + (e.purpose = 'test')" +
+                   given + " AND e.status = 'ok'" + but,
+               [&](const auto& cells) {
+                 const auto known = who_answers.find(integer_of(cells[1]));
+                 draw.add(known == who_answers.end() ? "" : known->second, integer_of(cells[2]),
+                          cells[0].text);
+               });
+  if (!read) return Unexpected(read.error());
+  return draw.ids();
 }
 
 Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   const std::string campaigns = of_campaigns();
   if (campaigns.empty()) return std::vector<std::string>{};
-  const std::string given =
-      " FROM v_evaluations AS e LEFT JOIN v_workers AS w ON w.worker = e.worker "
-      "WHERE e.source <> 'real' AND " +
-      campaigns;
+  const std::string given = " FROM v_evaluations AS e WHERE e.source <> 'real' AND " + campaigns;
   const std::string in_order = " ORDER BY e.candidate, e.purpose, e.pair";
   std::vector<std::string> parts;
   if (wanted.rejections)
@@ -241,10 +325,14 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   if (wanted.tests)
     parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose IN " +
                     words_in_sql(is_test) + in_order);
-  if (wanted.scores > 0) parts.push_back(in_turn(store_->schema(), given, wanted));
   std::vector<std::string> all;
   for (const std::string& sql : parts) {
     const auto ids = ids_of(sql);
+    if (!ids) return Unexpected(ids.error());
+    all.insert(all.end(), ids->begin(), ids->end());
+  }
+  if (wanted.scores > 0) {
+    const auto ids = drawn(given, wanted);
     if (!ids) return Unexpected(ids.error());
     all.insert(all.end(), ids->begin(), ids->end());
   }
@@ -252,11 +340,10 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
 }
 
 Expected<std::vector<std::string>> StoredRuns::ids_of(const std::string& sql) {
-  const auto rows = select(*store_, sql, {.rows = 1'000'000'000, .seconds = 600});
-  if (!rows) return Unexpected(rows.error());
   std::vector<std::string> ids;
-  for (const auto& cells : rows->cells)
-    ids.push_back(cells.front().text);
+  const auto read =
+      each_row(*store_, sql, [&](const auto& cells) { ids.push_back(cells.front().text); });
+  if (!read) return Unexpected(read.error());
   return ids;
 }
 

@@ -83,6 +83,8 @@ class StoredRuns {
   /// The design's world, or why there is none.
   Expected<DesignWorld> world_of(DesignId design);
   Expected<std::vector<std::string>> ids_of(const std::string& sql);
+  /// See Wanted::scores; `given` is the FROM and WHERE of the evaluations.
+  Expected<std::vector<std::string>> drawn(const std::string& given, const Wanted& wanted);
   /// SQL that is true of evaluations of campaigns that simulate; empty when none does.
   std::string of_campaigns() const;
 

@@ -25,10 +25,13 @@ Expected<void> check_one_store(const std::string& store, const std::string& wher
 }
 
 /// Blocks of the size of pictures and scenarios go back to the system when they are freed. glibc
-/// would, after the first one, put them into the heap, which keeps their gaps.
+/// would, after the first one, put them into the heap, which keeps their gaps. All threads share
+/// one heap: rows are made by one thread and freed by another, and each heap keeps gaps of its own
+/// (docs/performance.md).
 void give_large_blocks_back() {
   constexpr int kLarge = 512 << 10;
   mallopt(M_MMAP_THRESHOLD, kLarge);
+  mallopt(M_ARENA_MAX, 1);
 }
 
 }  // namespace

@@ -119,16 +119,27 @@ void CampaignRunner::advance(DesignRunner& design) {
 void CampaignRunner::put_away(DesignId id) {
   auto ended = open_.extract(id);
   std::ranges::copy(ended.mapped().take_dropped(), std::back_inserter(dropped_));
-  if (ended.mapped().state() == DesignState::Finished) {
-    kept_.insert(std::move(ended));
-    kept_order_.push_back(id);
-    if (kept_order_.size() <= most_.finished) return;
-    ended = kept_.extract(kept_order_.front());
+  if (ended.mapped().state() != DesignState::Finished) return forget(ended.mapped());
+  kept_.insert(std::move(ended));
+  kept_order_.push_back(id);
+  while (keeps_too_many()) {
+    forget(kept_.extract(kept_order_.front()).mapped());
     kept_order_.erase(kept_order_.begin());
   }
-  ended_.push_back(ended.key());
-  for (const auto& [key, bound] : ended.mapped().outstanding())
-    late_.emplace(key, Late{bound, ended.mapped().source()});
+}
+
+bool CampaignRunner::keeps_too_many() const {
+  std::int64_t experiments = 0;
+  for (const auto& [id, design] : kept_)
+    experiments += design.used();
+  return kept_.size() > most_.finished ||
+         (kept_.size() > 1 && experiments > most_.finished_experiments);
+}
+
+void CampaignRunner::forget(const DesignRunner& ended) {
+  ended_.push_back(ended.id());
+  for (const auto& [key, bound] : ended.outstanding())
+    late_.emplace(key, Late{bound, ended.source()});
 }
 
 void CampaignRunner::open(std::map<DesignId, Waiting>::iterator next) {

@@ -20,8 +20,10 @@ struct OpenDesigns {
   std::size_t at_least = 4;
   /// Race at the same time when slots would idle otherwise.
   std::size_t at_most = 64;
-  /// Finished ones, the latest, that can be given more budget without a restart.
+  /// Finished ones, the latest, that can be given more budget without a restart: so many at most,
+  /// and so many that their races are no longer together than this, but always the last one.
   std::size_t finished = 8;
+  std::int64_t finished_experiments = 100'000;
 };
 
 /// All designs of a campaign as one source of work: opens them in order, as many as it takes to
@@ -78,6 +80,8 @@ class CampaignRunner final : public WorkSource {
   void advance(DesignRunner& design);
   /// The design is over: keeps it for a while, or what may still come of it.
   void put_away(DesignId id);
+  bool keeps_too_many() const;
+  void forget(const DesignRunner& ended);
   Expected<void> command_waiting(std::map<DesignId, Waiting>::iterator found,
                                  const CommandRow& command);
   Error no_such_design(DesignId id) const;

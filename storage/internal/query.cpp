@@ -145,9 +145,27 @@ class Rules {
   std::array<int, kLimits.size()> limits_before_{};
 };
 
+/// Of a statement that nobody typed: about the store.
+Unexpected not_readable(const sqlite::Connection& connection, int code,
+                        const StoreReader::QueryLimits& limits) {
+  const std::string file = connection.file();
+  if ((code & 0xff) == SQLITE_NOMEM) {
+    return bad_input(fmt::format("this takes more memory than {} MB, the most that reading a store "
+                                 "may take; ask for one design or mission",
+                                 limits.memory >> 20U),
+                     file);
+  }
+  if ((code & 0xff) == SQLITE_TOOBIG) {
+    return bad_input(
+        fmt::format("the store has a value of more than {} MB", kMostValueBytes >> 20U), file);
+  }
+  return bad_input(sqlite3_errmsg(connection.handle()), file);
+}
+
 /// Bad input of a statement that SQLite refused with this code, in its words or in better ones.
 Unexpected refused(const sqlite::Connection& connection, int code, const std::string& sql,
                    const StoreReader::QueryLimits& limits) {
+  if (!limits.typed) return not_readable(connection, code, limits);
   switch (code & 0xff) {
     case SQLITE_NOMEM:
       return bad_input(fmt::format("the query needs more memory than {} MB; ask for fewer rows or "
@@ -248,7 +266,7 @@ Expected<StoreReader::QueryEnd> give_rows(
     if (bytes > kMostRowBytes) {
       return bad_input(fmt::format("a row of the answer has {} MB; {} MB is the most", bytes >> 20U,
                                    kMostRowBytes >> 20U),
-                       sql);
+                       limits.typed ? sql : connection.file());
     }
     given += bytes + static_cast<std::int64_t>(width * sizeof(StoreReader::Cell));
     if (given > limits.bytes) {

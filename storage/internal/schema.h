@@ -15,9 +15,9 @@ namespace swarmsmith {
 /// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). A change of either is a new version.
-inline constexpr std::int64_t kSchemaVersion = 11;
+inline constexpr std::int64_t kSchemaVersion = 12;
 /// The version that changed tables of before last: what came later are other views of the same
-/// tables, and tables of their own.
+/// tables, indexes, and tables of their own.
 inline constexpr std::int64_t kTablesVersion = 6;
 
 /// The step from one version to the next; runs in a transaction of its own. Views need no step:
@@ -35,8 +35,8 @@ std::span<const Migration> migrations();
 void configure_writer(sqlite::Connection& connection);
 void configure_reader(sqlite::Connection& connection);
 /// Gives our views to a reader's connection, until its temp_store changes: they are read in place
-/// of those of the file, whatever text those have. Nothing for a store that lacks more than the
-/// newest views, of a schema before kTablesVersion.
+/// of those of the file, whatever text those have; some in the words of lent_views.sql. Nothing for
+/// a store that lacks more than the newest views, of a schema before kTablesVersion.
 void lend_views(sqlite::Connection& connection);
 /// Whether lend_views gives them.
 bool has_our_views(const sqlite::Connection& connection);

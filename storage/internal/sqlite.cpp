@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
+#include "storage/internal/spill_place.h"
 
 namespace swarmsmith::sqlite {
 
@@ -107,7 +108,8 @@ Connection::Connection(const std::string& file, int flags) {
   if ((flags & SQLITE_OPEN_CREATE) != 0 && file != ":memory:")
     mknod(file.c_str(), S_IFREG | 0600, 0);
   const Listener listener;
-  const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX,
+                                   vfs_that_spills_beside(file));
   handle_.reset(opened);
   if (code == SQLITE_OK && !this->file().empty()) descriptor_ = listener.descriptor();
   if (opened == nullptr) throw SqliteError(code, sqlite3_errstr(code));

@@ -173,43 +173,57 @@ LEFT JOIN (SELECT design, iteration, max(used) AS used FROM race_step GROUP BY d
 
 -- Who raced in an iteration: its new candidates, the elites of the one before, and, once it has
 -- ended, all whom it dropped or kept (postselection takes candidates from anywhere). A candidate is
--- in every step up to the one that dropped it. The parts of `racer` have no row in common, since
--- SQLite hands a predicate on the design down to UNION ALL alone, and a predicate on iteration or
--- step past a window only when it is part of the PARTITION.
+-- in every step up to the one that dropped it.
+-- An iteration is found by its first step, in the order of an index, and its racers are one JSON
+-- list, whose parts have none in common: so SQLite sorts one iteration at a time for the ranks, in
+-- little memory, and a predicate on design, iteration or step (which are the PARTITION) picks some.
+-- By default a window ends with the last of equal scores: count(*) is its place, rank() the first's.
 CREATE VIEW v_race_matrix AS
-WITH racer (design, iteration, candidate) AS (
-  SELECT d.id, c.iteration, c.id
-  FROM design AS d JOIN candidate AS c ON c.id BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
-  UNION ALL
-  SELECT design, iteration + 1, candidate FROM elite
-  UNION ALL
-  SELECT k.design, k.iteration, k.candidate
-  FROM elite AS k JOIN candidate AS c ON c.id = k.candidate AND c.iteration <> k.iteration
-  WHERE NOT EXISTS (SELECT 1 FROM elite AS b WHERE b.design = k.design
-                    AND b.iteration = k.iteration - 1 AND b.candidate = k.candidate)
-  UNION ALL
-  SELECT d.id, x.iteration, x.candidate
-  FROM design AS d
-  JOIN elimination AS x ON x.candidate BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
-  JOIN candidate AS c ON c.id = x.candidate AND c.iteration <> x.iteration
-  WHERE NOT EXISTS (SELECT 1 FROM elite AS b WHERE b.design = d.id
-                    AND b.iteration IN (x.iteration - 1, x.iteration) AND b.candidate = x.candidate)
-), tried AS (
-  SELECT r.design, r.iteration, s.step, s.pair, r.candidate, e.score
-  FROM racer AS r
-  LEFT JOIN elimination AS x ON x.candidate = r.candidate AND x.iteration = r.iteration
-  CROSS JOIN race_step AS s ON s.design = r.design AND s.iteration = r.iteration
-    AND s.step <= coalesce(x.step, 9223372036854775807)
+WITH tried AS (
+  SELECT f.design, f.iteration, s.step, s.pair, r.value AS candidate, e.score
+  FROM race_step AS f
+  CROSS JOIN json_each((
+    SELECT '[' || group_concat(candidate) || ']' FROM (
+      SELECT c.id AS candidate FROM candidate AS c
+      WHERE c.iteration = f.iteration
+        AND c.id BETWEEN (f.design - 1) * 1000000 + 1 AND f.design * 1000000
+      UNION ALL
+      SELECT k.candidate FROM elite AS k
+      WHERE k.design = f.design AND k.iteration = f.iteration - 1
+      UNION ALL
+      SELECT k.candidate
+      FROM elite AS k JOIN candidate AS c ON c.id = k.candidate AND c.iteration <> k.iteration
+      WHERE k.design = f.design AND k.iteration = f.iteration
+        AND NOT EXISTS (SELECT 1 FROM elite AS b WHERE b.design = f.design
+                        AND b.iteration = f.iteration - 1 AND b.candidate = k.candidate)
+      UNION ALL
+      SELECT x.candidate
+      FROM elimination AS x JOIN candidate AS c ON c.id = x.candidate AND c.iteration <> x.iteration
+      WHERE x.iteration = f.iteration
+        AND x.candidate BETWEEN (f.design - 1) * 1000000 + 1 AND f.design * 1000000
+        AND NOT EXISTS (SELECT 1 FROM elite AS b WHERE b.design = f.design
+                        AND b.iteration IN (f.iteration - 1, f.iteration)
+                        AND b.candidate = x.candidate)))) AS r
+  CROSS JOIN race_step AS s ON s.design = f.design AND s.iteration = f.iteration
+    AND s.step BETWEEN f.step AND coalesce(
+      (SELECT x.step FROM elimination AS x
+       WHERE x.candidate = r.value AND x.iteration = f.iteration),
+      (SELECT max(l.step) FROM race_step AS l
+       WHERE l.design = f.design AND l.iteration = f.iteration))
   CROSS JOIN evaluation AS e
-    ON e.candidate = r.candidate AND e.purpose = 0 AND e.pair = s.pair AND e.iteration IS NOT NULL
+    ON e.candidate = r.value AND e.purpose = 0 AND e.pair = s.pair AND e.iteration IS NOT NULL
+  WHERE NOT EXISTS (SELECT 1 FROM race_step AS b WHERE b.design = f.design
+                    AND b.iteration = f.iteration AND b.step < f.step)
+), ranked AS (
+  SELECT t.design, t.iteration, t.step, t.pair, t.candidate, t.score,
+         CASE WHEN t.score IS NOT NULL THEN (rank() OVER peers + count(*) OVER peers) / 2.0 END
+           AS rank
+  FROM tried AS t
+  WINDOW peers AS (PARTITION BY t.design, t.iteration, t.step ORDER BY t.score DESC)
 )
-SELECT t.design, t.iteration, t.step, t.pair, p.instance, p.seed, t.candidate, t.score,
-       CASE WHEN t.score IS NOT NULL THEN rank() OVER peers + (count(*) OVER peers - 1) / 2.0 END
-         AS rank
-FROM tried AS t
-LEFT JOIN pair AS p ON p.design = t.design AND p.purpose = 0 AND p.number = t.pair
-WINDOW peers AS (PARTITION BY t.design, t.iteration, t.step ORDER BY t.score DESC
-                 RANGE BETWEEN CURRENT ROW AND CURRENT ROW);
+SELECT k.design, k.iteration, k.step, k.pair, p.instance, p.seed, k.candidate, k.score, k.rank
+FROM ranked AS k
+LEFT JOIN pair AS p ON p.design = k.design AND p.purpose = 0 AND p.number = k.pair;
 
 CREATE VIEW v_parameters AS
 SELECT c.id AS candidate, c.design, c.iteration, j.key AS parameter, j.value
@@ -246,11 +260,10 @@ JOIN json_each(CASE WHEN d.flavour <> '' THEN '["' || c.machine || '"]' ELSE '[]
   ON t.value GLOB '--nstates [0-9]*' OR t.value GLOB '--nroot [0-9]*';
 
 -- Not public: the states to which transitions lead from the first one, between blanks. Targets are
--- numbered without the state that is left: "n1x0 1" leads from state 1 to state 2.
+-- numbered without the state that is left: "n1x0 1" leads from state 1 to state 2. It costs ten
+-- times what the words cost, so that it is an expression: who does not ask for it does not pay.
 CREATE VIEW machine_reach AS
-SELECT m.candidate, m.design, m.flavour, m.text, m.words, s.value AS reached
-FROM machine_text AS m
-JOIN json_each((
+SELECT m.candidate, m.design, m.flavour, m.text, m.words, (
   WITH RECURSIVE reached(state) AS (
     SELECT 0
     UNION
@@ -258,50 +271,52 @@ JOIN json_each((
            (0 + substr(j.value, instr(j.value, ' ')) >= r.state)
     FROM reached AS r JOIN json_each(m.words) AS j
       ON j.value GLOB 'n' || r.state || 'x[0-9]*')
-  SELECT '[" ' || group_concat(state, ' ') || ' "]' FROM reached)) AS s;
+  SELECT ' ' || group_concat(state, ' ') || ' ' FROM reached) AS reached
+FROM machine_text AS m;
 
 -- A value is read off the text behind its word: 0 + '3.67 --n0 4' is 3.67.
 CREATE VIEW v_states AS
-SELECT m.candidate, m.design, 0 + substr(j.value, 2) AS state, n.name AS behaviour,
+SELECT m.candidate, m.design, 0 + substr(j.value, 2) AS state,
+       (SELECT n.name FROM flavour_name AS n WHERE n.flavour = m.flavour AND n.kind = 's'
+          AND n.number = 0 + substr(j.value, instr(j.value, ' '))) AS behaviour,
        (SELECT 0 + substr(p.value, instr(p.value, ' '))
         FROM json_each(m.words) AS p
         WHERE p.value GLOB '[a-z][a-z]*' || (0 + substr(j.value, 2)) || ' *') AS parameter,
        instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0 AS reachable
 FROM machine_reach AS m
-JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*'
-LEFT JOIN flavour_name AS n ON n.flavour = m.flavour AND n.kind = 's'
-  AND n.number = 0 + substr(j.value, instr(j.value, ' '));
+JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*';
 
 CREATE VIEW v_transitions AS
 SELECT t.candidate, t.design, t.state, t.transition, t.jump + (t.jump >= t.state) AS target,
-       n.name AS condition,
+       (SELECT n.name FROM flavour_name AS n WHERE n.flavour = t.flavour AND n.kind = 'c'
+          AND n.number = 0 + substr(t.text, instr(t.text, ' --c' || t.place) + 4
+                                            + length(t.place))) AS condition,
        CASE WHEN instr(t.text, ' --p' || t.place) > 0
             THEN 0 + substr(t.text, instr(t.text, ' --p' || t.place) + 4 + length(t.place)) END AS p,
        CASE WHEN instr(t.text, ' --w' || t.place) > 0
             THEN 0 + substr(t.text, instr(t.text, ' --w' || t.place) + 4 + length(t.place)) END AS w,
-       l.name AS label,
+       (SELECT l.name FROM flavour_name AS l WHERE l.flavour = t.flavour AND l.kind = 'l'
+          AND instr(t.text, ' --l' || t.place) > 0
+          AND l.number = 0 + substr(t.text, instr(t.text, ' --l' || t.place) + 4
+                                            + length(t.place))) AS label,
        instr(t.reached, ' ' || t.state || ' ') > 0 AS reachable
 FROM (SELECT m.candidate, m.design, m.flavour, m.text, m.reached,
              0 + substr(j.value, 2) AS state,
              0 + substr(j.value, instr(j.value, 'x') + 1) AS transition,
              substr(j.value, 2, instr(j.value, ' ') - 1) AS place,
              0 + substr(j.value, instr(j.value, ' ')) AS jump
-      FROM machine_reach AS m JOIN json_each(m.words) AS j ON j.value GLOB 'n[0-9]*x[0-9]*') AS t
-LEFT JOIN flavour_name AS n ON n.flavour = t.flavour AND n.kind = 'c'
-  AND n.number = 0 + substr(t.text, instr(t.text, ' --c' || t.place) + 4 + length(t.place))
-LEFT JOIN flavour_name AS l ON l.flavour = t.flavour AND l.kind = 'l'
-  AND instr(t.text, ' --l' || t.place) > 0
-  AND l.number = 0 + substr(t.text, instr(t.text, ' --l' || t.place) + 4 + length(t.place));
+      FROM machine_reach AS m JOIN json_each(m.words) AS j ON j.value GLOB 'n[0-9]*x[0-9]*') AS t;
 
 -- Not public: one row for each place of a machine or a tree that has a module. Those of a tree's subtree 1
--- are c10 and a11; all subtrees can be reached.
+-- are c10 and a11; all subtrees can be reached. All places need what is reached: it is made once.
 CREATE VIEW module_place AS
 SELECT m.candidate, m.design, n.name AS module,
-       m.text GLOB '--nroot*' OR instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0
+       m.text GLOB '--nroot*' OR instr(r.value, ' ' || (0 + substr(j.value, 2)) || ' ') > 0
          AS reachable
 FROM machine_reach AS m
+JOIN json_each('["' || m.reached || '"]') AS r
 JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*' OR j.value GLOB 'c[0-9]*x[0-9]*'
-  OR j.value GLOB 'a[0-9]1 *' OR j.value GLOB 'c[0-9]0 *'
+  OR j.value GLOB 'a[0-9][0-9] *' OR j.value GLOB 'c[0-9][0-9] *'
 LEFT JOIN flavour_name AS n ON n.flavour = m.flavour
   AND n.kind = replace(substr(j.value, 1, 1), 'a', 's')
   AND n.number = 0 + substr(j.value, instr(j.value, ' '));

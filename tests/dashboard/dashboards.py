@@ -120,6 +120,9 @@ class Serving:
 
     def get(self, path):
         status, _, body = self.ask("api/v1/" + path)
+        while status == 202:
+            time.sleep(0.05)  # it is being computed, on a loaded machine
+            status, _, body = self.ask("api/v1/" + path)
         if status != 200:
             raise AssertionError(f"{path}: {status} {body[:300]}")
         return json.loads(body)

@@ -99,6 +99,53 @@ TEST_F(QueryTest, RefusesMistakesWithTheReasonOfSqlite) {
   EXPECT_THAT(query("SELECT 1; SELECT 2").error().message, testing::HasSubstr("one statement"));
 }
 
+/// The text of a statement is no answer to somebody who did not write it.
+TEST_F(QueryTest, RepeatsAStatementToNobodyButWhoTypedIt) {
+  const std::string sorts =
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 60000) "
+      "SELECT printf('%05000d', i) AS s FROM n ORDER BY s DESC";
+  for (const std::string& sql : {sorts, std::string("SELECT missing FROM v_designs"),
+                                 std::string("SELECT zeroblob(900000000)")}) {
+    const auto own = query(sql, {.seconds = 600});
+    ASSERT_FALSE(own) << sql;
+    EXPECT_EQ(own.error().where, path.string());
+    EXPECT_THAT(to_string(own.error()), testing::Not(testing::HasSubstr("SELECT")));
+    EXPECT_THAT(to_string(own.error()), testing::Not(testing::HasSubstr("query")));
+    const auto typed = query(sql, {.seconds = 600, .typed = true});
+    ASSERT_FALSE(typed) << sql;
+    EXPECT_EQ(typed.error().where, sql);
+  }
+}
+
+/// Files that this process has open, also those that have no name any more.
+std::vector<std::string> open_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code closed;
+    files.push_back(std::filesystem::read_symlink(entry.path(), closed).string());
+  }
+  return files;
+}
+
+TEST_F(QueryTest, SortsOnTheDiskOfTheStore) {
+  // Sorted by a key that SQLite must make: more than it keeps in memory.
+  bool spilled = false;
+  const auto end = reader->query(
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 60000) "
+      "SELECT printf('%05000d', i * 7919 % 60000) AS s FROM n ORDER BY s",
+      {.seconds = 600, .bytes = 1 << 30, .memory = 1 << 30, .spill = true}, [](const auto&) {},
+      [&](const auto&) {
+        if (spilled) return;
+        for (const std::string& file : open_files())
+          spilled |= file.starts_with((folder / ".swarmsmith-spill-").string());
+      });
+  ASSERT_TRUE(end) << to_string(end.error());
+  EXPECT_EQ(end->rows, 60000);
+  EXPECT_TRUE(spilled) << "temporary files are elsewhere";
+  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path()))
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::HasSubstr("spill")));
+}
+
 TEST_F(QueryTest, StopsAtTheLimitOfRows) {
   const auto end = query("SELECT * FROM v_evaluations", {.rows = 3});
   ASSERT_TRUE(end);

@@ -89,15 +89,25 @@ async function fetched(path: string, patience_ms: number, headers: Record<string
   throw new ApiError(response.status, error.message, error.where, response.status === 503 ? Number(response.headers.get("Retry-After") ?? 1) : 0);
 }
 
+/// How far an answer is that is not there yet.
+export interface Pending { seconds: number }
+
 /// Data of a path below api/v1/. An answer that the server says is unchanged (ETag, 304) is the very
 /// same object as before. Throws ApiError.
-export async function ask(path: string, patience_ms = 65000): Promise<Answer> {
+/// `waits` hears how long it has been computed when that takes long (202): it is fetched when it is there.
+export async function ask(path: string, patience_ms = 65000, waits?: (pending: Pending) => void): Promise<Answer> {
   if (is_snapshot) return from_snapshot(path);
   const before = kept.get(path);
   let response: Response | undefined;
   for (let attempt = 1; !response; ++attempt) {
     try {
-      response = await fetched(path, patience_ms, before && { "If-None-Match": before.etag });
+      const got = await fetched(path, patience_ms, before && { "If-None-Match": before.etag });
+      if (got.status !== 202) response = got;
+      else {
+        attempt = 0;
+        waits?.((await got.json()).pending);
+        await new Promise((done) => setTimeout(done, 1000));
+      }
     } catch (error) {
       const { retry_s } = error as ApiError;
       if (!retry_s || attempt > 3 || path === "live") throw error;

@@ -1,5 +1,5 @@
 import { Component, h } from "preact";
-import { ApiError, feed, is_snapshot, token } from "./api";
+import { ApiError, feed, is_snapshot, Pending, token } from "./api";
 import { clamp, csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
 import { current_route, href, Query, set_query } from "./route";
 import { Campaign } from "./types";
@@ -27,7 +27,9 @@ export function Failure({ error, again }: { error: ApiError; again?: () => void 
 }
 
 /// style.css shows it only after a moment.
-export function Waiting() { return <p class="waiting" aria-busy="true">Asking the server …</p>; }
+export function Waiting({ pending }: { pending?: Pending }) {
+  return <p class="waiting" aria-busy="true">Asking the server{pending && `, for ${Math.round(pending.seconds)} s`} …</p>;
+}
 
 /// Why there is nothing here, and what to do.
 export function Empty({ children }: { children?: Children }) {

@@ -1,5 +1,5 @@
 import { Component, h } from "preact";
-import { ApiError, ask, feed, path_of } from "./api";
+import { ApiError, ask, feed, path_of, Pending } from "./api";
 import { Empty, Failure, Waiting } from "./components";
 
 interface Props<T> {
@@ -19,7 +19,7 @@ interface Props<T> {
   missing?: JSX.Element;
 }
 
-interface State { path?: string; data?: unknown; error?: ApiError }
+interface State { path?: string; data?: unknown; error?: ApiError; pending?: Pending }
 
 /// Rows of columns; with more they are asked for as a whole: the server may have thinned them out.
 const kMostGrown = 5000;
@@ -71,15 +71,17 @@ export class Get<T> extends Component<Props<T>, State> {
     const list = grows && before?.[grows], last = list?.length < kMostGrown ? list[list.length - 1] : undefined;
     let next: State;
     try {
-      const { data: got, cost_ms } = await ask(last === undefined ? path : path_of(path, { after: last }));
+      const { data: got, cost_ms } = await ask(last === undefined ? path : path_of(path, { after: last }), undefined, (pending) => {
+        if (!this.#is_gone && path === this.props.path) this.setState({ pending });
+      });
       this.#cost_ms = cost_ms;
       const data = last === undefined ? got : grown(before!, got as Lists, grows!);
       // "Nothing yet" is an answer: browsers complain of every request that fails.
       const { nothing } = data as { nothing?: string };
       if (nothing !== undefined) throw new ApiError(404, nothing);
-      next = { path, data, error: undefined };
+      next = { path, data, error: undefined, pending: undefined };
     } catch (error) {
-      next = { path, error: error as ApiError, ...(this.state.path !== path && { data: undefined }) };
+      next = { path, error: error as ApiError, pending: undefined, ...(this.state.path !== path && { data: undefined }) };
     }
     if (this.#is_gone || path !== this.props.path) return;
     this.setState(next);
@@ -94,12 +96,12 @@ export class Get<T> extends Component<Props<T>, State> {
     }
   }
 
-  render({ path: wanted, keep, missing }: Props<T>, { path, data, error }: State) {
+  render({ path: wanted, keep, missing }: Props<T>, { path, data, error, pending }: State) {
     const is_current = path === wanted;
     const failure = error ? <Failure error={error} again={this.#load} /> : null;
     if (is_current && error && data === undefined)
       return error.status === 404 ? missing ?? <Empty>{error.message}</Empty> : failure;
-    if (data === undefined || !is_current && !keep) return <Waiting />;
+    if (data === undefined || !is_current && !keep) return <Waiting pending={pending} />;
     return <div class={is_current ? "" : "old"} aria-busy={is_current ? undefined : "true"}>{failure}{this.#drawn(data as T)}</div>;
   }
 }

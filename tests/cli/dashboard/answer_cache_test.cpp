@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <latch>
 #include <thread>
 #include <vector>
@@ -121,6 +123,67 @@ TEST(AnswerCacheTest, AnswersThatBeganTooEarlyAreNotShared) {
   EXPECT_EQ(inner, "newer") << "it asked after something had been told";
   EXPECT_EQ(get(cache, "race", "", of("other"), before), "newer");
   EXPECT_EQ(get(cache, "race", "", of("newest"), AnswerCache::Clock::now()), "newest");
+}
+
+/// Asks until it is there.
+AnswerCache::SoFar get_at_once(AnswerCache& cache, const std::function<KeptAnswer()>& make) {
+  return cache.get_within("figure", "", kNone, make, std::make_shared<std::atomic<bool>>(true),
+                          std::chrono::milliseconds(0));
+}
+
+TEST(AnswerCacheTest, WhatTakesLongIsFetchedLater) {
+  AnswerCache cache(1 << 20);
+  std::latch may_end(1);
+  std::atomic<int> made = 0;
+  const auto make = [&] {
+    ++made;
+    may_end.wait();
+    KeptAnswer answer = of("drawn");
+    answer.is_good = false;  // what cannot be drawn is said, too
+    answer.seconds = 43;
+    return answer;
+  };
+  const AnswerCache::SoFar first = get_at_once(cache, make);
+  EXPECT_EQ(first.answer, nullptr);
+  EXPECT_TRUE(first.goes_on);
+  EXPECT_FALSE(first.shared);
+  const AnswerCache::SoFar second = get_at_once(cache, make);
+  EXPECT_EQ(second.answer, nullptr);
+  EXPECT_TRUE(second.shared);
+  EXPECT_GE(second.seconds, first.seconds);
+  may_end.count_down();
+  cache.wait_for_all();
+  // The store has gone on meanwhile: no stamp, and nothing is young enough.
+  const AnswerCache::SoFar there = get_at_once(cache, make);
+  ASSERT_NE(there.answer, nullptr);
+  EXPECT_EQ(there.answer->packed, "drawn");
+  EXPECT_EQ(there.seconds, 43);
+  EXPECT_EQ(made, 1);
+}
+
+TEST(AnswerCacheTest, WhatIsThereInTimeIsAnAnswerAsEver) {
+  AnswerCache cache(1 << 20);
+  const auto turn = std::make_shared<std::atomic<bool>>(true);
+  const auto in_time = [&](const std::string& bytes) {
+    return cache.get_within(
+        "race", "1", kNone, [bytes] { return of(bytes); }, turn, std::chrono::hours(1));
+  };
+  EXPECT_EQ(in_time("a").answer->packed, "a");
+  EXPECT_EQ(in_time("b").answer->packed, "a") << "the same stamp";
+  cache.forget();
+  EXPECT_EQ(in_time("c").answer->packed, "c");
+}
+
+TEST(TurnstileTest, WaitsSoLongAndNoLonger) {
+  Turnstile turnstile(1, 4);
+  const auto inside = turnstile.enter();
+  EXPECT_FALSE(turnstile.enter(std::chrono::milliseconds(1)).has_value());
+  std::jthread waiting([&] { EXPECT_FALSE(turnstile.enter().has_value()); });
+  while (turnstile.waiting() == 0)
+    std::this_thread::yield();
+  turnstile.close();
+  waiting.join();
+  EXPECT_FALSE(turnstile.enter().has_value());
 }
 
 TEST(TurnstileTest, SomePassSomeWaitOthersAreTurnedAway) {

@@ -19,6 +19,8 @@ class Asking {
   explicit Asking(const std::filesystem::path& store, DashboardOptions options = {}) {
     options.stores = {{store, std::nullopt}};
     options.program = SWARMSMITH_BIN_DIR "/swarmsmith";
+    // Of a loaded machine, too, answers are wanted; who wants 202 says so.
+    if (options.patience == DashboardOptions{}.patience) options.patience = std::chrono::hours(1);
     site = make_dashboard(std::move(options));
   }
 

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <latch>
 #include <mutex>
@@ -48,6 +49,7 @@ class DashboardTest : public WithStore {
     DashboardOptions dashboard{.stores = {{store_, 0}}};
     dashboard.program = SWARMSMITH_BIN_DIR "/swarmsmith";
     dashboard.version = "swarmsmith test";
+    dashboard.patience = patience_;
     dashboard.act = [this](const std::filesystem::path&, const CommandRow& command) {
       commands_.push_back(command);
       return Expected<std::string>("done");
@@ -72,8 +74,40 @@ class DashboardTest : public WithStore {
   std::shared_ptr<HttpSite> site_;
   std::unique_ptr<HttpServer> server_;
   std::vector<CommandRow> commands_;
+  /// Of a loaded machine, too, answers are wanted.
+  std::chrono::milliseconds patience_ = std::chrono::hours(1);
   int port_ = 0;
 };
+
+TEST_F(DashboardTest, WhatTakesLongIsToldAndFetchedFromTheSameAddress) {
+  patience_ = std::chrono::milliseconds(0);
+  serve();
+  int told = 0;
+  // Each width is another question.
+  for (int width = 60; width < 80; ++width) {
+    const std::string path =
+        "/api/v1/c1/figures/convergence.csv?width=" + std::to_string(width) + "mm";
+    std::string answer = get(path);
+    while (answer.starts_with("HTTP/1.1 202")) {
+      ++told;
+      EXPECT_EQ(header_of(answer, "Location"), path);
+      EXPECT_EQ(header_of(answer, "Retry-After"), "1");
+      const json pending = json::parse(body_of(answer))["pending"];
+      EXPECT_EQ(pending["place"], path);
+      EXPECT_GE(pending["seconds"].get<double>(), 0);
+      EXPECT_TRUE(pending["state"] == "computing" || pending["state"] == "waiting");
+      answer = get(path);
+    }
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 200")) << answer;
+    EXPECT_THAT(body_of(answer), HasSubstr("design")) << answer;
+  }
+  EXPECT_GT(told, 0);
+  // What is wrong with a question is told in the same way.
+  std::string wrong = get("/api/v1/c1/designs/d77/race");
+  while (wrong.starts_with("HTTP/1.1 202"))
+    wrong = get("/api/v1/c1/designs/d77/race");
+  EXPECT_THAT(wrong, StartsWith("HTTP/1.1 404"));
+}
 
 TEST_F(DashboardTest, PagesComeWithTheirPolicies) {
   serve();
@@ -360,7 +394,8 @@ TEST_F(DashboardTest, ManySilentConnectionsKeepNobodyWaiting) {
 }
 
 TEST_F(DashboardTest, MoreHeavyQuestionsThanFitAreTurnedAway) {
-  // Two are under way and four wait: each is another question, so that nothing is shared.
+  // A statement is under way and four wait, for a moment: each is another question, so that nothing
+  // is shared.
   serve();
   const std::string endless =
       "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n";
@@ -385,13 +420,13 @@ TEST_F(DashboardTest, MoreHeavyQuestionsThanFitAreTurnedAway) {
         EXPECT_TRUE(says_when);
         EXPECT_EQ(answer.status, 503);
       }
-      // All but six are refused at once; then those that wait need wait no longer.
-      if (refused >= kAskers - 6) gone = true;
+      // All but five are refused at once; then those that wait need wait no longer.
+      if (refused >= kAskers - 5) gone = true;
     });
   }
   askers.clear();
-  EXPECT_EQ(refused, kAskers - 6);
-  EXPECT_EQ(answered, 6);
+  EXPECT_GE(refused, kAskers - 5);
+  EXPECT_GE(answered, 1);
   EXPECT_THAT(get("/api/v1/c1/designs/d1/race"), StartsWith("HTTP/1.1 200"));
 }
 

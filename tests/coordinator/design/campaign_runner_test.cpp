@@ -214,6 +214,20 @@ TEST(CampaignRunner, SaysWhichDesignsAreOverForGood) {
   EXPECT_TRUE(runner.take_ended().empty());
 }
 
+TEST(CampaignRunner, KeepsFinishedRacesByTheirSize) {
+  Memory memory;
+  const std::vector<DesignPlan> plans = small_plans(3);
+  const std::int64_t budget = plans.front().row.budget;
+  CampaignRunner small(plans, {}, {}, {}, {.finished_experiments = 3 * budget});
+  run(small, memory, Rng(1));
+  ASSERT_TRUE(small.finished());
+  EXPECT_TRUE(small.take_ended().empty()) << "all can be extended";
+  CampaignRunner large(plans, {}, {}, {}, {.finished_experiments = budget / 2});
+  run(large, memory, Rng(1));
+  ASSERT_TRUE(large.finished());
+  EXPECT_EQ(large.take_ended().size(), 2U) << "the last one can be extended in any case";
+}
+
 TEST(CampaignRunner, ARejectedCandidateIsDroppedAndItsLaterRunsCountNowhere) {
   Memory memory;
   CampaignRunner runner(small_plans(1), {}, {});
