@@ -1,8 +1,10 @@
 """Copies of a store that a campaign writes at that moment: each goes on to the right answer, or is refused in words.
 And each command that reads a copy answers or refuses."""
+import contextlib
 import os
 import shutil
 import signal
+import subprocess
 import unittest
 
 from copying import OTHERS, SOUND, Moving
@@ -21,18 +23,24 @@ class Copies(Moving):
         self.mended = 0
 
     def made(self, number, name, make):
-        """A copy, of a campaign that has begun and is not over."""
-        if not hasattr(self, "serving"):
-            self.begin()
-        elif not self.serving.alive() or stored(self.store) > 0.7 * self.budget:
-            self.end()
-            self.begin()
-        to = self.folder / f"copy-{number}"
-        to.mkdir()
-        make(self, to)
-        self.count(name)
-        self.later(self.budget // 50)
-        return to / "campaign.db"
+        """A copy, of a campaign that has begun and is not over: that may happen where this process gets no processor."""
+        for n in range(5):
+            if not hasattr(self, "serving"):
+                self.begin()
+            elif not self.serving.alive() or stored(self.store) > 0.7 * self.budget:
+                self.end()
+                self.begin()
+            to = self.folder / f"copy-{number}-{n}"
+            to.mkdir()
+            try:
+                make(self, to)
+            except (OSError, subprocess.CalledProcessError):
+                if self.serving.alive():
+                    raise
+            if self.serving.alive():
+                self.count(name)
+                return to / "campaign.db"
+        raise AssertionError(f"{name}: the campaign was over each time")
 
     def judge(self, name, store, sound, readers):
         for words in readers:
@@ -102,11 +110,12 @@ class HardLinks(Copies):
         to = self.folder / "linked"
         to.mkdir()
         for name in ("", "-wal"):
-            os.link(self.beside(name), to / f"campaign.db{name}")
+            with contextlib.suppress(FileNotFoundError):
+                os.link(self.beside(name), to / f"campaign.db{name}")
         self.later(self.budget // 10)
         self.serving.send(signal.SIGINT)
         self.working.send(signal.SIGCONT)
-        self.assertIn(self.serving.wait(60), (130, 3), self.serving.tail())
+        self.assertIn(self.serving.wait(60), (0, 130, 3), self.serving.tail())
         self.working.kill()
         self.count("hard link")
         return to / "campaign.db"
