@@ -221,9 +221,9 @@ WITH tried AS (
   FROM tried AS t
   WINDOW peers AS (PARTITION BY t.design, t.iteration, t.step ORDER BY t.score DESC)
 )
-SELECT k.design, k.iteration, k.step, k.pair, p.instance, p.seed, k.candidate, k.score, k.rank
-FROM ranked AS k
-LEFT JOIN pair AS p ON p.design = k.design AND p.purpose = 0 AND p.number = k.pair;
+SELECT t.design, t.iteration, t.step, t.pair, p.instance, p.seed, t.candidate, t.score, t.rank
+FROM ranked AS t
+LEFT JOIN pair AS p ON p.design = t.design AND p.purpose = 0 AND p.number = t.pair;
 
 CREATE VIEW v_parameters AS
 SELECT c.id AS candidate, c.design, c.iteration, j.key AS parameter, j.value
