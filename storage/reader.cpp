@@ -40,8 +40,9 @@ std::string changes_since_closed(const Connection& connection) {
 class SqliteReader final : public StoreReader {
  public:
   explicit SqliteReader(std::shared_ptr<Connection> connection,
-                        std::optional<std::int64_t> only = std::nullopt)
-      : connection_(std::move(connection)), only_(only) {}
+                        std::optional<std::int64_t> only = std::nullopt,
+                        std::shared_ptr<bool> is_whole = std::make_shared<bool>(false))
+      : connection_(std::move(connection)), only_(only), is_whole_(std::move(is_whole)) {}
 
   std::vector<StoredCampaign> campaigns() override;
   std::unique_ptr<StoreReader> alone(std::int64_t campaign) override;
@@ -76,6 +77,7 @@ class SqliteReader final : public StoreReader {
 
   std::shared_ptr<Connection> connection_;
   std::optional<std::int64_t> only_;  ///< the campaign that is looked at; none: all
+  std::shared_ptr<bool> is_whole_;    ///< the store's rows were found to be those of a commit
 };
 
 std::vector<StoredCampaign> SqliteReader::campaigns() {
@@ -89,7 +91,7 @@ std::unique_ptr<StoreReader> SqliteReader::alone(std::int64_t campaign) {
   if (std::ranges::find(known, campaign, &StoredCampaign::id) == known.end()) {
     throw std::invalid_argument(fmt::format("the store has no campaign {}", campaign));
   }
-  return std::make_unique<SqliteReader>(connection_, campaign);
+  return std::make_unique<SqliteReader>(connection_, campaign, is_whole_);
 }
 
 Part SqliteReader::part() {
@@ -121,8 +123,11 @@ Expected<RealRunRows> SqliteReader::real_run(RealRunId id) {
 
 std::string SqliteReader::digest() {
   const Snapshot snapshot(*connection_);
-  if (const std::string changed = changes_since_closed(*connection_); !changed.empty())
-    connection_->fail(SQLITE_CORRUPT, changed);
+  if (!*is_whole_) {
+    const std::string changed = changes_since_closed(*connection_);
+    if (!changed.empty()) connection_->fail(SQLITE_CORRUPT, changed);
+    *is_whole_ = true;
+  }
   const std::vector<StoredCampaign> all = campaigns();
   return all.size() == 1 ? digest_of_campaign(*connection_, all.front())
                          : digest_of_store(*connection_);
