@@ -272,7 +272,7 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
 
 Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n]. What was not
-  // simulated here has no last state. The view gives rows in the order of candidates.
+  // simulated here has no last state.
   constexpr const char* kSimulated =
       " FROM v_evaluations WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
       "AND (state_digest <> 0 OR purpose <> 'score')";
@@ -283,11 +283,13 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   std::vector<std::string> ids;
   std::int64_t n = 0;
   const auto read =
-      each_row(*store_, std::string("SELECT id") + kSimulated, [&](const auto& cells) {
-        ++n;
-        if (n <= total && multiples(n, count, total) > multiples(n - 1, count, total))
-          ids.push_back(cells.front().text);
-      });
+      each_row(*store_,
+               std::string("SELECT id") + kSimulated + " ORDER BY candidate, purpose, pair",
+               [&](const auto& cells) {
+                 ++n;
+                 if (n <= total && multiples(n, count, total) > multiples(n - 1, count, total))
+                   ids.push_back(cells.front().text);
+               });
   if (!read) return Unexpected(read.error());
   return ids;
 }

@@ -56,6 +56,9 @@ struct SpillPlace {
 const char* vfs_that_spills_beside(const std::string& database) {
   if (database.empty() || database.front() == ':' || database.starts_with("file:")) return nullptr;
   if (std::getenv("SQLITE_TMPDIR") != nullptr) return nullptr;
+  if (sqlite3_initialize() != SQLITE_OK) return nullptr;
+  sqlite3_vfs* system = sqlite3_vfs_find("unix");
+  if (system == nullptr || system != sqlite3_vfs_find(nullptr)) return nullptr;
   std::error_code trouble;
   const fs::path folder = fs::absolute(database, trouble).parent_path();
   if (trouble || ::access(folder.c_str(), W_OK) != 0) return nullptr;
@@ -65,9 +68,6 @@ const char* vfs_that_spills_beside(const std::string& database) {
   const std::scoped_lock lock(mutex);
   SpillPlace*& place = places[folder];
   if (place == nullptr) {
-    if (sqlite3_initialize() != SQLITE_OK) return nullptr;
-    sqlite3_vfs* system = sqlite3_vfs_find("unix");
-    if (system == nullptr) return nullptr;
     place = new SpillPlace(folder, *system);
     sqlite3_vfs_register(&place->vfs, 0);
   }

@@ -242,8 +242,8 @@ class BadStore(BadInput):
         hollow = self.store("hollow.db")
         self.change(hollow, "DROP TABLE evaluation")
         for command in ("digest", "verify"):
-            self.assert_refused(3, "hollow.db: the store cannot be used: no such table", command,
-                                hollow)
+            self.assert_refused(3, "hollow.db: the store's table evaluation is not as Swarmsmith made it",
+                                command, hollow)
         without = self.store("without.db")
         self.change(without, "DELETE FROM campaign")
         self.assert_refused(3, "the table campaign has no row", "digest", without)
@@ -396,7 +396,7 @@ def answer(peer):
         flags = receive(peer, 1)[0]
         size = struct.unpack(">Q", receive(peer, 8))[0] if flags & 2 else receive(peer, 1)[0]
         body = receive(peer, size)
-        if not flags & 4:
+        if not flags & 4 and body:  # an empty one only asks whether the connection stands
             return body
 
 

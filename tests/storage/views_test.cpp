@@ -6,7 +6,6 @@
 
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
-#include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/storage/fixture.h"
@@ -454,7 +453,7 @@ TEST_F(ViewsTest, ShowParametersInLongForm) {
 /// What SQLite goes through row by row in a query for some part of a view.
 std::vector<std::string> scans(const std::filesystem::path& path, const std::string& sql) {
   sqlite::Connection connection(path.string(), SQLITE_OPEN_READONLY);
-  lend_views(connection);  // as every reader has them
+  connection.allow_views(true);
   sqlite::Statement plan(connection, "EXPLAIN QUERY PLAN " + sql);
   std::vector<std::string> found;
   while (plan.step()) {
@@ -508,8 +507,7 @@ TEST_F(ViewsTest, OfOneRealRunReadTheRowsOfThatRunAlone) {
 TEST_F(ViewsTest, TheRaceMatrixOfADesignIterationOrStepReadsNothingElse) {
   for (const std::string also : {"", " AND iteration = 1", " AND step = 2"}) {
     EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM v_race_matrix WHERE design = 2" + also),
-                testing::Each(testing::AnyOf("SCAN r", testing::StartsWith("SCAN (subquery"),
-                                             "SCAN v_race_matrix")))
+                testing::Each(testing::AnyOf("SCAN t", testing::StartsWith("SCAN (subquery"))))
         << also;
   }
 }
