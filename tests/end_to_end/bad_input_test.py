@@ -246,6 +246,8 @@ class BadStore(BadInput):
                                 command, hollow)
         without = self.store("without.db")
         self.change(without, "DELETE FROM campaign")
+        self.assert_refused(3, "campaign (0 rows for 1)", "digest", without)
+        self.change(without, "DELETE FROM meta WHERE key = 'row_sums'")
         self.assert_refused(3, "the table campaign has no row", "digest", without)
 
     def test_a_store_that_is_damaged_inside(self):
