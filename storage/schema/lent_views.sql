@@ -11,8 +11,3 @@ SELECT m.candidate, m.design,
           AND n.kind = substr(j.key, 1, 1) AND n.number = 0 + substr(j.key, 2)) AS module,
        0 + j.value AS occurrences, 0 + substr(j.value, instr(j.value, ' ')) AS reachable
 FROM machine_text AS m JOIN json_each(module_counts(m.text)) AS j;
-
-CREATE VIEW winner_module AS
-SELECT w.id AS design, m.module, m.occurrences, m.reachable
-FROM design AS w CROSS JOIN v_modules AS m ON m.candidate = w.best
-WHERE w.state = 3 AND w.best IS NOT NULL AND w.flavour <> '';
