@@ -11,7 +11,8 @@ namespace swarmsmith {
 /// usual 1,024 are too few for a cluster. Unavailable when fewer than `needed` can be opened beside
 /// those that are open: libraries end the process then, or wait for ever. `who` needs them: "a
 /// campaign with 2 workers".
-Expected<void> provide_descriptors(std::int64_t needed, std::int64_t wanted, const std::string& who);
+Expected<void> provide_descriptors(std::int64_t needed, std::int64_t wanted,
+                                   const std::string& who);
 
 /// Unavailable when the address space (`ulimit -v`) is too small for `bytes`, what this process has
 /// already included; or when its control groups grant less memory than `memory`. Without memory,

@@ -282,14 +282,13 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   if (!counted) return Unexpected(counted.error());
   std::vector<std::string> ids;
   std::int64_t n = 0;
-  const auto read =
-      each_row(*store_,
-               std::string("SELECT id") + kSimulated + " ORDER BY candidate, purpose, pair",
-               [&](const auto& cells) {
-                 ++n;
-                 if (n <= total && multiples(n, count, total) > multiples(n - 1, count, total))
-                   ids.push_back(cells.front().text);
-               });
+  const auto read = each_row(
+      *store_, std::string("SELECT id") + kSimulated + " ORDER BY candidate, purpose, pair",
+      [&](const auto& cells) {
+        ++n;
+        if (n <= total && multiples(n, count, total) > multiples(n - 1, count, total))
+          ids.push_back(cells.front().text);
+      });
   if (!read) return Unexpected(read.error());
   return ids;
 }

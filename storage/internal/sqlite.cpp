@@ -34,8 +34,8 @@ std::string reason_of(sqlite3* handle) {
                      : fmt::format("{} ({})", sqlite3_errmsg(handle), std::strerror(reason));
 }
 
-/// "disk I/O error" alone does not say which: the system's words do. A commit that fails leaves them
-/// with the log's file.
+/// "disk I/O error" alone does not say which: the system's words do. A commit that fails leaves
+/// them with the log's file.
 std::string message_of(sqlite3* handle, int code) {
   if ((code & 0xff) != SQLITE_IOERR) return sqlite3_errmsg(handle);
   if (sqlite3_system_errno(handle) != 0) return reason_of(handle);

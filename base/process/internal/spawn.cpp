@@ -53,7 +53,8 @@ struct Birth {
   // What this process ignores, its programs would ignore too.
   struct sigaction action = {};
   action.sa_handler = SIG_DFL;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2, SIGXFSZ})
+  for (const int number :
+       {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2, SIGXFSZ})
     sigaction(number, &action, nullptr);
   sigset_t none;
   sigemptyset(&none);
