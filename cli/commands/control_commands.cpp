@@ -1,5 +1,5 @@
-// pause, resume, cancel, extend and forgive: what people ask of a campaign, whether somebody runs
-// it or not.
+// pause, resume, cancel, extend and forgive: what people ask of a campaign that runs, or
+// that rests.
 
 #include <sys/types.h>
 #include <algorithm>

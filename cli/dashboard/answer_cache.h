@@ -95,7 +95,7 @@ class AnswerCache {
     std::shared_future<Answer> answer;
     std::uint64_t forgotten = 0;
     Turn turn{};
-    bool is_late = false;  ///< somebody was told to ask again
+    bool is_late = false;  ///< a client has to ask again
   };
   std::map<std::string, UnderWay> under_way_;  ///< the newest of each question
   std::uint64_t begun_ = 0;

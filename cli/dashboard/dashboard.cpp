@@ -425,7 +425,7 @@ class Dashboard final : public HttpSite {
     }
     if (!found.answer) return not_yet(request, found);
     const double passed = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    // What was made in the background cost what it took there, whoever fetches it.
+    // An answer made in the background cost what it took there.
     const double spent = found.seconds > 0 ? 1e3 * found.seconds : found.shared ? 0 : passed;
     SiteAnswer answer = outgoing(request, *found.answer, kDataPolicy);
     answer.headers.emplace_back("Server-Timing", fmt::format("total;dur={:.1f}", spent));
@@ -516,7 +516,7 @@ class Dashboard final : public HttpSite {
       if (options_.is_snapshot)
         return made(stamp, oldest, [&] { return ask(request, asked, pattern, *id, *turn); });
       SiteRequest later = request;
-      later.is_gone = {};  // who asked may leave, and fetch the answer
+      later.is_gone = {};  // the client may disconnect, and fetch the answer
       return cache_.get_within(
           key, stamp, oldest,
           [this, later = std::move(later), &asked, &pattern, id = *id, turn] {

@@ -53,7 +53,7 @@ struct Principal {
     std::int64_t confirmed = 0;  ///< results that the referee made again, with the same bits
     std::int64_t strikes = 0;    ///< evaluations that failed, and do not fail elsewhere
     int on_trial = 0;            ///< first results that are before the referee
-    std::vector<std::int64_t> unchecked{};  ///< outcomes that nobody made again, by campaign
+    std::vector<std::int64_t> unchecked{};  ///< outcomes that were not made again, by campaign
 
     std::int64_t& unchecked_of(std::uint32_t campaign) {
       if (campaign >= unchecked.size()) unchecked.resize(campaign + 1);
@@ -83,7 +83,7 @@ struct Principal {
     return is_blamed_by_process() ? worker : WorkerNumber{0};
   }
   Standing& standing(WorkerNumber worker) { return standings[judged_as(worker)]; }
-  /// Null of one of which nothing is known.
+  /// Null if nothing is known of it.
   const Standing* find_standing(WorkerNumber worker) const {
     const auto at = standings.find(judged_as(worker));
     return at == standings.end() ? nullptr : &at->second;

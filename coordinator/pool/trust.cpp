@@ -245,7 +245,7 @@ void Trust::strike(Principal& principal, WorkerNumber worker, TimePoint now) {
   if (often) quarantine(principal, worker, "fails at evaluations that succeed elsewhere", now);
 }
 
-/// By campaign: what the convicted one said and nobody made again. Without a key whoever is not
+/// By campaign: what the convicted one said and was not made again. Without a key whoever is not
 /// here may have been the same program under another id; the others that are here answer for
 /// themselves.
 std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,

@@ -27,7 +27,7 @@ std::vector<Section> imported_sections(const ImportedWorld& world);
 /// Whether a campaign's `file` is such a text.
 bool is_imported_text(std::string_view text);
 
-/// Empty for a world of which nothing is said; else read_imported_world gives the same bits.
+/// Empty for a world without any of it; else read_imported_world gives the same bits.
 std::string imported_text(const ImportedWorld& world);
 
 /// BadInput when this version cannot read it. May name no file.

@@ -47,7 +47,7 @@ void close_file(sqlite::Connection& connection) {
   const int folded = sqlite3_wal_checkpoint_v2(connection.handle(), nullptr,
                                                SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
   if (!known || folded != SQLITE_OK) return;
-  // The time that the file says was chosen before it was written: whoever writes changes it.
+  // The time that the file says was chosen before it was written: a later writer changes it.
   struct timespec times[2] = {{.tv_sec = 0, .tv_nsec = UTIME_OMIT}, now};
   (void)::futimens(connection.descriptor(), times);
 }

@@ -188,7 +188,7 @@ std::string GroupWriter::changes_of_others() {
   const std::int64_t version = data_version_.integer(0);
   data_version_.reset();
   if (version == writer_.data_version) return {};
-  // It may be no more than a log that somebody has folded in.
+  // Another client may only have folded the log in.
   constexpr const char* kChanged = "was changed by another program while the campaign ran";
   const auto objects = foreign_objects(writer_.connection, schema_of(writer_.connection));
   if (!objects.empty())

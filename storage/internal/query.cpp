@@ -145,7 +145,7 @@ class Rules {
   std::array<int, kLimits.size()> limits_before_{};
 };
 
-/// Of a statement that nobody typed: about the store.
+/// Of a statement of our own: about the store.
 Unexpected not_readable(const sqlite::Connection& connection, int code,
                         const StoreReader::QueryLimits& limits) {
   const std::string file = connection.file();
