@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -75,6 +77,22 @@ struct Bounds {
         last_candidate(last_design * kCandidatesPerDesign) {}
 };
 
+/// A table that does not follow from scores, and what mends other values in it.
+struct Changed {
+  RowSums::Table table;
+  const char* name;
+  bool is_derived_by_races = false;  ///< of campaigns whose races can be replayed
+};
+constexpr std::array kNotDerived{
+    Changed{RowSums::Table::Candidate, "candidate", true},
+    Changed{RowSums::Table::Phrase, "phrase", true},
+    Changed{RowSums::Table::Pair, "pair", true},
+    Changed{RowSums::Table::Source, "source"},
+    Changed{RowSums::Table::Evaluation, "evaluation"},
+    Changed{RowSums::Table::Campaign, "campaign"},
+    Changed{RowSums::Table::Command, "command"},
+};
+
 Part part_of(const StoredCampaign& campaign) {
   return {.designs_before = campaign.designs_before, .designs = campaign.designs};
 }
@@ -91,6 +109,12 @@ class SqliteRecovery final : public Recovery {
     for (const TableFind& table : found.tables)
       found_.tables.push_back(
           {table.name, table.rows, table.lost_pages, table.broken, table.tree_is_lost});
+    if (const auto written = RowSums::stored(connection_)) {
+      const RowSums there = RowSums::found(connection_);
+      for (const Changed table : kNotDerived)
+        if (written->has_other_values(table.table, there)) changed_.push_back(table);
+    }
+    found_.changed_evaluations = remove_changed_evaluations(connection_);
     for (const std::string& statement : nonsense())
       remove(statement);
     // Before anything is written: new phrases may get the numbers of lost ones, and candidates
@@ -128,8 +152,8 @@ class SqliteRecovery final : public Recovery {
     return read_commands(connection_, part_of(campaign));
   }
 
-  void replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
-                       const std::string& source) override;
+  std::int64_t replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
+                               const std::string& source) override;
   Expected<End> finish() override;
 
  private:
@@ -137,14 +161,17 @@ class SqliteRecovery final : public Recovery {
     connection_.execute(statement);
     orphans_ += connection_.changes();
   }
-  void remove_underived(const StoredCampaign& campaign, const DerivedRows& derived,
-                        const Shift& shift);
+  std::int64_t remove_others(const StoredCampaign& campaign, const DerivedRows& derived,
+                             const Shift& shift);
+  std::string doubt();
 
   NewFile file_;
   Connection connection_;
   Salvaged found_;
   std::int64_t orphans_ = 0;
   bool is_trusted_again_ = false;  ///< what made the store unreliable is out of it
+  std::vector<Changed> changed_;   ///< tables with other values than were committed
+  std::set<std::int64_t> derived_campaigns_;
 };
 
 Expected<Recovery::Without> SqliteRecovery::drop_words_of(const std::string& key) {
@@ -220,62 +247,79 @@ Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
   return {};
 }
 
-/// A lie may have turned the race: from there on the same numbers are of other machines, and
-/// whoever evaluated those said nothing of the ones to come. Only what the races reach without the
-/// dropped words stays.
-void SqliteRecovery::remove_underived(const StoredCampaign& campaign, const DerivedRows& derived,
-                                      const Shift& shift) {
+/// What is derived is right: candidates and pairs of other values give way to it. Where candidates
+/// themselves cannot be relied on, those that the races do not reach go, with their scores: the
+/// races make them again. After a lie, whatever was scored under the number of another machine goes,
+/// too: a lie may have turned the race.
+std::int64_t SqliteRecovery::remove_others(const StoredCampaign& campaign,
+                                           const DerivedRows& derived, const Shift& shift) {
   const Bounds bounds(campaign);
-  std::map<CandidateId, std::pair<std::string, std::string>> stored;
-  read_candidates(connection_, {}, [&](const Row& row) {
-    const auto& candidate = std::get<CandidateRow>(row);
-    stored[candidate.id] = {candidate.machine, candidate.parameters};
-  });
+  const bool only_derived =
+      is_trusted_again_ || std::ranges::any_of(changed_, &Changed::is_derived_by_races);
   connection_.execute(
-      "CREATE TEMP TABLE kept_candidate (id INTEGER PRIMARY KEY);"
-      "CREATE TEMP TABLE kept_pair (design, purpose, number, PRIMARY KEY (design, purpose,"
-      " number))");
+      "CREATE TEMP TABLE derived_candidate (id INTEGER PRIMARY KEY, is_stored INTEGER);"
+      "CREATE TEMP TABLE derived_pair (design, purpose, number, instance, seed,"
+      " PRIMARY KEY (design, purpose, number))");
+  std::unordered_map<std::int64_t, const CandidateRow*> candidates;
   {
-    Statement candidate(connection_, "INSERT OR IGNORE INTO kept_candidate VALUES (?)");
-    Statement pair(connection_, "INSERT OR IGNORE INTO kept_pair VALUES (?, ?, ?)");
+    Statement pair(connection_, "INSERT OR IGNORE INTO derived_pair VALUES (?, ?, ?, ?, ?)");
     for (const Row& derived_row : derived.rows) {
-      const Row row = shifted(derived_row, shift);
-      if (const auto* r = std::get_if<CandidateRow>(&row)) {
-        const auto found = stored.find(r->id);
-        if (found != stored.end() && found->second == std::pair(r->machine, r->parameters))
-          candidate.run(r->id.value);
-      } else if (const auto* p = std::get_if<PairRow>(&row)) {
-        pair.run(p->design.value, static_cast<std::int64_t>(p->purpose), p->number);
+      if (const auto* r = std::get_if<CandidateRow>(&derived_row)) {
+        candidates.try_emplace(r->id.value, r);
+      } else if (const auto* p = std::get_if<PairRow>(&derived_row)) {
+        pair.run(p->design.value + shift.designs, static_cast<std::int64_t>(p->purpose), p->number,
+                 p->instance, p->seed);
       }
     }
+    Statement candidate(connection_, "INSERT OR REPLACE INTO derived_candidate VALUES (?, ?)");
+    const std::int64_t before = shift.designs * kCandidatesPerDesign;
+    for (const auto& [id, row] : candidates)
+      candidate.run(id + before, false);
+    read_candidates(connection_, part_of(campaign), [&](const Row& row) {
+      const auto& stored = std::get<CandidateRow>(row);
+      const auto known = candidates.find(stored.id.value);
+      if (known != candidates.end() && *known->second == stored)
+        candidate.run(stored.id.value + before, true);
+    });
   }
   const auto run = [&](const std::string& statement, std::int64_t first, std::int64_t last) {
     Statement(connection_, statement).run(first, last);
+    return connection_.changes();
   };
   const std::string of_replay = "purpose IN " + numbers_in_sql(is_of_replay);
-  run("DELETE FROM evaluation WHERE candidate BETWEEN ? AND ? AND (candidate NOT IN (SELECT id FROM"
-      " kept_candidate) OR " +
-          of_replay +
-          fmt::format(" AND ((candidate - 1) / {} + 1, purpose, pair) NOT IN (SELECT design,"
-                      " purpose, number FROM kept_pair))",
-                      kCandidatesPerDesign),
-      bounds.first_candidate, bounds.last_candidate);
-  for (const char* table : {"attempt", "failure", "conflict"}) {
-    run(fmt::format("DELETE FROM {} WHERE candidate BETWEEN ? AND ? AND (candidate, purpose, pair)"
-                    " NOT IN (SELECT candidate, purpose, pair FROM evaluation)",
-                    table),
+  const std::string same = "(SELECT id FROM derived_candidate WHERE is_stored)";
+  const std::string reached = "(SELECT id FROM derived_candidate)";
+  std::int64_t taken = 0;
+  if (only_derived) {
+    // Of a pair of other values the scores were of the right one, but after a lie.
+    taken = run(
+        fmt::format("DELETE FROM evaluation WHERE candidate BETWEEN ? AND ? AND (candidate NOT IN"
+                    " {} OR {} AND ((candidate - 1) / {} + 1, purpose, pair) NOT IN (SELECT design,"
+                    " purpose, number FROM derived_pair))",
+                    is_trusted_again_ ? same : reached, of_replay, kCandidatesPerDesign),
         bounds.first_candidate, bounds.last_candidate);
+    for (const char* table : {"attempt", "failure", "conflict"}) {
+      run(fmt::format("DELETE FROM {} WHERE candidate BETWEEN ? AND ? AND (candidate, purpose,"
+                      " pair) NOT IN (SELECT candidate, purpose, pair FROM evaluation)",
+                      table),
+          bounds.first_candidate, bounds.last_candidate);
+    }
   }
-  run("DELETE FROM candidate WHERE id BETWEEN ? AND ? AND id NOT IN (SELECT id FROM "
-      "kept_candidate)",
+  run("DELETE FROM candidate WHERE id BETWEEN ? AND ? AND id NOT IN " + same +
+          (only_derived ? "" : " AND id IN " + reached),
       bounds.first_candidate, bounds.last_candidate);
   run("DELETE FROM pair WHERE design BETWEEN ? AND ? AND " + of_replay +
-          " AND (design, purpose, number) NOT IN (SELECT design, purpose, number FROM kept_pair)",
+          " AND (design, purpose, number, instance, seed) NOT IN (SELECT design, purpose, number,"
+          " instance, seed FROM derived_pair)" +
+          (only_derived ? ""
+                        : " AND (design, purpose, number) IN (SELECT design, purpose, number FROM"
+                          " derived_pair)"),
       bounds.first_design, bounds.last_design);
-  connection_.execute("DROP TABLE kept_candidate; DROP TABLE kept_pair");
+  connection_.execute("DROP TABLE derived_candidate; DROP TABLE derived_pair");
+  return is_trusted_again_ ? taken : 0;
 }
 
-void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
+std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
                                      const std::string& source) {
   const Bounds bounds(campaign);
   sqlite::Transaction transaction(connection_);
@@ -298,12 +342,12 @@ void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const Deriv
       " reason = '' WHERE id BETWEEN ? AND ?",
       bounds.first_design, bounds.last_design);
   const Shift shift{.designs = campaign.designs_before};
-  if (is_trusted_again_) remove_underived(campaign, derived, shift);
+  const std::int64_t taken = remove_others(campaign, derived, shift);
+  run("UPDATE evaluation SET iteration = NULL WHERE candidate BETWEEN ? AND ?",
+      bounds.first_candidate, bounds.last_candidate);
   RowWriter writer(connection_);
   for (const Row& row : derived.rows)
     writer.write(shifted(row, shift));
-  for (const EvaluationKey& key : derived.ahead)
-    writer.write(UnusedRow{shifted(key, shift)});
   Statement gone(connection_,
                  "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?");
   for (const EvaluationKey& key : derived.unasked) {
@@ -331,6 +375,34 @@ void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const Deriv
         .run(bounds.first_candidate, bounds.last_candidate, source);
   }
   transaction.commit();
+  derived_campaigns_.insert(campaign.id);
+  return taken;
+}
+
+/// Which values of which tables are not those that were committed, and are not derived anew.
+std::string SqliteRecovery::doubt() {
+  const bool all_derived = std::ranges::all_of(campaigns(), [&](const StoredCampaign& campaign) {
+    return derived_campaigns_.contains(campaign.id);
+  });
+  std::string tables;
+  for (const Changed& table : changed_) {
+    if (table.is_derived_by_races && all_derived) continue;
+    if (table.table == RowSums::Table::Evaluation && found_.changed_evaluations > 0) continue;
+    tables += (tables.empty() ? "" : ", ") + std::string(table.name);
+  }
+  if (!tables.empty()) {
+    const EventRow event = event_row(
+        "error", "rows changed by another program",
+        {{"tables", tables}, {"reason", "their values are not those that were committed"}});
+    Statement(connection_, "INSERT INTO event (severity, kind, text) VALUES (?, ?, ?)")
+        .run(event.severity, event.kind, event.text);
+    connection_.execute("UPDATE campaign SET state = 'distrusted'");
+    return "its rows are not those that were committed, and which ones cannot be told: " + tables;
+  }
+  const bool was_doubted = std::ranges::any_of(campaigns(), [](const StoredCampaign& campaign) {
+    return campaign.state == "distrusted";
+  });
+  return was_doubted ? "the damaged store says so of itself (its events say why)" : "";
 }
 
 Expected<Recovery::End> SqliteRecovery::finish() {
@@ -358,6 +430,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
         "UPDATE design SET best = NULL WHERE best NOT IN (SELECT id FROM candidate)");
     orphans_ += mend_real_runs(connection_);
     write_maker(connection_);
+    end.doubt = doubt();
     RowSums::found(connection_).write(connection_);
     if (const auto faults = faults_of(connection_); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt,

@@ -22,6 +22,9 @@ struct SalvagedTable {
 };
 
 struct Salvaged {
+  /// Evaluations that are not those that were written: another program, or damage, changed them.
+  /// They are left out.
+  std::int64_t changed_evaluations = 0;
   std::int64_t schema = 0;
   bool header_is_damaged = false;  ///< sizes and schema were concluded from the pages
   std::int64_t pages = 0;
@@ -33,8 +36,6 @@ struct Salvaged {
 /// to go.
 struct DerivedRows {
   std::vector<Row> rows;  ///< by the ids of a store of its own
-  /// Scores that the race has not reached again: they stay, as if computed ahead.
-  std::vector<EvaluationKey> ahead;
   /// Scores that would count anywhere but were not requested (of tests): they are removed.
   std::vector<EvaluationKey> unasked;
 };
@@ -75,13 +76,17 @@ class Recovery {
   virtual std::vector<CommandRow> commands(const StoredCampaign& campaign) = 0;
   /// Replaces all rows that follow from scores by these. `source` is for scores that have lost
   /// theirs.
-  virtual void replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
-                               const std::string& source) = 0;
+  /// Returns how many scores it took away on which `derived` may rest (after `drop_words_of`: of
+  /// other machines): then the rows are to be derived again.
+  virtual std::int64_t replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
+                                       const std::string& source) = 0;
 
   struct End {
     std::string digest;
     std::int64_t evaluations = 0;  ///< that the new store has
     std::int64_t orphans = 0;      ///< rows left out since what they belong to is lost
+    /// Why the scores of the new store are not to be relied on; empty when they are.
+    std::string doubt;
   };
   /// Removes rows that belong to nothing, checks the file, and gives it its name.
   virtual Expected<End> finish() = 0;

@@ -130,6 +130,8 @@ struct CandidateRow {
   std::string modules;     ///< JSON object, module name -> occurrences
   std::int64_t states = 0;
   std::int64_t transitions = 0;
+
+  friend bool operator==(const CandidateRow&, const CandidateRow&) = default;
 };
 
 /// An (instance, seed) that all candidates of a design are tried on.

@@ -87,6 +87,8 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
                       .add("header_damaged", found.header_is_damaged)
                       .add("unplaced", found.unplaced)
                       .add("orphans", end.orphans)
+                      .add("changed", found.changed_evaluations)
+                      .add("doubt", end.doubt)
                       .add("tables", json_list(found.tables, table_json))
                       .add("designs", json_list(report.designs, design_json))
                       .add("complaints", report.complaints)
@@ -102,6 +104,10 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
       output.out << table.name << ": " << table_text(table) << "\n";
   }
   if (found.unplaced > 0) output.out << found.unplaced << " rows might be of several tables\n";
+  if (found.changed_evaluations > 0) {
+    output.out << found.changed_evaluations
+               << " evaluations are not those that were written, and were left out\n";
+  }
   if (end.orphans > 0) {
     output.out << end.orphans << " rows belong to lost data and were left out\n";
   }
@@ -146,9 +152,12 @@ Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored
   StoredCampaign campaign = stored;
   campaign.designs = static_cast<std::int64_t>(designs.size());
   const std::string source = plans->front().source;
-  Rebuilt rebuilt = rebuild(std::move(*plans), recovery.scores(campaign), recovery.steps(campaign),
-                            recovery.commands(campaign));
-  recovery.replace_derived(campaign, rebuilt.derived, source);
+  const std::vector<StoredStep> steps = recovery.steps(campaign);
+  const std::vector<CommandRow> commands = recovery.commands(campaign);
+  Rebuilt rebuilt;
+  do {
+    rebuilt = rebuild(*plans, recovery.scores(campaign), steps, commands);
+  } while (recovery.replace_derived(campaign, rebuilt.derived, source) > 0);
   for (Rebuilt::Design& design : rebuilt.designs) {
     design.id.value += campaign.designs_before;
     report.designs.push_back(design);
@@ -186,6 +195,13 @@ ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
   const auto end = (*recovery)->finish();
   if (!end) return fail(output, ExitCode::Store, end.error());
   write(output, (*recovery)->found(), report, *end, arguments.out);
+  if (!end->doubt.empty()) {
+    return fail(output, ExitCode::Store,
+                {ErrorKind::Conflict,
+                 "scores in this store are not reliable: " + end->doubt +
+                     "; `swarmsmith verify` evaluates them again, and no campaign goes on from it",
+                 arguments.out});
+  }
   if (report.without)
     print_note(output, "the campaign goes on from there with `--store " + arguments.out + "`");
   return ExitCode::Done;

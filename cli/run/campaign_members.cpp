@@ -52,15 +52,18 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     for (const CommandRow& command : commands)
       listener.restore(i, command);
     if (const StoredTrust trust = (*store)->trust(); trust.distrusted) {
-      const std::string key =
-          trust.quarantined.empty() ? "KEY" : key_of_principal(trust.quarantined.back().principal);
+      std::string way_on = "`swarmsmith verify` evaluates them again; go on from a backup";
+      if (!trust.quarantined.empty()) {
+        way_on = "`swarmsmith recover " + campaign.store.string() + " --without-key \"" +
+                 key_of_principal(trust.quarantined.back().principal) +
+                 "\" -o NEW.db` makes a store without what that key said, and the campaign goes on "
+                 "from there with --store NEW.db";
+      }
       return fail(output_, ExitCode::Store,
                   {ErrorKind::Conflict,
                    "scores in this store are not reliable (`swarmsmith query STORE \"SELECT "
-                   "text FROM event WHERE severity = 'error'\"` says why); `swarmsmith recover " +
-                       campaign.store.string() + " --without-key \"" + key +
-                       "\" -o NEW.db` makes a store without what that key said, and the campaign "
-                       "goes on from there with --store NEW.db",
+                   "text FROM event WHERE severity = 'error'\"` says why); " +
+                       way_on,
                    campaign.store.string()});
     }
     if ((*store)->finished() && !waits_for_extension(commands)) continue;

@@ -15,18 +15,19 @@ namespace {
 
 using Digests = std::map<std::pair<DesignId, std::int64_t>, std::uint64_t>;
 
-std::vector<EvaluationKey> keys_of(const std::unordered_map<std::uint64_t, StoredScore>& scores,
-                                   bool only_used) {
-  std::vector<EvaluationKey> keys;
-  for (const auto& [packed, score] : scores) {
-    if (!only_used || score.iteration != 0) keys.push_back(score.key);
-  }
-  std::ranges::sort(keys);
-  return keys;
+using Scores = std::unordered_map<std::uint64_t, StoredScore>;
+
+/// Of no iteration, so that the race says anew which ones it uses. Returns how many it had used.
+std::int64_t forget_iterations(Scores& scores) {
+  std::int64_t used = 0;
+  for (auto& [packed, score] : scores)
+    used += std::exchange(score.iteration, 0) != 0 ? 1 : 0;
+  return used;
 }
 
-void append(std::vector<EvaluationKey>& to, const std::vector<EvaluationKey>& keys) {
-  to.insert(to.end(), keys.begin(), keys.end());
+bool is_use(const Row& row) {
+  const auto* evaluation = std::get_if<EvaluationRow>(&row);
+  return evaluation != nullptr && evaluation->iteration != 0;
 }
 
 /// The first step that the scores give otherwise than it was found.
@@ -52,6 +53,7 @@ void rebuild_design(DesignPlan plan, StoredDesign stored, const Digests& steps, 
     result.complaints.push_back(fmt::format("{}: {}", to_string(id), to_string(error)));
     result.designs.push_back(design);
   };
+  const std::int64_t used_before = forget_iterations(stored.race_scores);
   auto runner = DesignRunner::start(std::move(plan), std::move(stored));
   if (!runner) return complain(runner.error());
   std::vector<Task> tasks;
@@ -59,18 +61,17 @@ void rebuild_design(DesignPlan plan, StoredDesign stored, const Digests& steps, 
   if (auto advanced = runner->advance(tasks, rows); !advanced) return complain(advanced.error());
   compare_steps(rows, steps, result.complaints);
   const StoredDesign& left = runner->unasked();
-  const auto ahead = keys_of(left.race_scores, true);
-  auto unasked = keys_of(left.test_scores, false);
-  append(unasked, keys_of(left.evaluator_scores, false));
+  for (const Scores* scores : {&left.test_scores, &left.evaluator_scores}) {
+    for (const auto& [packed, score] : *scores)
+      result.derived.unasked.push_back(score.key);
+    design.unasked += static_cast<std::int64_t>(scores->size());
+  }
   design.state = runner->state();
   design.used = runner->used();
-  design.ahead = static_cast<std::int64_t>(ahead.size());
-  design.unasked = static_cast<std::int64_t>(unasked.size());
+  design.ahead = std::max<std::int64_t>(0, used_before - std::ranges::count_if(rows, is_use));
   design.missing = tasks.size();
   result.designs.push_back(design);
   std::ranges::move(rows, std::back_inserter(result.derived.rows));
-  append(result.derived.ahead, ahead);
-  append(result.derived.unasked, unasked);
 }
 
 }  // namespace

@@ -44,26 +44,9 @@ constexpr std::array<Summed, RowSums::kTables> kSummed{{
     {"command", "number, kind, design, step, budget, who"},
 }};
 
-}  // namespace
-
-RowHash& RowHash::add(std::string_view text) {
-  add(4, text.size());
-  for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
-    add(5, word);
-  }
-  return *this;
-}
-
-std::string cells_of_rows(RowSums::Table table) {
-  const Summed& summed = kSummed[static_cast<std::size_t>(table)];
-  return fmt::format("SELECT {} FROM {}{}", summed.cells, summed.table, summed.rest);
-}
-
-std::uint64_t hash_of(const Statement& row) {
+/// Of the first columns.
+std::uint64_t hash_of(const Statement& row, int columns) {
   RowHash hash;
-  const int columns = sqlite3_column_count(row.handle());
   for (int column = 0; column < columns; ++column) {
     switch (sqlite3_column_type(row.handle(), column)) {
       case SQLITE_NULL:
@@ -83,6 +66,27 @@ std::uint64_t hash_of(const Statement& row) {
     }
   }
   return hash.value();
+}
+
+}  // namespace
+
+RowHash& RowHash::add(std::string_view text) {
+  add(4, text.size());
+  for (std::size_t at = 0; at < text.size(); at += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, text.data() + at, std::min(sizeof word, text.size() - at));
+    add(5, word);
+  }
+  return *this;
+}
+
+std::string cells_of_rows(RowSums::Table table) {
+  const Summed& summed = kSummed[static_cast<std::size_t>(table)];
+  return fmt::format("SELECT {} FROM {}{}", summed.cells, summed.table, summed.rest);
+}
+
+std::uint64_t hash_of(const Statement& row) {
+  return hash_of(row, sqlite3_column_count(row.handle()));
 }
 
 std::optional<RowSums> RowSums::stored(const sqlite::Connection& connection) {
@@ -137,6 +141,30 @@ std::string RowSums::differences(const RowSums& found) const {
                 : fmt::format("{} rows for {})", found.sums_[i].rows, sums_[i].rows);
   }
   return text;
+}
+
+bool RowSums::has_other_values(Table table, const RowSums& found) const {
+  return of(table).rows == found.of(table).rows && of(table).sum != found.of(table).sum;
+}
+
+std::int64_t remove_changed_evaluations(sqlite::Connection& connection) {
+  using Key = std::array<std::int64_t, 3>;
+  std::vector<Key> changed;
+  Statement row(connection,
+                fmt::format("SELECT (candidate - 1) % {}, purpose, pair, status, score, state_digest,"
+                            " wall_us, attempt, time, bound, row_check, candidate FROM evaluation"
+                            " WHERE row_check IS NOT NULL",
+                            kCandidatesPerDesign));
+  while (row.step()) {
+    const int last = sqlite3_column_count(row.handle()) - 1;
+    if (half(hash_of(row, last - 1)) != row.integer(last - 1))
+      changed.push_back({row.integer(last), row.integer(1), row.integer(2)});
+  }
+  Statement removal(connection,
+                    "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?");
+  for (const auto& [candidate, purpose, pair] : changed)
+    removal.run(candidate, purpose, pair);
+  return static_cast<std::int64_t>(changed.size());
 }
 
 std::string changed_rows(const sqlite::Connection& connection) {

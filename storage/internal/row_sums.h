@@ -11,6 +11,7 @@
 
 #include "base/hash.h"
 #include "storage/internal/sqlite.h"
+#include "storage/rows.h"
 
 namespace swarmsmith {
 
@@ -98,6 +99,9 @@ class RowSums {
   /// these; empty when they agree.
   std::string differences(const RowSums& found) const;
 
+  /// As many rows as these, and not the same ones.
+  bool has_other_values(Table table, const RowSums& found) const;
+
   friend bool operator==(const RowSums&, const RowSums&) = default;
 
  private:
@@ -107,9 +111,23 @@ class RowSums {
     friend bool operator==(const Sum&, const Sum&) = default;
   };
   Sum& of(Table table) { return sums_[static_cast<std::size_t>(table)]; }
+  const Sum& of(Table table) const { return sums_[static_cast<std::size_t>(table)]; }
 
   std::array<Sum, kTables> sums_{};
 };
+
+inline std::int64_t half(std::uint64_t hash) {
+  return static_cast<std::int64_t>(hash >> 32U);
+}
+
+/// An evaluation's column `row_check`: half of a hash of what was scored, with which result. Not of
+/// the numbers that merging changes. 
+template <class... Cells>
+std::int64_t row_check(std::int64_t candidate, const Cells&... cells) {
+  return half(RowHash::of((candidate - 1) % kCandidatesPerDesign, cells...));
+}
+/// Removes evaluations that are not those that were written. Returns how many.
+std::int64_t remove_changed_evaluations(sqlite::Connection& connection);
 
 /// The cells of a table's rows that a sum is over: a SELECT without a condition.
 std::string cells_of_rows(RowSums::Table table);

@@ -21,8 +21,8 @@ constexpr char kPair[] = "INSERT OR IGNORE INTO pair VALUES (?,?,?,?,?)";
 // may still write its iteration, if the bits agree.
 constexpr char kEvaluation[] =
     "INSERT INTO evaluation (candidate, purpose, pair, status, score, state_digest,"
-    " source, wall_us, worker, attempt, time, bound, iteration)"
-    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
+    " source, wall_us, worker, attempt, time, bound, iteration, row_check)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
 constexpr char kUsed[] =
     "UPDATE evaluation SET iteration = ?4 WHERE candidate = ?1 AND purpose = ?2 AND pair = ?3"
     " AND iteration IS NULL AND status = ?5 AND score IS ?6 AND state_digest = ?7 AND time IS ?8";
@@ -176,7 +176,10 @@ void RowWriter::put(const EvaluationRow& row) {
   const auto iteration = unless_zero(row.iteration);
   evaluation_.run(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
                   source, row.wall_us, row.worker, row.attempt, unless_zero(row.time),
-                  unless_zero(row.bound), iteration);
+                  unless_zero(row.bound), iteration,
+                  row_check(candidate, purpose, row.key.pair, number(row.status), score,
+                            row.state_digest, row.wall_us, row.attempt, unless_zero(row.time),
+                            unless_zero(row.bound)));
   const bool is_new = connection_.changes() > 0;
   if (!is_new && iteration) {
     used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score,

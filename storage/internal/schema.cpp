@@ -18,6 +18,7 @@
 #include "embedded/kLentViews.h"
 #include "embedded/kResultsSchema.h"
 #include "embedded/kRobotLogsSchema.h"
+#include "embedded/kRowChecksSchema.h"
 #include "embedded/kTargetsSchema.h"
 #include "embedded/kTrackingSchema.h"
 #include "embedded/kViewIndexesSchema.h"
@@ -60,7 +61,7 @@ void use_write_ahead_log(sqlite::Connection& connection) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 11> kMigrations = {
+  static const std::array<Migration, 12> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
@@ -73,6 +74,7 @@ std::span<const Migration> migrations() {
       Migration{11,
                 [](sqlite::Connection&) {}},  // views alone: ids of tests under further profiles
       Migration{12, [](sqlite::Connection& connection) { connection.execute(kViewIndexesSchema); }},
+      Migration{13, [](sqlite::Connection& connection) { connection.execute(kRowChecksSchema); }},
   };
   return kMigrations;
 }

@@ -64,6 +64,41 @@ swarmsmith.tune(lambda trial: abs(trial.configuration["x"] - 0.3), {"x": swarmsm
 """
 
 
+#: What another program did to a store, and what becomes of it: "right" at once, after evaluations are made again, or doubted.
+CHANGES = {
+    "UPDATE evaluation SET score = score + 1 WHERE pair = 2": "evaluated",
+    "UPDATE evaluation SET score = score + 1 WHERE purpose = 2 AND pair = 3": "evaluated",
+    "UPDATE evaluation SET state_digest = state_digest + 1 WHERE purpose = 0": "evaluated",
+    "UPDATE evaluation SET status = 1, score = NULL WHERE pair = 3": "evaluated",
+    "UPDATE evaluation SET pair = pair + 100 WHERE pair = 2": "evaluated",
+    "DELETE FROM evaluation WHERE pair = 2": "evaluated",
+    "UPDATE evaluation SET iteration = NULL WHERE pair = 2": "right",
+    "UPDATE evaluation SET iteration = iteration + 1": "right",
+    "UPDATE evaluation SET wall_us = wall_us + 1 WHERE pair = 2": "evaluated",
+    "UPDATE evaluation SET source = source + 1": "doubted",
+    "UPDATE source SET name = 'profile of somebody'": "doubted",
+    "UPDATE campaign SET state = 'stopped'": "doubted",
+    "UPDATE candidate SET machine = (SELECT machine FROM candidate WHERE id = 3), parameters = (SELECT parameters FROM"
+    " candidate WHERE id = 3), code = (SELECT code FROM candidate WHERE id = 3) WHERE id = 1": "right",
+    "UPDATE candidate SET iteration = iteration + 1": "right",
+    "UPDATE candidate SET parent = 1 WHERE parent IS NOT NULL": "right",
+    "UPDATE candidate SET states = states + 1": "right",
+    "DELETE FROM candidate WHERE id = 2": "right",
+    "UPDATE phrase SET machine = 'MACHINE' WHERE machine <> ''": "right",
+    "UPDATE pair SET seed = seed + 1 WHERE purpose = 0": "right",
+    "UPDATE pair SET seed = seed + 1 WHERE purpose = 2": "right",
+    "UPDATE pair SET instance = instance + 1": "right",
+    "UPDATE iteration SET configurations = configurations + 1": "right",
+    "UPDATE race_step SET mean_best = mean_best + 1": "right",
+    "UPDATE elimination SET step = step + 1": "right",
+    "UPDATE elite SET candidate = 1": "right",
+    "UPDATE candidate_totals SET score_sum = score_sum + 1": "right",
+    "UPDATE design SET best = 1, best_mean = 7": "right",
+    "UPDATE design SET state = 0, used = 3": "right",
+    "DELETE FROM design": "right",
+}
+
+
 class Recover(ProgramTest):
     budget = 1400
 
@@ -143,6 +178,40 @@ class Recover(ProgramTest):
         self.done("cancel", store, "d2")
         process.wait(60)
         self.recovered(store)
+
+    def test_of_rows_that_another_program_changed(self):
+        """What follows from scores is derived anew, a score of another value is evaluated again; what can be neither is said."""
+        whole, store = self.folder / "whole.db", self.folder / "changed.db"
+        done = self.run_campaign(whole, "--workers", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with contextlib.closing(sqlite3.connect(whole)) as db:
+            db.execute("PRAGMA journal_mode = DELETE")
+            machine, = db.execute("SELECT machine FROM phrase WHERE machine <> '' ORDER BY id DESC").fetchone()
+        right = self.digest(whole)
+        for change, becomes in CHANGES.items():
+            with self.subTest(change):
+                for old in self.folder.glob("changed*"):
+                    old.unlink()
+                shutil.copy(whole, store)
+                with contextlib.closing(sqlite3.connect(store, isolation_level=None)) as db:
+                    self.assertGreater(db.execute(change.replace("MACHINE", machine)).rowcount, 0)
+                out = store.with_name("changed-out.db")
+                said = call("recover", store, "-o", out)
+                if becomes == "doubted":
+                    self.assertEqual(said.returncode, 3, said.stdout + said.stderr)
+                    self.assertIn("not reliable", said.stderr)
+                    self.assertEqual(call("verify", out, "--sample", "0").returncode, 3)
+                    self.assertEqual(self.run_campaign(out).returncode, 3)
+                    # Nor does that end with a second copy.
+                    self.assertEqual(call("recover", out, "-o", store.with_name("changed-again.db")).returncode, 3)
+                    continue
+                self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+                if becomes == "evaluated":
+                    self.assertRegex(said.stdout, r"d1: \d+ evaluations are missing")
+                    again = self.run_campaign(out, "--workers", "2")
+                    self.assertEqual(again.returncode, 0, again.stderr)
+                self.assertEqual(self.digest(out), right)
+                self.done("verify", out, "--sample", "0")
 
     def test_of_results_from_elsewhere(self):
         store = self.folder / "imported.db"
