@@ -234,9 +234,11 @@ Expected<void> check_rows(const fs::path& store) {
       return {};
     }
     const Snapshot snapshot(*connection);
-    const std::string changed = changes_since_closed(*connection);
-    if (changed.empty()) return {};
-    return unexpected(ErrorKind::Corrupt, damaged_text(changed), path.string());
+    if (is_as_closed(*connection)) return {};
+    std::string fault = changed_rows(*connection);
+    if (fault.empty()) fault = lost_texts(*connection);
+    if (fault.empty()) return {};
+    return unexpected(ErrorKind::Corrupt, damaged_text(fault), path.string());
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);
   }

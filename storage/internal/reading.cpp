@@ -82,6 +82,14 @@ std::string digest_of_store(const Connection& connection) {
   return digest.hex();
 }
 
+std::string lost_texts(const Connection& connection) {
+  const auto lost = candidates_without_phrases(connection);
+  if (lost.empty()) return {};
+  return fmt::format(
+      "candidates name phrases that do not exist, or make more text of them than a store's: {}",
+      lost.size());
+}
+
 std::vector<std::string> faults_of(const sqlite::Connection& connection) {
   std::vector<std::string> faults;
   try {
@@ -98,10 +106,7 @@ std::vector<std::string> faults_of(const sqlite::Connection& connection) {
       faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
                                    foreign.text(0), foreign.text(1), foreign.integer(2)));
     }
-    if (const auto lost = candidates_without_phrases(connection); !lost.empty())
-      faults.push_back(fmt::format(
-          "candidates name phrases that do not exist, or make more text of them than a store's: {}",
-          lost.size()));
+    if (std::string lost = lost_texts(connection); !lost.empty()) faults.push_back(std::move(lost));
     for (std::string& fault : faults_of_real_runs(connection))
       faults.push_back(std::move(fault));
   } catch (const sqlite::SqliteError& error) {

@@ -54,6 +54,10 @@ class LongCheck {
   bool is_told_ = false;
 };
 
+/// A sentence when texts of candidates cannot be made of their codes, or are more than a store's;
+/// else empty.
+std::string lost_texts(const sqlite::Connection& connection);
+
 /// What SQLite's integrity check and foreign keys find, and whether the rows are those that were
 /// committed (RowSums): a sentence a fault.
 std::vector<std::string> faults_of(const sqlite::Connection& connection);

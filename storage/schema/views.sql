@@ -326,17 +326,21 @@ SELECT candidate, design, module, count(*) AS occurrences, sum(reachable) AS rea
 FROM module_place
 GROUP BY candidate, design, module;
 
--- Over the winners of finished designs that are made of modules, which networks are not; a module that
--- another winner of the store has counts as 0, and as NULL where the flavour has no such module.
+-- Not public: the winners of finished designs that are made of modules, which networks are not.
+CREATE VIEW winner AS
+SELECT id AS design, mission, method, flavour, best AS candidate
+FROM design WHERE state = 3 AND best IS NOT NULL AND flavour <> '';
+
+-- Not public: the modules that a winner has.
+CREATE VIEW winner_module AS
+SELECT w.design, m.module, count(*) AS occurrences, sum(m.reachable) AS reachable
+FROM winner AS w CROSS JOIN module_place AS m ON m.candidate = w.candidate
+GROUP BY w.design, m.module;
+
+-- A module that another winner of the store has counts as 0, and as NULL where the flavour has no such
+-- module.
 CREATE VIEW v_module_frequency AS
-WITH winner AS (
-  SELECT id AS design, mission, method, flavour, best AS candidate
-  FROM design WHERE state = 3 AND best IS NOT NULL AND flavour <> ''
-), held AS MATERIALIZED (
-  SELECT w.design, m.module, count(*) AS occurrences, sum(m.reachable) AS reachable
-  FROM winner AS w CROSS JOIN module_place AS m ON m.candidate = w.candidate
-  GROUP BY w.design, m.module
-)
+WITH held AS MATERIALIZED (SELECT design, module, occurrences, reachable FROM winner_module)
 SELECT mission, method, module,
        avg(occurrences) AS avg_occurrences, avg(occurrences > 0) AS occurrence_rate,
        avg(reachable) AS avg_reachable, avg(reachable > 0) AS reachable_rate

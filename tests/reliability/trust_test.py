@@ -56,7 +56,7 @@ class CutOut(Trust):
         self.assertEqual(again.wait(60), 3, again.tail())
         self.assertIn(f'recover {self.store} --without-key "liar"', again.log())
         copy = self.folder / "copy.db"
-        self.said("recover", self.store, "-o", copy)
+        self.said("recover", self.store, "-o", copy, code=3)
         self.assertIn("wrong, or may be", self.said("verify", copy, "--sample", 0, code=3))
         honest = self.folder / "honest.db"
         self.assertRegex(self.said("recover", self.store, "--without-key", "nobody", "-o", honest, code=4), "are: .*liar")
