@@ -91,6 +91,9 @@ constexpr std::array kNotDerived{
     Changed{RowSums::Table::Evaluation, "evaluation"},
     Changed{RowSums::Table::Campaign, "campaign"},
     Changed{RowSums::Table::Command, "command"},
+    Changed{RowSums::Table::RealRun, "real_run"},
+    Changed{RowSums::Table::RealScore, "real_score"},
+    Changed{RowSums::Table::RealOverride, "real_override"},
 };
 
 Part part_of(const StoredCampaign& campaign) {

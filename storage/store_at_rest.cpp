@@ -11,6 +11,7 @@
 #include "storage/internal/open_writer.h"
 #include "storage/internal/real_run_reader.h"
 #include "storage/internal/real_run_writer.h"
+#include "storage/internal/row_sums.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
 #include "storage/stored_enums.h"
@@ -83,6 +84,11 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
     sqlite::Transaction transaction(writer_.connection);
     if (is_new_) write_empty_store(writer_.connection);
     if (auto changed = change(); !changed) return changed;
+    if (auto sums = RowSums::stored(writer_.connection)) {
+      for (const RowSums::Table table : RowSums::kOfRealRuns)
+        sums->count(writer_.connection, table);
+      sums->write(writer_.connection);
+    }
     keep_sums(writer_.connection);
     transaction.commit();
   } catch (const sqlite::SqliteError& error) {

@@ -301,8 +301,10 @@ Examples:
 
 constexpr std::string_view kRecoverDetails =
     R"(Makes a new store from a damaged one: every whole row of every page that is left, also without the
-file's header. It derives anew what follows from scores, and reports what is missing. Run the campaign
-on the new store: it evaluates what was lost, and comes to the same answer.
+file's header. It leaves out scores that another program has changed, derives anew what follows from
+scores, and reports what is missing. Run the campaign on the new store: it evaluates what was lost, and
+comes to the same answer. Exit code 3 when values that can be neither told nor derived were changed: the
+new store says of itself that it is not reliable.
 
 Examples:
   swarmsmith recover demo.db -o rescued.db && swarmsmith run --store rescued.db

@@ -12,6 +12,7 @@ namespace {
 using sqlite::Statement;
 
 constexpr std::string_view kKey = "row_sums";
+constexpr std::size_t kAlwaysSummed = 14;  ///< tables, by the first version that had sums
 
 struct Summed {
   const char* table;
@@ -42,6 +43,9 @@ constexpr std::array<Summed, RowSums::kTables> kSummed{{
     {"design", "id, state, used, iteration, best, best_mean, reason"},
     {"campaign", "id, state"},
     {"command", "number, kind, design, step, budget, who"},
+    {"real_run", "*"},
+    {"real_score", "*"},
+    {"real_override", "*"},
 }};
 
 /// Of the first columns.
@@ -98,12 +102,15 @@ std::optional<RowSums> RowSums::stored(const sqlite::Connection& connection) {
   const char* at = text.data();
   const char* const end = at + text.size();
   // "1200 8f2a... 17 90ab...": a number of rows and a sum, table by table.
+  sums.known_ = 0;
   for (Sum& sum : sums.sums_) {
+    if (at == end && sums.known_ >= kAlwaysSummed) break;
     const auto rows = std::from_chars(at, end, sum.rows);
     if (rows.ec != std::errc() || rows.ptr == end) return RowSums();
     const auto hash = std::from_chars(rows.ptr + 1, end, sum.sum, 16);
     if (hash.ec != std::errc()) return RowSums();
     at = hash.ptr == end ? end : hash.ptr + 1;
+    ++sums.known_;
   }
   return sums;
 }
@@ -131,7 +138,7 @@ void RowSums::write(const sqlite::Connection& connection) const {
 
 std::string RowSums::differences(const RowSums& found) const {
   std::string text;
-  for (std::size_t i = 0; i < kTables; ++i) {
+  for (std::size_t i = 0; i < known_; ++i) {
     if (sums_[i] == found.sums_[i]) continue;
     if (i == static_cast<std::size_t>(Table::Used) && text.find("evaluation") != std::string::npos)
       continue;
@@ -144,7 +151,7 @@ std::string RowSums::differences(const RowSums& found) const {
 }
 
 bool RowSums::has_other_values(Table table, const RowSums& found) const {
-  return of(table).rows == found.of(table).rows && of(table).sum != found.of(table).sum;
+  return static_cast<std::size_t>(table) < known_ && of(table).rows == found.of(table).rows && of(table).sum != found.of(table).sum;
 }
 
 std::int64_t remove_changed_evaluations(sqlite::Connection& connection) {

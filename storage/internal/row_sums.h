@@ -72,8 +72,13 @@ class RowSums {
     Design,
     Campaign,
     Command,
+    RealRun,
+    RealScore,
+    RealOverride,
   };
-  static constexpr std::size_t kTables = 14;
+  static constexpr std::size_t kTables = 17;
+  /// Of a store that was at rest when they were written: they are counted anew.
+  static constexpr std::array kOfRealRuns{Table::RealRun, Table::RealScore, Table::RealOverride};
 
   void add(Table table, std::uint64_t hash) {
     ++of(table).rows;
@@ -87,7 +92,8 @@ class RowSums {
     of(table).sum += hash - old_hash;
   }
 
-  /// As the last commit wrote them; none in a store of a version that did not. Throws SqliteError.
+  /// As the last commit wrote them; none in a store of a version that did not. A version that knew
+  /// fewer tables says nothing of the others. Throws SqliteError.
   static std::optional<RowSums> stored(const sqlite::Connection& connection);
   /// Of the rows that are there.
   static RowSums found(const sqlite::Connection& connection);
@@ -114,6 +120,7 @@ class RowSums {
   const Sum& of(Table table) const { return sums_[static_cast<std::size_t>(table)]; }
 
   std::array<Sum, kTables> sums_{};
+  std::size_t known_ = kTables;  ///< tables that these say something of
 };
 
 inline std::int64_t half(std::uint64_t hash) {

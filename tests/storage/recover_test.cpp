@@ -64,9 +64,11 @@ struct RecoverTest : testing::Test {
     found = (*recovery)->found();
     const auto end = (*recovery)->finish();
     EXPECT_TRUE(end) << to_string(end.error());
+    doubt = end ? end->doubt : "";
     return end ? end->digest : "";
   }
   Salvaged found;
+  std::string doubt;
 
   /// Every row of `reader` that the original has, too, and how many there are.
   std::size_t expect_no_other_rows() {
@@ -87,6 +89,29 @@ TEST_F(RecoverTest, AWholeStoreComesOutWhole) {
   EXPECT_EQ(recovered(), digest);
   EXPECT_FALSE(found.header_is_damaged);
   EXPECT_EQ(found.unplaced, 0);
+}
+
+TEST_F(RecoverTest, AScoreThatAnotherProgramChangedIsLeftOut) {
+  sqlite::Connection(damaged.string(), SQLITE_OPEN_READWRITE)
+      .execute("UPDATE evaluation SET score = score + 1 WHERE candidate = 3 AND pair = 2");
+  EXPECT_NE(recovered(), digest);
+  EXPECT_EQ(found.changed_evaluations, 1);
+  expect_no_other_rows();
+}
+
+TEST_F(RecoverTest, WhatCannotBeToldIsDoubted) {
+  for (const char* sql : {"UPDATE source SET name = 'x'", "UPDATE campaign SET state = 'x'",
+                          "UPDATE evaluation SET worker = worker + 1",
+                          // Of a store of an earlier schema, whose rows say nothing of themselves.
+                          "UPDATE evaluation SET score = score + 1, row_check = NULL"}) {
+    SCOPED_TRACE(sql);
+    write_bytes(damaged, bytes);
+    sqlite::Connection(damaged.string(), SQLITE_OPEN_READWRITE).execute(sql);
+    recovered();
+    EXPECT_THAT(doubt, HasSubstr("not those that were committed"));
+    EXPECT_EQ(found.changed_evaluations, 0);
+    EXPECT_EQ(cells_of(*open_reader(out), "SELECT state FROM v_campaigns")[0][0], "distrusted");
+  }
 }
 
 TEST_F(RecoverTest, WithoutHeaderOrFirstPageNothingIsLost) {

@@ -12,7 +12,9 @@
 #include "storage/merge.h"
 #include "storage/recover.h"
 #include "storage/store_at_rest.h"
+#include "storage/whole.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/synthetic_real_run.h"
 
 namespace swarmsmith {
 namespace {
@@ -287,6 +289,42 @@ TEST_F(OfOthers, RowsThatOthersChangedAreFoundAndNamed) {
     const auto made = back_up(path, folder / "copy.db", kNobodyWatches);
     EXPECT_FALSE(made);
   }
+}
+
+TEST_F(OfOthers, ChangedRealRunsAreFoundAndNamed) {
+  make_store();
+  {
+    const auto store = StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse);
+    ASSERT_TRUE((*store)->add_real_run(synthetic_real_run(1, {}, 40)));
+    ASSERT_TRUE((*store)->add_override({{1}, "DEGRADED", "ada", "x"}));
+  }
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  const fs::path whole = folder / "whole.db";
+  fs::copy_file(path, whole);
+  const std::pair<const char*, const char*> changes[] = {
+      {"UPDATE real_score SET score = score + 1", "real_score (other values)"},
+      {"UPDATE real_override SET verdict = 'VALID'", "real_override (other values)"},
+      {"DELETE FROM real_override", "real_override (0 rows for 1)"},
+      {"UPDATE real_run SET mission = 'other'", "real_run (other values)"}};
+  for (const auto& [sql, named] : changes) {
+    SCOPED_TRACE(sql);
+    fs::copy_file(whole, path, fs::copy_options::overwrite_existing);
+    change(path, sql);
+    const auto rows = check_rows(path);
+    ASSERT_FALSE(rows);
+    EXPECT_THAT(rows.error().message, HasSubstr(named));
+    EXPECT_THAT(refusal(path), HasSubstr(named));
+  }
+}
+
+TEST_F(OfOthers, SumsOfAnEarlierProgramSayNothingOfLaterTables) {
+  make_store();
+  change(path,
+         "UPDATE meta SET value = substr(value, 1, length(value) - 3 * length(' 0 0123456789abcdef'))"
+         " WHERE key = 'row_sums'");
+  EXPECT_TRUE(check_rows(path));
+  change(path, "DELETE FROM elite WHERE rank = 1");
+  EXPECT_FALSE(check_rows(path));
 }
 
 TEST_F(OfOthers, RowsThatAreNoPartOfTheAnswerMayBeChanged) {
