@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/mission/trajectory.h"
+#include "tracking/rig/check.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith {
@@ -67,6 +68,7 @@ struct TrackedRun {
   std::int64_t frames_dropped = 0;
   std::int64_t frames_twice = 0;  ///< the same picture again
   std::vector<Issue> issues;
+  std::vector<Check> checks;  ///< all that were asked, and those that could not be
 };
 
 }  // namespace swarmsmith

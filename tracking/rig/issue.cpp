@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "tracking/rig/check.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -70,6 +72,20 @@ Error error_of(IssueCode code, std::string text, std::string where, bool in_conf
   const bool is_usage = code == IssueCode::Config || in_config;
   return {is_usage ? ErrorKind::BadInput : ErrorKind::Corrupt,
           std::string(name_of(code)) + ": " + std::move(text), std::move(where)};
+}
+
+std::string_view name_of(Check::Outcome outcome) {
+  switch (outcome) {
+    case Check::Outcome::Passed:
+      return "passed";
+    case Check::Outcome::Warned:
+      return "warned";
+    case Check::Outcome::Failed:
+      return "failed";
+    case Check::Outcome::NotRun:
+      return "not run";
+  }
+  return "";
 }
 
 std::string_view name_of(Verdict verdict) {
