@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/math.h"
+#include "storage/stored_enums.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/robots/robot_logs.h"
 #include "tracking/scoring/score_run.h"
@@ -277,6 +278,12 @@ TEST_F(RealRunRowsTest, SayWhenATagWasTakenForTheCentre) {
   EXPECT_EQ(run.robots[1].offset_calibration, "");
   EXPECT_TRUE(run.score.biased);
   EXPECT_FALSE(stored_run(run)->rig.offsets.contains("rvr2.offset.toml"));
+}
+
+TEST(Verdicts, OfAStoreAreThoseOfARun) {
+  EXPECT_THAT(kVerdicts,
+              testing::ElementsAre(name_of(Verdict::Valid), name_of(Verdict::Degraded),
+                                   name_of(Verdict::Invalid)));
 }
 
 }  // namespace
