@@ -153,28 +153,16 @@ std::vector<std::string> SqliteReader::integrity() {
   return faults_of(*connection_);
 }
 
-/// Names stand in every table and figure: of a store of others they may be of any length.
-Expected<void> check_names(const Connection& connection, const fs::path& path) {
-  for (const auto& [column, table] : {std::pair{"name", "campaign"},
-                                      {"name", "source"},
-                                      {"mission", "design"},
-                                      {"method", "design"}}) {
-    const std::int64_t longest = sqlite::integer_of(
-        connection, fmt::format("SELECT max(length({})) FROM {}", column, table));
-    if (longest <= kLongestName) continue;
-    return unexpected(ErrorKind::Corrupt,
-                      fmt::format("a {} in the store's table {} has {} characters; a store has "
-                                  "names of {} at most",
-                                  column, table, longest, kLongestName),
-                      path.string());
-  }
-  return {};
-}
-
 Unexpected refused(const sqlite::SqliteError& error, const fs::path& path) {
   const int code = error.primary_code();
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
     return unexpected(ErrorKind::Corrupt, damaged_text(error.what()), path.string());
+  }
+  if (code == SQLITE_TOOBIG) {
+    return unexpected(ErrorKind::Corrupt,
+                      fmt::format("a text in it has more than {} MB; no store has such texts",
+                                  sqlite::kMostValueBytes >> 20U),
+                      path.string());
   }
   if (cannot_make_files(path)) {
     return unexpected(ErrorKind::Unavailable,
@@ -218,7 +206,7 @@ Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& named) 
     }
     if (auto ours = check_identity(*connection, path); !ours) return Unexpected(ours.error());
     if (auto tables = check_tables(*connection, path); !tables) return Unexpected(tables.error());
-    if (auto names = check_names(*connection, path); !names) return Unexpected(names.error());
+    if (auto texts = check_lengths(*connection, path); !texts) return Unexpected(texts.error());
     return std::make_unique<SqliteReader>(std::make_shared<Connection>(std::move(*connection)));
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);

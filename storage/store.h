@@ -169,7 +169,7 @@ class StoreReader {
   /// Calls `on_row` with the cells of each row of a read-only statement (texts; null as nullopt),
   /// after `on_columns` with the names. Stops at the limits of rows, seconds and bytes, and then
   /// sets `truncated`. A statement that would write, attach or change a setting, more than one
-  /// statement, what does not parse, a value over 32 MB, a row over 64 MB, or a need of more
+  /// statement, what does not parse, a value over 25 MB, a row over 50 MB, or a need of more
   /// memory, is BadInput with the reason.
   struct QueryLimits {
     std::int64_t rows = 1'000'000;

@@ -141,11 +141,11 @@ class Control {
     const std::vector<DesignRow> designs = (*reader)->designs();
     for (const DesignId design : wish_.designs) {
       if (std::ranges::find(designs, design, &DesignRow::id) != designs.end()) continue;
-      return fail(
-          output_, ExitCode::NoSuchId,
-          Error{ErrorKind::NotFound,
-                "the campaign has no such design; it has d1 to " + to_string(designs.back().id),
-                to_string(design)});
+      const std::string there =
+          designs.empty() ? "it has none" : "it has d1 to " + to_string(designs.back().id);
+      return fail(output_, ExitCode::NoSuchId,
+                  Error{ErrorKind::NotFound, "the campaign has no such design; " + there,
+                        to_string(design)});
     }
     if (arguments_.coordinator.is_named()) return by_wire("");
     auto store = Store::open(wish_.store, campaign_, designs);

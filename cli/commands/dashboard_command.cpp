@@ -20,6 +20,7 @@
 #include "coordinator/service/http_server.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/find_coordinator.h"
+#include "storage/whole.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -110,6 +111,8 @@ ExitCode write_snapshot(const DashboardArguments& arguments, Output& output) {
   if (std::filesystem::is_directory(file) ||
       (file.has_parent_path() && !std::filesystem::exists(file.parent_path())))
     return fail(output, ExitCode::Failed, cannot_write(arguments.file, 0));
+  if (const auto whole = check_rows(stores->front().file); !whole)
+    return fail(output, ExitCode::Store, whole.error());
   SnapshotOptions options{.version = program_name()};
   for (const std::string& text : arguments.designs) {
     const auto design = id_from_text<DesignTag>(text);

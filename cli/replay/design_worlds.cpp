@@ -54,9 +54,17 @@ Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
   worlds.designs_ = std::move(*designs);
   const auto files = select(store, "SELECT id, file, deciding FROM campaign ORDER BY id");
   if (!files) return Unexpected(files.error());
-  for (const auto& cells : files->cells)
-    worlds.files_.emplace(std::stoll(cells[0].text),
-                          File{cells[1].text, engine_version_in(cells[2].text)});
+  for (const auto& cells : files->cells) {
+    File file{cells[1].text, engine_version_in(cells[2].text)};
+    if (!file.text.empty() && !is_imported_text(file.text)) {
+      auto campaign = parse_campaign(file.text, "the store's campaign file");
+      file.campaign = campaign ? Expected<Campaign>(std::move(*campaign))
+                               : Unexpected(campaign.error().front());
+    } else {
+      file.imported = read_imported_world(file.text);
+    }
+    worlds.files_.emplace(std::stoll(cells[0].text), std::move(file));
+  }
   worlds.seed_ = static_cast<std::uint64_t>(store.campaign().seed);
   return worlds;
 }
@@ -66,10 +74,10 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   if (known == designs_.end()) return std::optional<DesignWorld>();
   DesignWorld world{.design = *known};
   const auto file = files_.find(known->campaign);
-  if (file != files_.end() && !file->second.text.empty() && !is_imported_text(file->second.text)) {
+  if (file != files_.end() && file->second.campaign) {
     world.engine_version = file->second.engine_version;
-    const auto campaign = parse_campaign(file->second.text, "the store's campaign file");
-    if (!campaign) return Unexpected(campaign.error().front());
+    const Expected<Campaign>& campaign = *file->second.campaign;
+    if (!campaign) return Unexpected(campaign.error());
     put_campaign(world, *campaign);
     return world;
   }
@@ -78,12 +86,12 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   if (world.has_parameters) return world;
   world.mission = built_in(known->mission);
   if (file == files_.end()) return world;
-  auto imported = read_imported_world(file->second.text);
+  const Expected<ImportedWorld>& imported = *file->second.imported;
   if (!imported) return Unexpected(imported.error());
-  for (MissionEntry& entry : imported->missions) {
-    if (entry.mission.name == known->mission) world.mission = CampaignMission{std::move(entry), {}};
+  for (const MissionEntry& entry : imported->missions) {
+    if (entry.mission.name == known->mission) world.mission = CampaignMission{entry, {}};
   }
-  world.profile = std::move(imported->profile);
+  world.profile = imported->profile;
   return world;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/campaign.h"
+#include "coordinator/results/imported_world.h"
 #include "coordinator/results/known_designs.h"
 #include "storage/store.h"
 
@@ -45,6 +46,9 @@ class DesignWorlds {
   struct File {
     std::string text;  ///< empty for an imported campaign
     int engine_version = 0;
+    /// Read once, whatever the number of its designs; the error is told to those who ask for one.
+    std::optional<Expected<Campaign>> campaign{};
+    std::optional<Expected<ImportedWorld>> imported{};
   };
   std::map<std::int64_t, File> files_;  ///< of the campaigns
   std::uint64_t seed_ = 0;

@@ -13,6 +13,9 @@
 namespace swarmsmith {
 namespace {
 
+/// Characters; ours have some thousand.
+constexpr std::size_t kLongestController = 1 << 20;
+
 constexpr std::array<std::pair<std::string_view, Architecture>, 7> kFirstSwitches = {{
     {"--nstates", Architecture::Machine},
     {"--fsm-config", Architecture::Machine},
@@ -74,6 +77,11 @@ std::size_t find_controller(std::string_view line) {
 }
 
 Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour) {
+  if (text.size() > kLongestController) {
+    return unexpected(ErrorKind::BadInput,
+                      "control software has at most " + std::to_string(kLongestController) +
+                          " characters, and this text has " + std::to_string(text.size()));
+  }
   const auto architecture = architecture_of_text(text);
   if (!architecture) {
     const std::size_t at = find_controller(text);

@@ -286,6 +286,8 @@ bool PhraseBook::decode(const StoredTexts& stored, CandidateRow& row) {
   row.machine = stored.machine;
   row.parameters = stored.parameters;
   row.modules = stored.modules;
+  for (const std::string* text : {&row.machine, &row.parameters, &row.modules})
+    if (text->size() > kMostTextBytes) return false;
   std::optional<std::string> machine, parameters, modules;
   const auto extend = [&](std::optional<std::string>& text, const std::optional<std::string>& more,
                           std::string_view number, char between) {

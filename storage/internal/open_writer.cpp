@@ -45,6 +45,7 @@ Expected<void> prepare(Connection& connection, const fs::path& path, bool unclea
   if (!blank) {
     if (auto ours = check_identity(connection, path); !ours) return ours;
     if (auto same = check_schema(connection, path); !same) return same;
+    if (auto texts = check_lengths(connection, path); !texts) return texts;
   }
   const bool known = !unclean && !blank && is_as_closed(connection);
   configure_writer(connection);

@@ -159,6 +159,11 @@ Unexpected not_readable(const sqlite::Connection& connection, int code,
     return bad_input(
         fmt::format("the store has a value of more than {} MB", kMostValueBytes >> 20U), file);
   }
+  if (code == SQLITE_AUTH) {
+    return bad_input("its views are not those of its schema; `swarmsmith backup` makes a copy with "
+                     "ours",
+                     file);
+  }
   return bad_input(sqlite3_errmsg(connection.handle()), file);
 }
 
@@ -201,7 +206,7 @@ Expected<UserStatement> prepare(const sqlite::Connection& connection, const std:
   const char* tail = nullptr;
   const int code = sqlite3_prepare_v2(connection.handle(), sql.c_str(), -1, &prepared, &tail);
   UserStatement statement(prepared);
-  if (code == SQLITE_AUTH) {
+  if (code == SQLITE_AUTH && limits.typed) {
     return bad_input("a query may only read: no writing, attaching, transactions or settings", sql);
   }
   if (code != SQLITE_OK) return refused(connection, code, sql, limits);

@@ -1,6 +1,7 @@
 #include "storage/internal/schema_check.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 #include <span>
@@ -170,6 +171,40 @@ Expected<void> check_tables(const Connection& connection, const std::filesystem:
                       fmt::format("the store's table {} {} ({}); take the store from a backup, or "
                                   "let `swarmsmith recover` make a new one of what can be read",
                                   table, kNotOurs, how),
+                      path.string());
+  }
+  return {};
+}
+
+Expected<void> check_lengths(const Connection& connection, const std::filesystem::path& path) {
+  struct Limit {
+    const char *column, *table;
+    std::int64_t most;
+    std::int64_t schema = 1;  ///< that brought the column
+  };
+  constexpr std::int64_t kLongestReason = 1 << 20;
+  constexpr std::int64_t kLongestPhrase = 8 << 20;
+  constexpr std::array kLimits{
+      Limit{"name", "campaign", kLongestName},
+      Limit{"name", "source", kLongestName},
+      Limit{"mission", "design", kLongestName},
+      Limit{"method", "design", kLongestName},
+      Limit{"flavour", "design", kLongestName, 4},
+      Limit{"reason", "design", kLongestReason},
+      Limit{"machine", "phrase", kLongestPhrase, 4},
+      Limit{"parameters", "phrase", kLongestPhrase, 4},
+      Limit{"modules", "phrase", kLongestPhrase, 4},
+  };
+  const std::int64_t schema = sqlite::integer_of(connection, "PRAGMA user_version");
+  for (const Limit& limit : kLimits) {
+    if (schema < limit.schema) continue;
+    const std::int64_t longest = sqlite::integer_of(
+        connection, fmt::format("SELECT max(length({})) FROM {}", limit.column, limit.table));
+    if (longest <= limit.most) continue;
+    return unexpected(ErrorKind::Corrupt,
+                      fmt::format("a {} in the store's table {} has {} characters; a store has {} "
+                                  "at most",
+                                  limit.column, limit.table, longest, limit.most),
                       path.string());
   }
   return {};

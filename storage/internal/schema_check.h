@@ -30,6 +30,11 @@ Expected<void> check_schema(const sqlite::Connection& connection,
 Expected<void> check_tables(const sqlite::Connection& connection,
                             const std::filesystem::path& path);
 
+/// Corrupt when a name, which stands in every table and figure, or a text that is read again and
+/// again is longer than any of ours. Throws SqliteError.
+Expected<void> check_lengths(const sqlite::Connection& connection,
+                             const std::filesystem::path& path);
+
 /// Every row of the tables of `to`, which are ours, from those of the same names, column by column
 /// by their names. Throws SqliteError.
 void copy_rows(const sqlite::Connection& from, const sqlite::Connection& to);

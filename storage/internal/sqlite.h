@@ -29,7 +29,7 @@ class SqliteError : public StoreFailure {
 
 /// Of a value: the longest that stores have is the text of a campaign with its pictures, 24 MB at
 /// most.
-inline constexpr int kMostValueBytes = 32 << 20;
+inline constexpr int kMostValueBytes = 25 << 20;
 
 /// An open database file. One thread at a time. What the file says is data, and nothing of it acts:
 /// its triggers do not run, its views are not read unless that is allowed, its functions are not
