@@ -202,8 +202,9 @@ class ThesisSize(ProgramTest):
     def test_every_command_that_reads_a_store(self):
         for number, (words, sums, megabytes) in enumerate(COMMANDS):
             with self.subTest(command=words):
-                words = [word.replace("STORE", str(self.store)).replace("OTHERS", str(self.others())).replace("OUT", str(self.folder / f"out{number}"))
-                         for word in words]
+                store = self.others() if "OTHERS" in words else self.store
+                words = [word.replace("OTHERS", "STORE").replace("STORE", str(store))
+                         .replace("OUT", str(self.folder / f"out{number}")) for word in words]
                 out = self.check(words, sums, megabytes * MB)
                 if words[0] == "verify":
                     self.assertRegex(out, rf"^clean: {self.evaluations} evaluations of ")
