@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +63,8 @@ void write_verdict(HtmlPage& page, const ReportedRun& run) {
   for (const std::string& reason : run.scored.reasons)
     page.paragraph(reason);
   if (run.scored.reasons.empty()) page.paragraph("Nothing speaks against the score.");
+  if (const auto missing = unasked(run.scored.checks); !missing.empty())
+    page.paragraph(fmt::format("Not checked: {}.", fmt::join(missing, ", ")));
   if (run.scored.biased) {
     page.paragraph(
         "BIASED: a tag was used as its robot's centre, which makes scores look better than they "
@@ -70,7 +73,7 @@ void write_verdict(HtmlPage& page, const ReportedRun& run) {
   const RunLog& log = run.log;
   Facts facts = {{"Score", score_text(run.scored)},
                  {"Mission", log.mission.name},
-                 {"Recorded", log.recorded},
+                 {"Recorded", log.recorded.empty() ? "the run log gives no date" : log.recorded},
                  {"Source", log.source}};
   if (!log.design.empty()) facts.emplace_back("Design", log.design);
   if (!log.candidate.empty()) facts.emplace_back("Candidate", log.candidate);
@@ -286,6 +289,39 @@ void write_issues(HtmlPage& page, const ReportedRun& run) {
   page.table(issues);
 }
 
+/// Those that did not pass first.
+void write_checks(HtmlPage& page, const ReportedRun& run) {
+  page.heading(2, "Checks");
+  const auto& checks = run.scored.checks;
+  const auto count = [&](Check::Outcome outcome) {
+    return std::ranges::count(checks, outcome, &Check::outcome);
+  };
+  page.paragraph(fmt::format("{} of {} checks passed, {} warned, {} failed, {} could not run.",
+                             count(Check::Outcome::Passed), checks.size(),
+                             count(Check::Outcome::Warned), count(Check::Outcome::Failed),
+                             count(Check::Outcome::NotRun)));
+  HtmlTable table{.caption =
+                      "What the run was asked before its score counts, and what the answer would "
+                      "have shown",
+                  .columns = {{"Outcome"},
+                              {"Check"},
+                              {"Of"},
+                              {"Number", true},
+                              {"Limit", true},
+                              {"It catches"},
+                              {"Why it could not run"}},
+                  .rows = {}};
+  for (const auto outcome : {Check::Outcome::Failed, Check::Outcome::Warned, Check::Outcome::NotRun,
+                             Check::Outcome::Passed}) {
+    for (const Check& check : checks) {
+      if (check.outcome != outcome) continue;
+      table.rows.push_back({std::string(name_of(outcome)), check.name, check.subject,
+                            value_text(check), limit_text(check), check.catches, check.reason});
+    }
+  }
+  page.table(table);
+}
+
 void write_origin(HtmlPage& page, const ReportedRun& run) {
   page.heading(2, "Where it comes from");
   page.paragraph("Scored by " + run.program + ".");
@@ -312,13 +348,15 @@ std::string quality_html(const ReportedRun& run) {
   write_robots(page, run);
   write_logs(page, run);
   write_issues(page, run);
+  write_checks(page, run);
   write_frames(page, run);
   page.heading(2, "Cameras and floor tags");
   for (const CameraRecord& record : run.observations.cameras)
     write_camera(page, run, record);
   write_origin(page, run);
   return page.finish(fmt::format("{}: {}", run.log.name, name_of(counting_verdict(run))),
-                     fmt::format("{} of {}, score {}{}", run.log.mission.name, run.log.recorded,
+                     fmt::format("{}{}, score {}{}", run.log.mission.name,
+                                 run.log.recorded.empty() ? "" : " of " + run.log.recorded,
                                  score_text(run.scored), run.scored.biased ? " (BIASED)" : ""));
 }
 
