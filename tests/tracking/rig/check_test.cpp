@@ -38,12 +38,10 @@ TEST(CheckTest, OutcomesFollowFromTheWorstIssue) {
 }
 
 TEST(CheckTest, WhatCouldNotBeAskedIsNamedOnceAndOfWhomIfNotOfAll) {
-  const std::vector<Check> checks{not_asked(kGap, "", "no film"),
-                                  answered(kMotion, "rvr1", Outcome::Passed, 0.9),
-                                  not_asked(kMotion, "rvr2", "no log"),
-                                  not_asked(kMotion, "rvr3", "no log"),
-                                  not_asked(kRate, "left", "one frame"),
-                                  not_asked(kRate, "right", "one frame")};
+  const std::vector<Check> checks{
+      not_asked(kGap, "", "no film"),        answered(kMotion, "rvr1", Outcome::Passed, 0.9),
+      not_asked(kMotion, "rvr2", "no log"),  not_asked(kMotion, "rvr3", "no log"),
+      not_asked(kRate, "left", "one frame"), not_asked(kRate, "right", "one frame")};
   EXPECT_THAT(unasked(checks),
               ElementsAre("longest gap", "motion as commanded (rvr2, rvr3)", "frame rate"));
   EXPECT_THAT(unasked({}), IsEmpty());
