@@ -50,7 +50,7 @@ TEST(ChecksTest, OfACleanRunPassAndSayWhatWasNotAsked) {
   EXPECT_THAT(of(run, Outcome::Failed), IsEmpty());
   EXPECT_THAT(of(run, Outcome::Warned), IsEmpty());
   EXPECT_THAT(of(run, Outcome::NotRun),
-              testing::ElementsAre("length of the film, ceiling", "cameras agree, rvr1",
+              testing::ElementsAre("length of the film, camera0", "cameras agree, rvr1",
                                    "cameras agree, rvr2", "cameras agree, rvr3"));
   // Each robot and the camera are asked all that there is to ask.
   for (const char* robot : {"rvr1", "rvr2", "rvr3"}) {
@@ -64,8 +64,8 @@ TEST(ChecksTest, OfACleanRunPassAndSayWhatWasNotAsked) {
     EXPECT_EQ(gap->unit, "s");
     EXPECT_NE(find_check(run, "gap around the last instant", robot), nullptr);
   }
-  EXPECT_NEAR(find_check(run, "frame rate", "ceiling")->value.value(), 30, 1e-6);
-  EXPECT_LT(find_check(run, "camera stayed where it was", "ceiling")->value.value(), 0.1);
+  EXPECT_NEAR(find_check(run, "frame rate", "camera0")->value.value(), 30, 1e-6);
+  EXPECT_LT(find_check(run, "camera stayed where it was", "camera0")->value.value(), 0.1);
 }
 
 TEST(ChecksTest, SayWhatFailedWhereAndByHowMuch) {
@@ -80,7 +80,7 @@ TEST(ChecksTest, SayWhatFailedWhereAndByHowMuch) {
   SeenRun slow = seen_run(on_circle, {.cycles = 200, .frame_rate = 8});
   const TrackedRun few = slow.track().value();
   expect_sound(few, "8 frames/s");
-  EXPECT_EQ(find_check(few, "frame rate", "ceiling")->outcome, Outcome::Failed);
+  EXPECT_EQ(find_check(few, "frame rate", "camera0")->outcome, Outcome::Failed);
 
   SeenRun wrong = seen_run(on_circle, {.cycles = 200});
   for (RobotSetup& robot : wrong.rig.robots)
@@ -105,18 +105,18 @@ TEST(ChecksTest, ThatNeedWhatIsNotThereSayWhatIsMissing) {
   blind.observations.cameras[0].references.clear();
   const TrackedRun run = blind.track().value();
   expect_sound(run, "no floor tags");
-  const Check* moved = find_check(run, "camera stayed where it was", "ceiling");
+  const Check* moved = find_check(run, "camera stayed where it was", "camera0");
   ASSERT_NE(moved, nullptr);
   EXPECT_EQ(moved->outcome, Outcome::NotRun);
   EXPECT_EQ(moved->reason, "none of its floor tags was seen");
-  EXPECT_EQ(find_check(run, "floor tags seen until the end", "ceiling")->outcome, Outcome::Warned);
+  EXPECT_EQ(find_check(run, "floor tags seen until the end", "camera0")->outcome, Outcome::Warned);
 
   SeenRun timed = seen_run(on_circle, {.cycles = 200});
   timed.observations.cameras[0].time_source = TimeSource::FrameRate;
   timed.options.span.lengths_s = {30.0};
   const TrackedRun fast = timed.track().value();
   expect_sound(fast, "length");
-  EXPECT_EQ(find_check(fast, "length of the film", "ceiling")->outcome, Outcome::Failed);
+  EXPECT_EQ(find_check(fast, "length of the film", "camera0")->outcome, Outcome::Failed);
 
   SeenRun two = seen_run(on_circle, {.cycles = 200});
   add_camera(two, on_circle, {.cycles = 200}, {0.3, 0.2});
