@@ -63,6 +63,7 @@ class Runs(DashboardTest):
             self.assertIn(said, rows[0])
         for said in ("passed", "30 frames/s", "10 frames/s", "gaps between frames"):
             self.assertIn(said, rows[1])
+        self.keep(page, "checks-of-a-real-run")
         self.assertIsNone(serving.get("c1/runs/r1/trajectory")["checks"])
         page.js("location.hash = '#/c1/runs/r1?t=0'")
         page.wait("document.querySelector('main').innerText.includes('Not recorded')")

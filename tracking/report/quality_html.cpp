@@ -312,15 +312,16 @@ void write_checks(HtmlPage& page, const ReportedRun& run) {
                               {"Of"},
                               {"Number", true},
                               {"Limit", true},
-                              {"It catches"},
-                              {"Why it could not run"}},
+                              {"What it catches; why it could not run"}},
                   .rows = {}};
   for (const auto outcome : {Check::Outcome::Failed, Check::Outcome::Warned, Check::Outcome::NotRun,
                              Check::Outcome::Passed}) {
     for (const Check& check : checks) {
       if (check.outcome != outcome) continue;
-      table.rows.push_back({std::string(name_of(outcome)), check.name, check.subject,
-                            value_text(check), limit_text(check), check.catches, check.reason});
+      table.rows.push_back(
+          {std::string(name_of(outcome)), check.name, check.subject, value_text(check),
+           limit_text(check),
+           check.reason.empty() ? check.catches : check.catches + "; " + check.reason});
     }
   }
   page.table(table);

@@ -56,7 +56,7 @@ std::string value_text(const Check& check) {
 std::string limit_text(const Check& check) {
   if (!check.limit) return "";
   const std::string text = numbered(*check.limit, check.unit);
-  if (!check.value || *check.value == *check.limit) return text;
+  if (!check.value || *check.value == *check.limit) return "limit " + text;
   // On the good side of it, or not.
   const bool is_over = *check.value > *check.limit;
   const bool is_least = is_over == (check.outcome == Check::Outcome::Passed);

@@ -21,6 +21,8 @@ TEST(CheckTest, TellsItsNumberAndOnWhichSideOfTheLimitIsGood) {
   EXPECT_EQ(limit_text(answered(kRate, "ceiling", Outcome::Passed, 29.97, 10)),
             "at least 10 frames/s");
   EXPECT_EQ(limit_text(answered(kRate, "ceiling", Outcome::Failed, 8, 10)), "at least 10 frames/s");
+  EXPECT_EQ(limit_text(answered(kGap, "rvr1", Outcome::Passed, 0, 0)), "limit 0 s");
+  EXPECT_EQ(limit_text(answered(kGap, "rvr1", Outcome::Failed, std::nullopt, 1)), "limit 1 s");
   EXPECT_EQ(value_text(answered(kMotion, "rvr1", Outcome::Passed, 1234.5)), "1234.5");
   EXPECT_EQ(value_text(answered(kMotion, "rvr1", Outcome::Passed)), "");
   EXPECT_EQ(value_text(answered(kGap, "rvr1", Outcome::Passed, -0.00001)), "0 s");
