@@ -32,12 +32,12 @@ struct Move : Shift {
 /// Tables whose rows are copied column by column. Candidates go through their rows, `source` by its
 /// names, calibrations once for all stores, and `meta` is each file's own.
 constexpr std::array kCopied{
-    "campaign",   "design",        "pair",        "iteration",   "candidate_totals",
-    "evaluation", "race_step",     "elimination", "elite",       "worker",
-    "conflict",   "failure",       "attempt",     "event",       "command",
-    "real_run",   "real_video",    "real_robot",  "real_sample", "real_reference",
-    "real_patch", "real_cycle",    "real_issue",  "real_score",  "real_override",
-    "real_log",   "real_log_cycle"};
+    "campaign",   "design",         "pair",        "iteration",   "candidate_totals",
+    "evaluation", "race_step",      "elimination", "elite",       "worker",
+    "conflict",   "failure",        "attempt",     "event",       "command",
+    "real_run",   "real_video",     "real_robot",  "real_sample", "real_reference",
+    "real_patch", "real_cycle",     "real_issue",  "real_score",  "real_override",
+    "real_log",   "real_log_cycle", "real_check"};
 
 /// What an event's text becomes: {"evaluation":"c80 on pair 6","worker":1} and {"design":"d3"} name
 /// the same things as before.

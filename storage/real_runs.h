@@ -127,6 +127,20 @@ struct RealIssueRow {
   friend bool operator==(const RealIssueRow&, const RealIssueRow&) = default;
 };
 
+/// A question that the run was asked before its score counts.
+struct RealCheckRow {
+  std::string name;
+  std::string subject;  ///< the robot or camera; empty: the run
+  std::string outcome;  ///< "passed", "warned", "failed", "not run"
+  std::optional<double> value;
+  std::optional<double> limit;
+  std::string unit;  ///< of both
+  std::string catches;
+  std::string reason;  ///< why it was not run; empty for all others
+
+  friend bool operator==(const RealCheckRow&, const RealCheckRow&) = default;
+};
+
 /// A robot's own log of a run, and what follows from it beside the camera.
 struct RealLogRow {
   std::int64_t robot = 0;  ///< as of RealRobotRow
@@ -212,6 +226,7 @@ struct RealRunRows {
   std::vector<RealPatchRow> patches;         ///< of the log, or measured; none where there are none
   std::vector<RealCycleRow> cycles;          ///< by cycle, robot
   std::vector<RealIssueRow> issues;
+  std::vector<RealCheckRow> checks;  ///< none: a program before schema 13 scored it
   std::vector<RealLogRow> logs;             ///< by robot; those that have one
   std::vector<RealLogCycleRow> log_cycles;  ///< by cycle, robot
   RealScoreRow score;

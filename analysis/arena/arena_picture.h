@@ -26,6 +26,9 @@ struct ArenaPicture {
   Outline body = BoxOutline{kBodySide_m, kBodySide_m};  ///< of each robot
   std::vector<PicturedRobot> robots;
   std::vector<std::vector<Pose>> objects;  ///< poses of each of the arena's objects, as of robots
+  /// Dots with their time on the trails, so many cycles apart, and trails over the robots at their
+  /// ends; 0: none. Of a large swarm none either.
+  int cycles_a_mark = 0;
   double width_mm = 84;                    ///< a column of a paper; the height follows
 };
 

@@ -67,7 +67,13 @@ std::vector<Part> parts_of_evaluation(const ThingId& id) {
   return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
 }
 
-std::vector<Part> parts_of_real_run(const std::string& number, bool has_logs) {
+/// A store of before has no logs of robots.
+constexpr std::int64_t kSchemaOfLogs = 10;
+/// A store of before has no checks of runs.
+constexpr std::int64_t kSchemaOfChecks = 13;
+constexpr std::string_view kChecks = "checks";
+
+std::vector<Part> parts_of_real_run(const std::string& number, std::int64_t schema) {
   const std::string of_run = " WHERE run = " + number;
   std::vector<Part> parts = {
       {"real run", "SELECT * FROM v_real_runs" + of_run},
@@ -89,19 +95,27 @@ std::vector<Part> parts_of_real_run(const std::string& number, bool has_logs) {
            of_run + " UNION SELECT place_calibration FROM v_real_videos" + of_run +
            " UNION SELECT offset_calibration FROM v_real_robots" + of_run +
            ") ORDER BY kind, subject"}};
-  if (has_logs) {
+  if (schema >= kSchemaOfLogs) {
     parts.push_back({"logs of robots",
                      "SELECT name, verdict, stepped, held, skipped, clock_offset_s, latency_s, "
                      "latency_error_s, latency_reason FROM v_real_logs" +
                          of_run + " ORDER BY robot"});
   }
+  parts.push_back({std::string(kChecks),
+                   schema >= kSchemaOfChecks
+                       ? "SELECT outcome, name, subject, value, bound, unit, catches, reason FROM "
+                         "v_real_checks" +
+                             of_run +
+                             " ORDER BY outcome <> 'failed', outcome <> 'warned', "
+                             "outcome <> 'not run', number"
+                       : "SELECT 1 WHERE 0"});
   return parts;
 }
 
-std::vector<Part> parts_of(const ThingId& id, bool has_purposes, bool has_logs) {
+std::vector<Part> parts_of(const ThingId& id, bool has_purposes, std::int64_t schema) {
   if (id.letter == 'd') return parts_of_design(id.digits, has_purposes);
   if (id.letter == 'c') return parts_of_candidate(id.digits);
-  if (id.letter == 'r') return parts_of_real_run(id.digits, has_logs);
+  if (id.letter == 'r') return parts_of_real_run(id.digits, schema);
   return parts_of_evaluation(id);
 }
 
@@ -125,6 +139,9 @@ std::string as_lines(const Rows& rows) {
 void write_text(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
   output.out << as_lines(rows.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (parts[i].name == kChecks && rows[i].cells.empty())
+      output.out << "\nchecks\nnot recorded: a version before them scored it; "
+                    "`swarmsmith track rescore` does it again\n";
     if (rows[i].cells.empty()) continue;
     output.out << "\n" << parts[i].name << "\n" << rows_as_text(rows[i]);
   }
@@ -154,9 +171,6 @@ void tell_rounds(Rows& rows, const StoredStages& stages, const ThingId& id) {
   }
 }
 
-/// A store of before has no logs of robots.
-constexpr std::int64_t kSchemaOfLogs = 10;
-
 ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
   if (!id) {
@@ -172,7 +186,7 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const bool has_purposes = std::ranges::find(known->columns, "purpose") != known->columns.end();
   const auto stages = StoredStages::read(**store);
   if (!stages) return fail(output, ExitCode::Store, stages.error());
-  const std::vector<Part> parts = parts_of(*id, has_purposes, (*store)->schema() >= kSchemaOfLogs);
+  const std::vector<Part> parts = parts_of(*id, has_purposes, (*store)->schema());
   std::vector<Rows> shown;
   for (const Part& part : parts) {
     auto rows = select(**store, part.sql);

@@ -340,6 +340,22 @@ std::string kind_of_pose(std::int64_t kind) {
   return kind < 0 || kind > 3 ? "" : kKinds.at(static_cast<std::size_t>(kind));
 }
 
+/// null: a version before checks scored it.
+JsonPiece checks_json(const RealRunRows& rows) {
+  if (rows.checks.empty()) return {"null"};
+  return json_list(rows.checks, [](const RealCheckRow& check) {
+    return JsonObject()
+        .add("name", check.name)
+        .add("subject", check.subject)
+        .add("outcome", check.outcome)
+        .add("value", check.value)
+        .add("limit", check.limit)
+        .add("unit", check.unit)
+        .add("catches", check.catches)
+        .add("reason", check.reason);
+  });
+}
+
 Answer real_answer(const Question& question, const RealReplay& replay) {
   const ShownRun& run = replay.runs.front();
   const Mission& mission = replay.filmed.mission;
@@ -382,6 +398,7 @@ Answer real_answer(const Question& question, const RealReplay& replay) {
           .add("stored_digest", JsonPiece{"null"})
           .add("engine", kEngineVersion)
           .add("verdict", replay.verdict)
+          .add("checks", checks_json(replay.rows))
           .add("unit", unit_of(mission.rule))
           .add("arena", arena_json(arena))
           .add("body", outline_json(mission.body))

@@ -16,6 +16,8 @@ struct RealRunPart {
 
 /// Schema that brought the robots' logs.
 inline constexpr std::int64_t kLogsSchema = 10;
+/// Schema that brought the checks of runs. A run that was scored before has none.
+inline constexpr std::int64_t kChecksSchema = 13;
 
 inline constexpr std::array kRealRunParts{
     RealRunPart{"videos", "real_video", false},
@@ -25,7 +27,8 @@ inline constexpr std::array kRealRunParts{
     RealRunPart{"patches", "real_patch", true},
     RealRunPart{"cycles", "real_cycle", true},
     RealRunPart{"logs", "real_log", false, kLogsSchema},
-    RealRunPart{"log_cycles", "real_log_cycle", false, kLogsSchema}};
+    RealRunPart{"log_cycles", "real_log_cycle", false, kLogsSchema},
+    RealRunPart{"checks", "real_check", false, kChecksSchema}};
 
 /// The other tables that name a run.
 inline constexpr std::array kRealRunNotes{"real_issue", "real_score", "real_override"};

@@ -215,6 +215,23 @@ void read_logs(const Connection& connection, RealRunId id, RealRunRows& rows) {
        });
 }
 
+void read_checks(const Connection& connection, RealRunId id, RealRunRows& rows) {
+  if (schema_of(connection) < kChecksSchema) return;
+  each(connection, id,
+       "SELECT name, subject, outcome, value, bound, unit, catches, reason FROM real_check"
+       " WHERE run = ? ORDER BY number",
+       [&](const Statement& row) {
+         rows.checks.push_back({.name = row.text(0),
+                                .subject = row.text(1),
+                                .outcome = row.text(2),
+                                .value = row.optional_real(3),
+                                .limit = row.optional_real(4),
+                                .unit = row.text(5),
+                                .catches = row.text(6),
+                                .reason = row.text(7)});
+       });
+}
+
 void read_outcome(const Connection& connection, RealRunId id, RealRunRows& rows) {
   each(connection, id,
        "SELECT code, text, robot, start, stop, of_observing FROM real_issue WHERE run = ?"
@@ -295,6 +312,7 @@ std::optional<RealRunRows> read_real_run(const Connection& connection, RealRunId
   read_sightings(connection, id, *rows);
   read_cycles(connection, id, *rows);
   read_logs(connection, id, *rows);
+  read_checks(connection, id, *rows);
   read_outcome(connection, id, *rows);
   return rows;
 }

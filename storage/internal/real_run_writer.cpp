@@ -74,6 +74,8 @@ void require_numbers(const RealRunRows& rows) {
     for (const std::optional<double>& age_ms : row.ages_ms)
       require_finite({age_ms.value_or(0)}, what);
   }
+  for (const RealCheckRow& row : rows.checks)
+    require_finite({row.value.value_or(0), row.limit.value_or(0)}, "the check " + row.name);
   for (const RealIssueRow& row : rows.issues)
     require_finite({row.from_s.value_or(0), row.to_s.value_or(0)}, "the issue " + row.code);
 }
@@ -168,6 +170,15 @@ void write_cycles(Connection& connection, RealRunId id, const RealRunRows& rows)
   }
 }
 
+void write_checks(Connection& connection, RealRunId id, const RealRunRows& rows) {
+  Statement check(connection, "INSERT INTO real_check VALUES (?,?,?,?,?,?,?,?,?,?)");
+  std::int64_t number = 0;
+  for (const RealCheckRow& row : rows.checks) {
+    check.run(id.value, ++number, row.name, row.subject, row.outcome, row.value, row.limit,
+              row.unit, row.catches, row.reason);
+  }
+}
+
 void write_logs(Connection& connection, RealRunId id, const RealRunRows& rows) {
   Statement log(connection, "INSERT INTO real_log VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
   for (const RealLogRow& row : rows.logs) {
@@ -213,6 +224,7 @@ void write_derived(Connection& connection, RealRunId id, const RealRunRows& rows
   write_poses(connection, id, rows);
   write_cycles(connection, id, rows);
   write_logs(connection, id, rows);
+  write_checks(connection, id, rows);
   write_score(connection, id, rows.score);
   count_parts(connection, id);
 }
@@ -253,8 +265,8 @@ void rewrite_real_run(Connection& connection, RealRunId id, const RealRunRows& r
                   " place_calibration = ?5 WHERE run = ?1 AND number = ?2");
   for (const RealVideoRow& row : rows.videos)
     video.run(id.value, row.number, row.camera, row.camera_calibration, row.place_calibration);
-  for (const char* table :
-       {"real_robot", "real_patch", "real_cycle", "real_issue", "real_log", "real_log_cycle"})
+  for (const char* table : {"real_robot", "real_patch", "real_cycle", "real_issue", "real_log",
+                            "real_log_cycle", "real_check"})
     Statement(connection, fmt::format("DELETE FROM {} WHERE run = ?", table)).run(id.value);
   write_derived(connection, id, rows);
 }

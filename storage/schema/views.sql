@@ -482,6 +482,12 @@ SELECT 'r' || i.run AS id, i.run, i.number, i.code, i.text, nullif(i.robot, '') 
        i.start AS from_s, i.stop AS to_s
 FROM real_issue AS i;
 
+-- Of the latest scoring. A run without rows was scored before checks were recorded.
+CREATE VIEW v_real_checks AS
+SELECT 'r' || k.run AS id, k.run, k.number, k.name, nullif(k.subject, '') AS subject, k.outcome,
+       k.value, k.bound, nullif(k.unit, '') AS unit, k.catches, nullif(k.reason, '') AS reason
+FROM real_check AS k;
+
 -- A calibration holds until the next of its kind and subject was made; no end: it still does.
 CREATE VIEW v_calibrations AS
 SELECT c.kind, c.subject, c.made AS valid_from,

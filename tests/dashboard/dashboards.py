@@ -77,7 +77,12 @@ def query(store, sql):
     return json.loads(done.stdout)["rows"]
 
 
-def add_real_run(store, candidate, number=1, name="run01", seed=7, verdict="VALID"):
+#: As of real_check, without the run.
+CHECKS = ((1, "frame rate", "ceiling", "passed", 30, 10, "frames/s", "gaps between frames", ""),
+          (2, "cameras agree", "rvr1", "not run", None, None, "mm", "a clock that is wrong", "no two cameras saw it at the same time"))
+
+
+def add_real_run(store, candidate, number=1, name="run01", seed=7, verdict="VALID", checks=()):
     """A run as tracking stores it: the candidate's own simulation, as if a camera had seen it, with a gap and an estimate."""
     rows = list(csv.DictReader(io.StringIO(call("replay", candidate, store, "--seed", seed, "--csv", "-").stdout)))
     score = json.loads(call("replay", candidate, store, "--seed", seed, "--json").stdout)["score"]
@@ -92,6 +97,8 @@ def add_real_run(store, candidate, number=1, name="run01", seed=7, verdict="VALI
         for robot in range(3):
             connection.execute("INSERT INTO real_robot VALUES (?, ?, ?, ?, '', 1190, 4, 2, 0, 0.2, 0, 1, 0, 0, 0, NULL, 0)",
                                (number, robot, f"rvr{robot + 1}", robot + 1))
+        connection.executemany("INSERT INTO real_check VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", [(number, *check) for check in checks])
+        connection.execute("UPDATE real_run SET checks = ? WHERE id = ?", (len(checks), number))
         connection.executemany("INSERT INTO real_cycle VALUES (?, ?, ?, ?, ?, ?, ?)",
                                [(number, row["cycle"], row["robot"], row["x"], row["y"], row["theta"], kinds.get(int(row["cycle"]), 0))
                                 for row in rows])

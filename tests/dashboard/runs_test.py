@@ -4,7 +4,7 @@ import re
 import shutil
 import unittest
 
-from dashboards import DashboardTest, add_real_run, finished_store, needs_browser, query, shared_folder
+from dashboards import CHECKS, DashboardTest, add_real_run, finished_store, needs_browser, query, shared_folder
 from programs import call
 
 #: Seconds that the player's clock shows.
@@ -19,6 +19,7 @@ class Runs(DashboardTest):
         shutil.copy(finished_store(), cls.store)
         cls.best = query(cls.store, "SELECT best_candidate AS best FROM v_designs WHERE design = 1")[0]["best"]
         add_real_run(cls.store, f"c{cls.best}")
+        add_real_run(cls.store, f"c{cls.best}", 2, "run02", checks=CHECKS)
         cls.run_id, cls.score, cls.digest = query(
             cls.store, f"SELECT id, score, printf('%016x', state_digest) AS digest FROM v_evaluations WHERE candidate = {cls.best} "
                        "AND purpose = 'race' ORDER BY pair LIMIT 1")[0].values()
@@ -49,6 +50,23 @@ class Runs(DashboardTest):
                 page.wait(f"{CLOCK} > 1")  # it plays by itself
             page.js("location.hash = '#/c1/d1/race/1'")
             page.wait("document.querySelector('.race-map canvas')")
+        self.assert_quiet(page, serving)
+
+    def test_a_real_run_lists_its_checks_or_says_that_none_were_recorded(self):
+        serving = self.dashboard(self.store)
+        page = self.page(serving, "#/c1/runs/r2?t=0", "document.querySelector('[aria-label=checks] tbody')")
+        text = page.js("document.querySelector('main').innerText")
+        self.assertIn("not checked: cameras agree", text)
+        rows = page.js("[...document.querySelectorAll('[aria-label=checks] tbody tr')].map((row) => row.innerText)")
+        self.assertEqual(len(rows), 2)
+        for said in ("not run", "rvr1", "no two cameras saw it at the same time"):
+            self.assertIn(said, rows[0])
+        for said in ("passed", "30 frames/s", "10 frames/s", "gaps between frames"):
+            self.assertIn(said, rows[1])
+        self.keep(page, "checks-of-a-real-run")
+        self.assertIsNone(serving.get("c1/runs/r1/trajectory")["checks"])
+        page.js("location.hash = '#/c1/runs/r1?t=0'")
+        page.wait("document.querySelector('main').innerText.includes('Not recorded')")
         self.assert_quiet(page, serving)
 
     def test_the_pointer_chooses_the_cell_below_it(self):

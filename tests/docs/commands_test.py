@@ -163,16 +163,13 @@ class Commands(unittest.TestCase):
         self.follow("docs/coming-from-irace.md", folder)
 
     def test_of_the_first_real_run(self):
-        folder = self.folder / "lab"
+        folder = self.folder / "first-run"
         folder.mkdir()
-        self.call(f"{BIN}/film lab . --size 960x540 --form h264 --fps 15\n"
-                  f"{BIN}/film run run01 --lab . --machine tA3 --mission aggregation --seconds 30", folder)
-        for step in ("calibrate camera ceiling.board --arena arena.toml --board charuco:9x6:0.04:0.03:4x4_50",
-                     "calibrate arena ceiling.arena.mkv --arena arena.toml",
-                     *(f"calibrate robot {name} --spin {name}.spin.mkv --straight {name}.straight.mkv --arena arena.toml"
-                       for name in ("rvr1", "rvr2", "rvr3"))):
-            self.call(f"swarmsmith track {step}", folder)
+        shutil.copytree(SOURCE / "examples", folder / "examples")
         self.follow("docs/tutorial-real-run.md", folder)
+        page = (folder / "lab" / "run01.html").read_text()
+        self.assertIn("<h1>run01: VALID</h1>", page)
+        self.assertIn("score 1", page)
 
 
 class TheCheck(unittest.TestCase):

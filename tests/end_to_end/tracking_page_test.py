@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
@@ -57,7 +58,28 @@ class HowTo(unittest.TestCase):
             self.assertLessEqual(set(report["robots"][0]), keys)
 
 
+class Templates(unittest.TestCase):
+    def test_floor_tags_lie_where_the_form_proposes_them(self):
+        with tempfile.TemporaryDirectory(prefix="swarmsmith-init-") as name:
+            run([BIN / "swarmsmith-track", "init", name])
+            tags = tomllib.loads((pathlib.Path(name) / "arena.toml").read_text())["reference"]
+            ids = f"{tags[0]['tag']}-{tags[-1]['tag']}"
+            run([BIN / "swarmsmith-track", "print", "survey", "--ids", ids, "--edge", str(tags[0]["edge"]), "-o", "form.svg"], name)
+            form = (pathlib.Path(name) / "form.svg").read_text()
+            for tag in tags:
+                self.assertIn(f"{tag['x']:.3f}, {tag['y']:.3f}".replace("-0.000", "0.000"), form.replace("-0.000", "0.000"))
+            self.assertEqual(len(tags), 6)
+
+
 class Completeness(unittest.TestCase):
+    def test_every_check_is_told(self):
+        names = []
+        for path in (SOURCE / "tracking").rglob("*.cpp"):
+            names += re.findall(r'constexpr Question k\w+\{"([^"]+)"', path.read_text())
+        self.assertGreaterEqual(len(names), 28)
+        for name in names:
+            self.assertIn(name, PAGE)
+
     def test_every_command_and_option_is_told(self):
         text = run([BIN / "swarmsmith-track", "--help"]).stdout
         names = re.findall(r"^  ([a-z]+(?: (?:camera|arena|robot|tags|board|survey))?)  +[A-Z]", text, re.M)

@@ -132,6 +132,7 @@ TEST_P(MigrationTest, AMigratedStoreTakesRealRuns) {
   const RealRunId id{static_cast<std::int64_t>(before) + 1};
   EXPECT_EQ(reader->real_run(id)->cycles, rows.cycles);
   EXPECT_EQ(reader->real_run(id)->log_cycles, rows.log_cycles);
+  EXPECT_EQ(reader->real_run(id)->checks, rows.checks);
   EXPECT_EQ(cells_of(*reader, "SELECT score FROM v_evaluations WHERE id = '" + to_string(id) + "'"),
             (std::vector<Cells>{{"1.25"}}));
 }
@@ -144,6 +145,7 @@ TEST(OldRealRuns, OfBeforeRobotsHadLogsStayAsTheyWere) {
   ASSERT_TRUE(before) << to_string(before.error());
   EXPECT_FALSE(before->samples.empty());
   EXPECT_TRUE(before->logs.empty());
+  EXPECT_TRUE(before->checks.empty());
   (*StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse)).reset();
   const auto reader = open_reader(path);
   EXPECT_EQ(reader->schema(), kSchemaVersion);

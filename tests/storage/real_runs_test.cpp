@@ -143,6 +143,22 @@ TEST_F(RealRunsTest, CommandsOfRobotsStandBesideWhatTheCameraSaw) {
                   Cells{"rvr2", "NULL", "NULL", "1", "NULL", "its commands did not move it"}));
 }
 
+TEST_F(RealRunsTest, SayWhatTheyWereAskedAndWhatCouldNotBe) {
+  added(synthetic_real_run(1, kWinner));
+  EXPECT_THAT(all("SELECT name, subject, outcome, value, bound, unit, reason FROM v_real_checks"),
+              ElementsAre(Cells{"film covers the run", "NULL", "passed", "0.3333333333333333",
+                                "0.5", "s", "NULL"},
+                          Cells{"scale of the tag", "rvr1", "warned", "2", "1", "%", "NULL"},
+                          Cells{"motion as commanded", "rvr2", "not run", "NULL", "NULL", "NULL",
+                                "its commands did not move it"}));
+  {
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+    connection.execute("DELETE FROM real_check WHERE number = 2");
+  }
+  EXPECT_THAT(open_reader(path)->integrity(),
+              ElementsAre(HasSubstr("r1 lacks rows of its checks")));
+}
+
 TEST_F(RealRunsTest, ALostRowOfALogIsFound) {
   added(synthetic_real_run(1, kWinner));
   {
@@ -191,6 +207,8 @@ TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
   again.logs[1].latency_reason = "";
   again.log_cycles.pop_back();
   again.patches.pop_back();
+  again.checks.pop_back();
+  again.checks[0].outcome = "failed";
   again.score.score = 4;
   again.score.verdict = "DEGRADED";
   const auto done = opened()->rescore_real_run(id, again);

@@ -60,6 +60,7 @@ const std::map<std::string, std::string> kColumns{
     {"v_attempts", "id design candidate pair attempt worker host held_ms outcome at"},
     {"v_commands", "number at who kind design step budget"},
     {"v_calibrations", "kind subject valid_from valid_until rms uses sha256 file"},
+    {"v_real_checks", "id run number name subject outcome value bound unit catches reason"},
     {"v_real_cycles", "id run cycle time_s robot x y theta kind"},
     {"v_real_issues", "id run number code text robot from_s to_s"},
     {"v_real_log_cycles",
@@ -492,7 +493,7 @@ TEST_F(ViewsTest, OfOneRealRunReadTheRowsOfThatRunAlone) {
   for (const std::string view :
        {"v_real_runs", "v_real_scores", "v_real_overrides", "v_real_videos", "v_real_robots",
         "v_real_cycles", "v_real_samples", "v_real_patches", "v_real_issues", "v_real_logs",
-        "v_real_log_cycles"}) {
+        "v_real_log_cycles", "v_real_checks"}) {
     EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM " + view + " WHERE run = 2"), IsEmpty())
         << view;
   }

@@ -21,6 +21,7 @@ struct Arguments {
   std::string store;
   std::string arena;
   std::string log;
+  bool all_checks = false;
 };
 
 /// A log that was mended. What was measured in the pictures is kept, since they are not here.
@@ -122,7 +123,7 @@ OrRefusal<Again> score_again(const Arguments& arguments, RealRunRows before) {
   return Again{std::move(before), std::move(rows), std::move(stored->log), std::move(*analysis)};
 }
 
-void print_again(const std::string& word, const Again& again, Output& output) {
+void print_again(const std::string& word, const Again& again, bool all_checks, Output& output) {
   const RealScoreRow& before = again.before.score;
   if (output.json) {
     JsonObject object;
@@ -133,7 +134,7 @@ void print_again(const std::string& word, const Again& again, Output& output) {
     return;
   }
   output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"
-             << word << " is now: " << result_text(again.log, again.analysis);
+             << word << " is now: " << result_text(again.log, again.analysis, all_checks);
 }
 
 ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output& output) {
@@ -148,7 +149,7 @@ ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output
   if (!store) return fail(output, store.error());
   const auto written = (*store)->rescore_real_run(*id_from_text<RealRunTag>(word), again->rows);
   if (!written) return fail(output, ExitCode::Store, written.error());
-  print_again(word, *again, output);
+  print_again(word, *again, arguments.all_checks, output);
   return again->analysis.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
 }
 
@@ -175,6 +176,8 @@ Run declare_track_rescore(Options& options) {
   options.text("--arena FILE", arguments->arena,
                "Arena file with the calibrations to use now (default: those of the store)");
   options.text("--run FILE", arguments->log, "Run log to use now (default: that of the store)");
+  options.flag("--checks", arguments->all_checks,
+               "List all checks of the run: number, limit, what each catches");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

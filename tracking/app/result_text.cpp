@@ -34,6 +34,7 @@ struct Result {
   std::vector<std::string> reasons;
   std::vector<RobotLine> robots;
   std::vector<std::pair<std::string, std::string>> issues;  ///< code and sentence
+  std::vector<Check> checks;
 };
 
 Result result_of(const RunLog& log, const RunAnalysis& analysis) {
@@ -45,7 +46,8 @@ Result result_of(const RunLog& log, const RunAnalysis& analysis) {
                 .biased = scored.biased,
                 .reasons = scored.reasons,
                 .robots = {},
-                .issues = {}};
+                .issues = {},
+                .checks = scored.checks};
   for (std::size_t i = 0; i < analysis.tracked.robots.size(); ++i) {
     const TrackedRobot& robot = analysis.tracked.robots[i];
     RobotLine line{.name = robot.name, .tag = robot.tag};
@@ -90,10 +92,74 @@ std::string robot_text(const RobotLine& robot, std::size_t width) {
   return text;
 }
 
-std::string text_of(const Result& result) {
-  std::string text =
-      fmt::format("{}: {}, score {}, {}{}\n", result.name, result.mission, score_text(result.score),
-                  result.verdict, result.biased ? ", BIASED (tags taken for centres)" : "");
+std::string named(const Check& check) {
+  return check.subject.empty() ? check.name : check.name + ", " + check.subject;
+}
+
+/// "  warned   longest gap, rvr1: 0.83 s, at most 1 s; it catches a robot that was hidden".
+std::string check_line(const Check& check) {
+  std::string text = fmt::format("  {:<7}  {}", name_of(check.outcome), named(check));
+  if (!check.reason.empty()) text += ": " + check.reason;
+  if (check.value) text += ": " + value_text(check);
+  if (check.limit) text += ", " + limit_text(check);
+  return text + "; it catches " + check.catches + "\n";
+}
+
+/// What could not be asked for one reason, in one line: "  not checked: motion as commanded, end of
+/// the robot's log (rvr1, rvr2): the run log names no log of it".
+std::string unasked_lines(const std::vector<Check>& checks) {
+  struct Line {
+    std::vector<std::string> names, subjects;
+  };
+  std::vector<std::pair<std::string, Line>> lines;
+  const auto add = [](std::vector<std::string>& words, const std::string& word) {
+    if (!word.empty() && std::ranges::find(words, word) == words.end()) words.push_back(word);
+  };
+  for (const Check& check : checks) {
+    if (check.outcome != Check::Outcome::NotRun) continue;
+    auto line = std::ranges::find(lines, check.reason, &std::pair<std::string, Line>::first);
+    if (line == lines.end()) line = lines.insert(lines.end(), {check.reason, {}});
+    add(line->second.names, check.name);
+    add(line->second.subjects, check.subject);
+  }
+  std::string text;
+  for (const auto& [reason, line] : lines) {
+    text += fmt::format("  not checked: {}", fmt::join(line.names, ", "));
+    if (!line.subjects.empty()) text += fmt::format(" ({})", fmt::join(line.subjects, ", "));
+    text += ": " + reason + "\n";
+  }
+  return text;
+}
+
+std::string checks_text(const std::vector<Check>& checks, bool all) {
+  std::string text;
+  for (const auto outcome : {Check::Outcome::Failed, Check::Outcome::Warned, Check::Outcome::NotRun,
+                             Check::Outcome::Passed}) {
+    if (!all && outcome == Check::Outcome::Passed) continue;
+    if (!all && outcome == Check::Outcome::NotRun) {
+      text += unasked_lines(checks);
+      continue;
+    }
+    for (const Check& check : checks)
+      if (check.outcome == outcome) text += check_line(check);
+  }
+  const auto passed = std::ranges::count(checks, Check::Outcome::Passed, &Check::outcome);
+  return text + fmt::format("  {} of {} checks passed{}\n", passed, checks.size(),
+                            all ? "" : "; --checks lists them");
+}
+
+/// "VALID; not checked: length of the film".
+std::string verdict_text(const Result& result) {
+  std::string text = result.verdict;
+  if (result.biased) text += ", BIASED (tags taken for centres)";
+  const std::vector<std::string> missing = unasked(result.checks);
+  if (!missing.empty()) text += fmt::format("; not checked: {}", fmt::join(missing, ", "));
+  return text;
+}
+
+std::string text_of(const Result& result, bool all_checks) {
+  std::string text = fmt::format("{}: {}, score {}, {}\n", result.name, result.mission,
+                                 score_text(result.score), verdict_text(result));
   std::size_t width = 4;
   for (const RobotLine& robot : result.robots)
     width = std::max(width, robot.name.size());
@@ -106,7 +172,7 @@ std::string text_of(const Result& result) {
     const bool is_said = std::ranges::find(result.reasons, line) != result.reasons.end();
     if (!is_said) text += "  " + line + "\n";
   }
-  return text;
+  return text + checks_text(result.checks, all_checks);
 }
 
 void add_to(JsonObject& object, const Result& result) {
@@ -131,6 +197,17 @@ void add_to(JsonObject& object, const Result& result) {
   const auto issue_json = [](const std::pair<std::string, std::string>& issue) {
     return JsonObject().add("code", issue.first).add("text", issue.second);
   };
+  const auto check_json = [](const Check& check) {
+    return JsonObject()
+        .add("name", check.name)
+        .add("subject", check.subject)
+        .add("outcome", name_of(check.outcome))
+        .add("value", check.value)
+        .add("limit", check.limit)
+        .add("unit", check.unit)
+        .add("catches", check.catches)
+        .add("reason", check.reason);
+  };
   object.add("name", result.name)
       .add("mission", result.mission)
       .add("score", result.score)
@@ -138,7 +215,9 @@ void add_to(JsonObject& object, const Result& result) {
       .add("biased", result.biased)
       .add("reasons", result.reasons)
       .add("robots", json_list(result.robots, robot_json))
-      .add("issues", json_list(result.issues, issue_json));
+      .add("issues", json_list(result.issues, issue_json))
+      .add("not_checked", unasked(result.checks))
+      .add("checks", json_list(result.checks, check_json));
 }
 
 }  // namespace
@@ -147,9 +226,10 @@ std::string score_text(const std::optional<double>& score) {
   return score ? number_text(*score) : "no score";
 }
 
-std::string result_text(const RunLog& log, const RunAnalysis& analysis) {
-  return text_of(result_of(log, analysis));
+std::string result_text(const RunLog& log, const RunAnalysis& analysis, bool all_checks) {
+  return text_of(result_of(log, analysis), all_checks);
 }
+
 void add_result(JsonObject& object, const RunLog& log, const RunAnalysis& analysis) {
   add_to(object, result_of(log, analysis));
 }

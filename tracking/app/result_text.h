@@ -7,9 +7,9 @@
 
 namespace swarmsmith::cli {
 
-/// What a person wants to know of a scored run: score, verdict and why, and how well each robot was
-/// seen.
-std::string result_text(const RunLog& log, const RunAnalysis& analysis);
+/// What a person wants to know of a scored run: score, verdict and why, how well each robot was
+/// seen, and what was checked: all of it with `all_checks`, else what did not pass.
+std::string result_text(const RunLog& log, const RunAnalysis& analysis, bool all_checks = false);
 
 /// The same as keys of the object.
 void add_result(JsonObject& object, const RunLog& log, const RunAnalysis& analysis);

@@ -12,6 +12,10 @@
 namespace swarmsmith::cli {
 namespace {
 
+constexpr Question kWhole{"film read to its end", "", "a film that was cut, or copied in part"};
+constexpr Question kStart{"start as the sync tag says", "s",
+                          "a wrong `start`; the film of another run"};
+
 /// A person who covers the tag by hand is that late, or early, at most.
 constexpr double kSyncTolerance_s = 1;
 
@@ -33,20 +37,31 @@ Expected<double> start_of(const Observations& observations, const RunLog& log) {
 }
 
 /// Where the log says both, the tag is a check of `start`.
-std::optional<Issue> sync_issue(const Observations& observations, const RunLog& log) {
-  if (!log.start.time_s || log.start.sync == RunStart::Sync::None) return std::nullopt;
-  const auto said = [](std::string text) {
-    return Issue{IssueCode::SyncDiffers, std::move(text), {}, {}, {}};
-  };
+void check_start(const Observations& observations, const RunLog& log, std::vector<Issue>& issues,
+                 std::vector<Check>& checks) {
+  if (!log.start.time_s || log.start.sync == RunStart::Sync::None) {
+    checks.push_back(not_asked(kStart, "",
+                               log.start.time_s ? "the run log names no `sync` tag"
+                                                : "the run log gives no `start` beside it"));
+    return;
+  }
   const auto sync = sync_of(observations, log);
-  if (!sync) return said("`start` could not be checked: " + sync.error().message);
-  const double late_s = *sync - *log.start.time_s;
-  if (std::fabs(late_s) <= kSyncTolerance_s) return std::nullopt;
-  return said(fmt::format(
-      "the run starts at {:.2f} s of the first video by `start`, and at {:.2f} s by tag "
-      "{} (they may differ by {:g} s); was the video recorded on the host that started "
-      "the robots, and is it that of this run?",
-      *log.start.time_s, *sync, log.start.sync_tag, kSyncTolerance_s));
+  const double late_s = sync ? *sync - *log.start.time_s : 0;
+  const bool is_right = sync && std::fabs(late_s) <= kSyncTolerance_s;
+  checks.push_back(answered(kStart, "", is_right ? Check::Outcome::Passed : Check::Outcome::Warned,
+                            sync ? std::optional(std::fabs(late_s)) : std::nullopt,
+                            kSyncTolerance_s));
+  if (is_right) return;
+  issues.push_back(
+      {IssueCode::SyncDiffers,
+       sync ? fmt::format("the run starts at {:.2f} s of the first video by `start`, and at {:.2f} "
+                          "s by tag {} (they may differ by {:g} s); was the video recorded on the "
+                          "host that started the robots, and is it that of this run?",
+                          *log.start.time_s, *sync, log.start.sync_tag, kSyncTolerance_s)
+            : "`start` could not be checked: " + sync.error().message,
+       {},
+       {},
+       {}});
 }
 
 }  // namespace
@@ -72,9 +87,12 @@ OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
   analysis.tracked = std::move(*tracked);
   RobotFindings robots = judge_robots(analysis.tracked, observations.logs, log);
   std::vector<Issue> before = observations.issues;
-  if (auto differs = sync_issue(observations, log)) before.push_back(std::move(*differs));
+  std::vector<Check> asked{answered(kWhole, "", outcome_of(before, 0, IssueCode::VideoTruncated))};
+  check_start(observations, log, before, asked);
   before.insert(before.end(), robots.issues.begin(), robots.issues.end());
-  auto scored = score_run(analysis.tracked, log.mission, said_patches(log), before);
+  const auto of_logs = checks_of_logs(analysis.tracked, observations, log, robots);
+  asked.insert(asked.end(), of_logs.begin(), of_logs.end());
+  auto scored = score_run(analysis.tracked, log.mission, said_patches(log), before, asked);
   if (!scored) return refused(scored.error());
   analysis.scored = std::move(*scored);
   analysis.scored.latencies = std::move(robots.latencies);

@@ -33,6 +33,8 @@ void ScoreArguments::declare(Options& options) {
   options.text("--store STORE", store, "The same for an existing store (else SWARMSMITH_STORE)");
   options.text("--csv FILE", csv,
                "Write the trajectory: cycle,time_s,robot,x,y,theta (docs/trajectories.md)");
+  options.flag("--checks", all_checks,
+               "List all checks of the run: number, limit, what each catches");
   options.text("--report FILE", report, "Write the quality report, a page of HTML");
 }
 

@@ -28,6 +28,7 @@ struct ScoreArguments {
   std::string name;
   std::string recorded;
   bool takes_tags_for_centres = false;
+  bool all_checks = false;
   std::string into;
   std::string store;
   std::string csv;

@@ -44,7 +44,7 @@ std::string next_step(const std::string& id, const std::string& store, Verdict v
 }
 
 void print_result(const RunPlan& plan, const RunAnalysis& analysis,
-                  const std::optional<RealRunWritten>& written, Output& output) {
+                  const std::optional<RealRunWritten>& written, bool all_checks, Output& output) {
   const std::string id = written ? to_string(written->id) : "";
   if (output.json) {
     JsonObject object;
@@ -53,7 +53,7 @@ void print_result(const RunPlan& plan, const RunAnalysis& analysis,
     output.out << object.text() << "\n";
     return;
   }
-  output.out << result_text(plan.log, analysis);
+  output.out << result_text(plan.log, analysis, all_checks);
   if (!written) {
     print_note(output, "The run is not stored; --into STORE keeps it.");
     return;
@@ -82,7 +82,7 @@ ExitCode run(const ScoreArguments& arguments, Output& output) {
     if (!kept) return fail(output, kept.error());
     written = *kept;
   }
-  print_result(*plan, *analysis, written, output);
+  print_result(*plan, *analysis, written, arguments.all_checks, output);
   if (const auto files = write_files(arguments, *analysis, reported); !files) {
     return fail(output, ExitCode::Failed, files.error());
   }

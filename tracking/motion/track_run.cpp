@@ -8,12 +8,17 @@
 #include <utility>
 
 #include "tracking/motion/internal/robot_track.h"
+#include "tracking/rig/calibration_limits.h"
 
 namespace swarmsmith {
 namespace {
 
 /// A robot must have been seen by then (tracking facts, section 8).
 constexpr double kFirstLook_s = 2;
+
+constexpr Question kOffset{"fit of the tag's offset", "mm",
+                           "a tag beside its robot's centre: scores look better than they are"};
+constexpr Question kUnknown{"undeclared tags", "", "a robot with another number"};
 
 std::string size_text(const ImageSize& size) {
   return fmt::format("{}x{}", size.width, size.height);
@@ -72,12 +77,14 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
 }
 
 Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
-                                   const TrackOptions& options, std::vector<Issue>& issues) {
+                                   const TrackOptions& options, TrackedRun& run) {
   const auto found = rig.offsets.find(setup.offset_file);
   std::string reason = fmt::format("{} has no offset calibration", setup.name);
   if (found != rig.offsets.end()) {
     const OffsetCalibration& offset = found->second;
     if (offset.tag == setup.tag) {
+      run.checks.push_back(answered(kOffset, setup.name, Check::Outcome::Passed,
+                                    1000 * offset.rms_m, 1000 * OffsetLimits{}.rms_m));
       return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m)};
     }
     reason = fmt::format("the offset calibration `{}` of {} is of tag {}, and it carries tag {}",
@@ -90,11 +97,12 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
                  "which marks the score as biased",
         rig.file));
   }
-  issues.push_back({IssueCode::TagAsCentre,
-                    reason + "; its tag was used as its centre and the score is biased",
-                    setup.name,
-                    {},
-                    {}});
+  run.checks.push_back(answered(kOffset, setup.name, Check::Outcome::Warned));
+  run.issues.push_back({IssueCode::TagAsCentre,
+                        reason + "; its tag was used as its centre and the score is biased",
+                        setup.name,
+                        {},
+                        {}});
   return TaggedRobot{setup, {}, 0};
 }
 
@@ -117,19 +125,23 @@ SightingsByTag sightings_of(const Observations& observations,
 }
 
 void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOptions& options,
-                  std::vector<Issue>& issues) {
+                  TrackedRun& run) {
   std::set<int> known(options.other_tags.begin(), options.other_tags.end());
   for (const RobotSetup& robot : rig.robots)
     known.insert(robot.tag);
   for (const ReferenceTag& reference : rig.references)
     known.insert(reference.tag);
   std::string list;
+  int count = 0;
   for (const auto& [tag, seen] : sightings) {
     if (known.contains(tag)) continue;
+    ++count;
     list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", tag, seen.size());
   }
+  run.checks.push_back(answered(
+      kUnknown, "", count == 0 ? Check::Outcome::Passed : Check::Outcome::Warned, count, 0));
   if (list.empty()) return;
-  issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list, {}, {}, {}});
+  run.issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list, {}, {}, {}});
 }
 
 /// Why a robot has no sample within the first seconds.
@@ -235,12 +247,13 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                  .frames = frames.frames,
                  .frames_dropped = frames.dropped,
                  .frames_twice = frames.twice,
-                 .issues = frames.issues};
+                 .issues = frames.issues,
+                 .checks = frames.checks};
   const SightingsByTag sightings = sightings_of(observations, *cameras, options);
-  list_unknown(sightings, rig, options, run.issues);
+  list_unknown(sightings, rig, options, run);
   std::vector<RobotTrack> tracks;
   for (const RobotSetup& setup : rig.robots) {
-    const Expected<TaggedRobot> robot = tagged_robot(setup, rig, options, run.issues);
+    const Expected<TaggedRobot> robot = tagged_robot(setup, rig, options, run);
     if (!robot) return Unexpected(robot.error());
     const auto seen = sightings.find(setup.tag);
     RobotSamples samples =
@@ -250,8 +263,8 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
     if (!is_seen_early(samples))
       return Unexpected(missing(*robot, samples, frames, spans_text(observations, *cameras)));
     tracks.push_back(track_of(*robot, samples, *cameras, options));
-    run.robots.push_back(
-        tracked_robot(*robot, std::move(samples), tracks.back(), frames, options, run.issues));
+    run.robots.push_back(tracked_robot(*robot, std::move(samples), tracks.back(), frames, options,
+                                       run.issues, run.checks));
   }
   join(tracks, options.span.cycles, run);
   return run;

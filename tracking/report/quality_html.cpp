@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +63,8 @@ void write_verdict(HtmlPage& page, const ReportedRun& run) {
   for (const std::string& reason : run.scored.reasons)
     page.paragraph(reason);
   if (run.scored.reasons.empty()) page.paragraph("Nothing speaks against the score.");
+  if (const auto missing = unasked(run.scored.checks); !missing.empty())
+    page.paragraph(fmt::format("Not checked: {}.", fmt::join(missing, ", ")));
   if (run.scored.biased) {
     page.paragraph(
         "BIASED: a tag was used as its robot's centre, which makes scores look better than they "
@@ -70,7 +73,7 @@ void write_verdict(HtmlPage& page, const ReportedRun& run) {
   const RunLog& log = run.log;
   Facts facts = {{"Score", score_text(run.scored)},
                  {"Mission", log.mission.name},
-                 {"Recorded", log.recorded},
+                 {"Recorded", log.recorded.empty() ? "the run log gives no date" : log.recorded},
                  {"Source", log.source}};
   if (!log.design.empty()) facts.emplace_back("Design", log.design);
   if (!log.candidate.empty()) facts.emplace_back("Candidate", log.candidate);
@@ -88,6 +91,8 @@ void write_pictures(HtmlPage& page, const ReportedRun& run) {
                        .arena = run.log.mission.arena,
                        .body = run.log.mission.body,
                        .width_mm = kPictureWidth_mm};
+  const int cycles = run.tracked.trajectory.instants();
+  picture.cycles_a_mark = cycles <= 300 ? 50 : cycles <= 600 ? 100 : 300;
   picture.arena.patches.insert(picture.arena.patches.end(), run.patches.begin(), run.patches.end());
   const std::size_t robots = run.tracked.robots.size();
   for (std::size_t i = 0; i < robots; ++i) {
@@ -98,7 +103,9 @@ void write_pictures(HtmlPage& page, const ReportedRun& run) {
     picture.robots.push_back(std::move(robot));
   }
   page.picture(draw(picture),
-               "From above: hollow at the start, solid at the end, trails between them.");
+               fmt::format("From above: hollow at the start, solid at the end, trails between them "
+                           "with the time in seconds each {} s.",
+                           picture.cycles_a_mark / 10));
   page.picture(timeline(run.tracked, run.scored.issues, kTimelineWidth_mm),
                "How each robot's pose was obtained, and when something was wrong.");
 }
@@ -286,6 +293,40 @@ void write_issues(HtmlPage& page, const ReportedRun& run) {
   page.table(issues);
 }
 
+/// Those that did not pass first.
+void write_checks(HtmlPage& page, const ReportedRun& run) {
+  page.heading(2, "Checks");
+  const auto& checks = run.scored.checks;
+  const auto count = [&](Check::Outcome outcome) {
+    return std::ranges::count(checks, outcome, &Check::outcome);
+  };
+  page.paragraph(fmt::format("{} of {} checks passed, {} warned, {} failed, {} could not run.",
+                             count(Check::Outcome::Passed), checks.size(),
+                             count(Check::Outcome::Warned), count(Check::Outcome::Failed),
+                             count(Check::Outcome::NotRun)));
+  HtmlTable table{.caption =
+                      "What the run was asked before its score counts, and what the answer would "
+                      "have shown",
+                  .columns = {{"Outcome"},
+                              {"Check"},
+                              {"Of"},
+                              {"Number", true},
+                              {"Limit", true},
+                              {"What it catches; why it could not run"}},
+                  .rows = {}};
+  for (const auto outcome : {Check::Outcome::Failed, Check::Outcome::Warned, Check::Outcome::NotRun,
+                             Check::Outcome::Passed}) {
+    for (const Check& check : checks) {
+      if (check.outcome != outcome) continue;
+      table.rows.push_back(
+          {std::string(name_of(outcome)), check.name, check.subject, value_text(check),
+           limit_text(check),
+           check.reason.empty() ? check.catches : check.catches + "; " + check.reason});
+    }
+  }
+  page.table(table);
+}
+
 void write_origin(HtmlPage& page, const ReportedRun& run) {
   page.heading(2, "Where it comes from");
   page.paragraph("Scored by " + run.program + ".");
@@ -312,13 +353,15 @@ std::string quality_html(const ReportedRun& run) {
   write_robots(page, run);
   write_logs(page, run);
   write_issues(page, run);
+  write_checks(page, run);
   write_frames(page, run);
   page.heading(2, "Cameras and floor tags");
   for (const CameraRecord& record : run.observations.cameras)
     write_camera(page, run, record);
   write_origin(page, run);
   return page.finish(fmt::format("{}: {}", run.log.name, name_of(counting_verdict(run))),
-                     fmt::format("{} of {}, score {}{}", run.log.mission.name, run.log.recorded,
+                     fmt::format("{}{}, score {}{}", run.log.mission.name,
+                                 run.log.recorded.empty() ? "" : " of " + run.log.recorded,
                                  score_text(run.scored), run.scored.biased ? " (BIASED)" : ""));
 }
 

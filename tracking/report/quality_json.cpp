@@ -172,6 +172,21 @@ Json issues_json(const ReportedRun& run) {
   return issues;
 }
 
+Json checks_json(const ReportedRun& run) {
+  Json checks = Json::array();
+  for (const Check& check : run.scored.checks) {
+    checks.push_back({{"name", check.name},
+                      {"subject", check.subject},
+                      {"outcome", name_of(check.outcome)},
+                      {"value", or_null(check.value)},
+                      {"limit", or_null(check.limit)},
+                      {"unit", check.unit},
+                      {"catches", check.catches},
+                      {"reason", check.reason}});
+  }
+  return checks;
+}
+
 Json overrides_json(const ReportedRun& run) {
   Json overrides = Json::array();
   for (const VerdictOverride& each : run.overrides) {
@@ -217,6 +232,8 @@ std::string quality_json(const ReportedRun& run) {
                        {"robots", std::move(robots)},
                        {"cameras", std::move(cameras)},
                        {"issues", issues_json(run)},
+                       {"not_checked", unasked(run.scored.checks)},
+                       {"checks", checks_json(run)},
                        {"patches", run.patches.size()},
                        {"program", run.program}};
   return report.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "tracking/rig/issue.h"
 
 namespace swarmsmith {
 
@@ -25,5 +30,28 @@ struct Check {
 };
 
 std::string_view name_of(Check::Outcome outcome);  ///< "passed", "warned", "failed", "not run"
+
+/// What all answers to a question share.
+struct Question {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view catches;
+};
+Check answered(const Question& question, std::string subject, Check::Outcome outcome,
+               std::optional<double> value = {}, std::optional<double> limit = {});
+Check not_asked(const Question& question, std::string subject, std::string reason);
+
+/// Failed or warned, as the worst issue says from number `first` on; only those of `code`, if
+/// given.
+Check::Outcome outcome_of(std::span<const Issue> issues, std::size_t first = 0,
+                          std::optional<IssueCode> code = {});
+
+/// "0.83 s", "" when there is no number; and of its limit, "at most 1 s".
+std::string value_text(const Check& check);
+std::string limit_text(const Check& check);
+
+/// What could not be asked, each name once: "length of the film", "motion as commanded (rvr2)" when
+/// it could be asked of others.
+std::vector<std::string> unasked(std::span<const Check> checks);
 
 }  // namespace swarmsmith

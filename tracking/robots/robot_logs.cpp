@@ -8,13 +8,6 @@
 namespace swarmsmith {
 namespace {
 
-/// A node that is killed loses what it had not written yet: rows are written each second.
-constexpr double kLostAtTheEnd_s = 1.0;
-/// Beyond it `swarmsmith-robot start` refuses, too.
-constexpr double kClockOffset_s = 0.02;
-/// Shares of the cycles of a run (ros facts, 3.4 and 3.6).
-constexpr double kDegradedShare = 0.01;
-constexpr double kInvalidShare = 0.05;
 /// Motion before its command, beyond what the camera's times may be wrong by.
 constexpr double kEarly_s = 0.02;
 

@@ -26,6 +26,14 @@ std::optional<Issue> misfit_of(const RobotLog& log, const RunLog& run,
 /// The same for robots that should all have run one machine: that of the first log.
 std::optional<Issue> other_machine(const RobotLog& log, const RobotLog& first);
 
+/// A node that is killed loses what it had not written yet: rows are written each second.
+inline constexpr double kLostAtTheEnd_s = 1.0;
+/// Beyond it `swarmsmith-robot start` refuses, too.
+inline constexpr double kClockOffset_s = 0.02;
+/// Shares of the cycles of a run (ros facts, 3.4 and 3.6).
+inline constexpr double kDegradedShare = 0.01;
+inline constexpr double kInvalidShare = 0.05;
+
 /// What follows from the robots' logs and from what `start` noted of their nodes.
 struct RobotFindings {
   std::vector<std::optional<Latency>> latencies;  ///< as the tracked robots; none without a log
@@ -37,6 +45,11 @@ struct RobotFindings {
 /// W_MOTION_UNLIKE_LOG for a robot that did something else than it commanded.
 RobotFindings judge_robots(const TrackedRun& run, const std::vector<RobotLog>& logs,
                            const RunLog& log);
+
+/// What the robots' logs were asked, and of what robots there is none. `findings` are those of
+/// judge_robots.
+std::vector<Check> checks_of_logs(const TrackedRun& run, const Observations& observations,
+                                  const RunLog& log, const RobotFindings& findings);
 
 /// Control cycles of a log, and how late they began.
 struct LogCounts {

@@ -279,6 +279,10 @@ RealRunRows real_run_rows(const RunToStore& run) {
   add_cycles(run.tracked, rows);
   add_logs(run, rows);
   add_issues(run, rows);
+  for (const Check& check : run.scored.checks) {
+    rows.checks.push_back({check.name, check.subject, std::string(name_of(check.outcome)),
+                           check.value, check.limit, check.unit, check.catches, check.reason});
+  }
   rows.score = {.score = run.scored.score,
                 .verdict = std::string(name_of(run.scored.verdict)),
                 .biased = run.scored.biased,

@@ -12,6 +12,10 @@
 namespace swarmsmith {
 namespace {
 
+constexpr Question kBorder{"border at the end", "mm", "a robot that may stand on the other side"};
+constexpr Question kPatches{"places of the patches", "",
+                            "colour patches that are not the mission's"};
+
 /// A robot nearer to a border than this many sigmas may stand on its other side.
 constexpr double kSigmas = 3;
 
@@ -45,6 +49,8 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
     const auto nearest = nearest_border(mission.rule, arena, last[i].position());
     if (!nearest) {
       scored.borders.emplace_back(std::nullopt);
+      if (is_scored_at_the_end(mission))
+        scored.checks.push_back(not_asked(kBorder, robot.name, "its score has no border here"));
       continue;
     }
     const bool is_inside = nearest->here != 0;
@@ -52,6 +58,9 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
     const bool is_close = nearest->distance_m < kSigmas * sigma_m;
     scored.borders.emplace_back(BorderDistance{
         is_inside ? nearest->distance_m : -nearest->distance_m, nearest->name, is_close, sigma_m});
+    scored.checks.push_back(answered(kBorder, robot.name,
+                                     is_close ? Check::Outcome::Warned : Check::Outcome::Passed,
+                                     1000 * nearest->distance_m, 1000 * kSigmas * sigma_m));
     if (!is_close) continue;
     scored.issues.push_back(
         {IssueCode::TooCloseToCall,
@@ -88,15 +97,23 @@ bool is_scored_at_the_end(const Mission& mission) {
 
 Expected<ScoredRun> score_run(const TrackedRun& run, const Mission& mission,
                               const std::optional<std::vector<Patch>>& patches,
-                              const std::vector<Issue>& before) {
+                              const std::vector<Issue>& before, const std::vector<Check>& asked) {
   if (std::optional<Error> error = misfit(run, mission)) return Unexpected(std::move(*error));
   Expected<std::vector<Patch>> laid = run_patches(mission, patches);
   if (!laid) return Unexpected(std::move(laid.error()));
   const Instance instance{.starts = run.starts, .patches = std::move(*laid)};
   ScoredRun scored{.patches = instance.patches,
                    .score = score_of(mission, instance, run.trajectory),
-                   .issues = before};
+                   .issues = before,
+                   .checks = asked};
   scored.issues.insert(scored.issues.end(), run.issues.begin(), run.issues.end());
+  scored.checks.insert(scored.checks.end(), run.checks.begin(), run.checks.end());
+  if (!mission.shuffled.places.empty()) {
+    // What does not fit is refused.
+    const auto places = static_cast<double>(mission.shuffled.places.size());
+    scored.checks.push_back(answered(kPatches, "", Check::Outcome::Passed,
+                                     static_cast<double>(scored.patches.size()), places));
+  }
   measure_borders(run, mission, arena_of(mission, instance), scored);
   judge(scored);
   return scored;

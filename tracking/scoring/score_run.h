@@ -12,9 +12,10 @@ bool is_scored_at_the_end(const Mission& mission);
 
 /// The mission's score of a measured trajectory, by the simulator's own scoring code, and a verdict
 /// on it. Pure. `patches` are those of this run; a mission with shuffled patches and none given is
-/// E_LAYOUT_MISSING. `before` are the issues of observing.
+/// E_LAYOUT_MISSING. `before` are the issues of observing, `asked` the checks.
 Expected<ScoredRun> score_run(const TrackedRun& run, const Mission& mission,
                               const std::optional<std::vector<Patch>>& patches,
-                              const std::vector<Issue>& before);
+                              const std::vector<Issue>& before,
+                              const std::vector<Check>& asked = {});
 
 }  // namespace swarmsmith

@@ -29,6 +29,7 @@ struct ScoredRun {
   /// Of each robot's motion behind its commands; none where it has no log. Empty: nobody looked.
   std::vector<std::optional<Latency>> latencies;
   std::vector<Issue> issues;  ///< all: of files, times, tracking, scoring
+  std::vector<Check> checks;  ///< the same: all that was asked, and what could not be
 };
 
 }  // namespace swarmsmith

@@ -33,6 +33,18 @@ export interface Robot extends Track {
   kind?: [number, string][];
 }
 
+/// What a real run was asked before its score counts.
+export interface Check {
+  name: string;
+  subject: string;         ///< the robot or camera; "" for the run
+  outcome: "passed" | "warned" | "failed" | "not run";
+  value: number | null;
+  limit: number | null;
+  unit: string;
+  catches: string;
+  reason: string;          ///< why it was not run
+}
+
 export interface Trajectory {
   v: number;
   id: string;
@@ -56,6 +68,7 @@ export interface Trajectory {
   /// Module that acts, by state.
   behaviours: string[];
   verdict?: string;
+  checks?: Check[] | null; ///< of a real run; null: not recorded
   name?: string;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 namespace swarmsmith {
 namespace {
 
+constexpr std::size_t kCyclesASecond = 10;
 constexpr double kTolerance = 0.06;        ///< of trails, mm: less than a pixel of 300 a inch
 constexpr double kSmallestNumbered = 4.5;  ///< body with a number in it, mm
 /// Parts of a trail, each a little stronger than the one before.
@@ -105,6 +107,33 @@ void draw_robot(Svg& svg, const ArenaView& view, const Outline& body, const Pose
            {.size = size, .anchor = TextStyle::Anchor::Middle, .bold = true, .fill = mark});
 }
 
+/// The end of the trail over the robot that stands on it, and dots with the time.
+void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, std::size_t number) {
+  const std::vector<PagePoint> track = view.track(picture.robots[number].poses);
+  const std::string color = distinct_color(number);
+  const auto apart = [](const PagePoint& a, const PagePoint& b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
+  };
+  const double body = view.length(front_of(picture.body));
+  std::size_t first = track.size() - 1;
+  while (first > 0 && apart(track[first], track.back()) <= body)
+    --first;
+  const auto tail = simplified(std::span(track).subspan(first), kTolerance);
+  if (tail.size() > 1) svg.line(tail, stroked(contrast_of(color), 0.25));
+  constexpr double kDot = 0.55;
+  std::optional<PagePoint> before;
+  const auto every = static_cast<std::size_t>(picture.cycles_a_mark);
+  for (std::size_t cycle = every; cycle < track.size(); cycle += every) {
+    const PagePoint& at = track[cycle];
+    // Who stands has one dot.
+    if (before && apart(*before, at) < 4 * kDot) continue;
+    before = at;
+    svg.circle(at, kDot, {.fill = "#ffffff", .stroke = color, .width = 0.3, .dashes = {}});
+    svg.text({at.x + 1.5 * kDot, at.y - kDot}, std::to_string(cycle / kCyclesASecond),
+             {.size = 0.75 * kTextSize, .bold = true, .fill = std::string(kInk)});
+  }
+}
+
 }  // namespace
 
 void draw_place(Svg& svg, const ArenaPicture& picture, const ArenaView& view) {
@@ -182,6 +211,9 @@ void draw_robots(Svg& svg, const ArenaPicture& picture, const ArenaView& view) {
   }
   for (std::size_t i = 0; i < picture.robots.size(); ++i)
     draw_robot(svg, view, picture.body, picture.robots[i].poses.back(), i);
+  if (picture.cycles_a_mark <= 0 || !on_white) return;
+  for (std::size_t i = 0; i < picture.robots.size(); ++i)
+    draw_times(svg, view, picture, i);
 }
 
 void draw_scale(Svg& svg, const ArenaView& view, double top) {

@@ -13,6 +13,10 @@ CameraModel half_camera() {
   return {{960, 540}, Lens::Pinhole, 507.5, 507.5, 479.5, 269.5, {-0.285, 0.08, 0, 0, 0}};
 }
 
+CameraModel whole_camera() {
+  return {{1920, 1080}, Lens::Pinhole, 1015, 1015, 959.5, 539.5, {-0.285, 0.08, 0, 0, 0}};
+}
+
 /// The board as it would be printed, a pixel each half millimetre, with a margin.
 film::FilmedBoard printed(const Board& board) {
   constexpr double kPixel_m = 0.0005;
@@ -43,16 +47,16 @@ struct Shot {
 
 /// The board held before the camera at a place of its picture.
 Shot shot_of(const Board& board, ImagePoint middle, double distance_m, double tilt_rad,
-             double blur_px = 0.6) {
+             double blur_px = 0.6, const CameraModel& camera = half_camera()) {
   const film::BoardKind size{
       .columns = static_cast<int>(std::lround(board.width_m() / board.square_m)),
       .rows = static_cast<int>(std::lround(board.height_m() / board.square_m)),
       .square_m = board.square_m};
-  Shot shot{film::held(printed(board), size, half_camera(), middle, distance_m, tilt_rad,
-                       -tilt_rad / 2, 0.1),
-            {}};
+  Shot shot{
+      film::held(printed(board), size, camera, middle, distance_m, tilt_rad, -tilt_rad / 2, 0.1),
+      {}};
   film::Shooting shooting;
-  shooting.view.camera = half_camera();
+  shooting.view.camera = camera;
   shooting.view.place = film::looking_at({0, 0, 2.7}, {0, 0});
   shooting.blur_px = blur_px;
   film::Scene scene;
@@ -126,6 +130,28 @@ TEST(FindBoardTest, AChessboardIsFoundWholeWithoutAShiftOfHalfAPixel) {
   EXPECT_NEAR(mean.u, 0, 0.05);
   EXPECT_NEAR(mean.v, 0, 0.05);
   EXPECT_FALSE(found_in(shot_of(board, {40, 270}, 0.45, 0.4), board));
+}
+
+/// It is searched for in half the picture, which is coarse; what counts is refined in the whole.
+TEST(FindBoardTest, CornersOfALargePictureAreThoseOfTheWholePicture) {
+  const Board board = *parse_board("chessboard:10x7:0.03");
+  const CameraModel camera = whole_camera();
+  for (const double distance : {0.45, 0.9}) {
+    const Shot shot = shot_of(board, {900, 600}, distance, 0.4, 0.6, camera);
+    const auto sight = find_board(film::as_gray_image(shot.gray, camera.size), board);
+    ASSERT_TRUE(sight) << distance;
+    ASSERT_EQ(sight->view.seen.size(), 70U);
+    double squares = 0;
+    for (const ImagePoint& seen : sight->view.seen) {
+      double nearest = 1e9;
+      for (const Point& corner : corners_of(board)) {
+        const ImagePoint truth = film::image_of_board(shot.board, camera, corner);
+        nearest = std::min(nearest, std::hypot(seen.u - truth.u, seen.v - truth.v));
+      }
+      squares += nearest * nearest;
+    }
+    EXPECT_LT(std::sqrt(squares / 70), 0.06) << distance;
+  }
 }
 
 /// From near and far, tilted, to the edges of the picture: where the lens bends most.

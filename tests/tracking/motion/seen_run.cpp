@@ -59,6 +59,7 @@ void film(SeenRun& run, const Truth& truth, const Seeing& seeing, const View& vi
   run.rig.cameras.push_back({.name = name, .model_file = model, .place_file = place});
   run.rig.models[model].model = view.camera;
   run.rig.places[place].place = view.place;
+  run.rig.places[place].coverage = 0.7;
   CameraRecord record{.camera = name, .file = name + ".mp4", .sha256 = name};
   record.size = view.camera.size;
   lay_references(run, seeing, view, run.rig.places[place], record);

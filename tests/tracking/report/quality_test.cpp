@@ -82,6 +82,33 @@ TEST(QualityTest, ARunWithoutLogsSpeaksOfNone) {
   EXPECT_TRUE(Json::parse(quality_json(run.reported()))["robots"][0]["latency"].is_null());
 }
 
+TEST(QualityTest, ListsWhatWasCheckedAndWhatCouldNotBe) {
+  const MadeUpRun run;
+  const Json report = Json::parse(quality_json(run.reported()));
+  ASSERT_EQ(report["checks"].size(), 3U);
+  EXPECT_EQ(report["checks"][0]["value"], 30);
+  EXPECT_EQ(report["checks"][0]["limit"], 10);
+  EXPECT_EQ(report["checks"][1]["outcome"], "warned");
+  EXPECT_TRUE(report["checks"][2]["value"].is_null());
+  EXPECT_EQ(report["checks"][2]["reason"], "the run log names no log of it");
+  EXPECT_EQ(report["not_checked"], Json::array({"motion as commanded"}));
+  const std::string page = quality_html(run.reported());
+  for (const char* said :
+       {"Not checked: motion as commanded.", "1 of 3 checks passed, 1 warned, 0 failed",
+        "30 frames/s", "at least 10 frames/s", "the run log names no log of it"})
+    EXPECT_THAT(page, HasSubstr(said));
+  // What did not pass comes first.
+  EXPECT_LT(page.find("cycles in long gaps"), page.find("frame rate<"));
+}
+
+TEST(QualityTest, ARunWithoutADateSpeaksOfNone) {
+  MadeUpRun run;
+  run.log.recorded.clear();
+  const std::string page = quality_html(run.reported());
+  EXPECT_THAT(page, HasSubstr("<p>aggregation, score 2</p>"));
+  EXPECT_THAT(page, HasSubstr("the run log gives no date"));
+}
+
 TEST(QualityTest, AnOverrideCountsAboveTheVerdict) {
   MadeUpRun run;
   run.overrides = {{Verdict::Valid, "A. Person", "seen on the film"}};

@@ -162,6 +162,24 @@ MadeUpRun::MadeUpRun() : rig(rig_of()) {
   scored.reasons = {"rvr2 was bridged for 0.83 s from 30.0 s on <its tag was covered>"};
   scored.borders = {BorderDistance{0.21, "black spot at (0, 0)", false},
                     BorderDistance{-0.0007, "black spot at (0, 0)", true}, std::nullopt};
+  scored.checks = {{.name = "frame rate",
+                    .subject = "ceiling",
+                    .outcome = Check::Outcome::Passed,
+                    .value = 30,
+                    .limit = 10,
+                    .unit = "frames/s",
+                    .catches = "gaps between frames"},
+                   {.name = "cycles in long gaps",
+                    .subject = "rvr2",
+                    .outcome = Check::Outcome::Warned,
+                    .value = 8,
+                    .limit = 0,
+                    .catches = "a path that is guessed"},
+                   {.name = "motion as commanded",
+                    .subject = "rvr3",
+                    .outcome = Check::Outcome::NotRun,
+                    .catches = "logs that were swapped",
+                    .reason = "the run log names no log of it"}};
   scored.issues = {
       {IssueCode::TooCloseToCall, "rvr2 stands 0.7 mm from the black spot", "rvr2", 60.0, 60.0},
       {IssueCode::Interpolated, "rvr2 was bridged", "rvr2", 30.0, 30.83},

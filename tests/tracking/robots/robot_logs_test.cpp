@@ -121,6 +121,50 @@ TEST_F(RobotLogsTest, OfNoRobotSayNothing) {
   EXPECT_FALSE(found.latencies[0] || found.latencies[1]);
 }
 
+/// Of the robots' logs, by name and robot.
+const Check* check_of(const std::vector<Check>& checks, std::string_view name,
+                      std::string_view robot) {
+  const auto found = std::ranges::find_if(
+      checks, [&](const Check& check) { return check.name == name && check.subject == robot; });
+  return found == checks.end() ? nullptr : &*found;
+}
+
+TEST_F(RobotLogsTest, AreAskedTheSameOfEachRobotWithNumbersAndLimits) {
+  logs[1].record.head.clock_offset_s = 0.045;
+  Observations seen;
+  seen.logs = logs;
+  const std::vector<Check> checks = checks_of_logs(run, seen, log, judged());
+  EXPECT_EQ(checks.size(), 10U);
+  const Check* motion = check_of(checks, "motion as commanded", "rvr1");
+  ASSERT_NE(motion, nullptr);
+  EXPECT_EQ(motion->outcome, Check::Outcome::Passed);
+  EXPECT_GT(motion->value.value(), 0.9);
+  EXPECT_EQ(motion->limit, kLeastAgreement);
+  const Check* clock = check_of(checks, "clock of the robot", "rvr2");
+  EXPECT_EQ(clock->outcome, Check::Outcome::Warned);
+  EXPECT_NEAR(clock->value.value(), 45, 1e-9);
+  EXPECT_EQ(clock->limit, 20);
+}
+
+TEST_F(RobotLogsTest, ThatAreNotThereOrNotOfThisRunAreSaid) {
+  Observations seen;
+  log.notes[0] = {"rvr1", "", std::nullopt, {}};
+  seen.issues = {{IssueCode::LogForeign, "rvr2: its log is of run run06", "rvr2", {}, {}}};
+  logs.clear();
+  log.notes[1].verdict.reset();
+  const std::vector<Check> checks = checks_of_logs(run, seen, log, judged());
+  EXPECT_EQ(checks.size(), 10U);
+  for (const char* name : {"log of this run", "end of the robot's log", "clock of the robot",
+                           "motion as commanded", "robot's own verdict"}) {
+    const Check* of_first = check_of(checks, name, "rvr1");
+    ASSERT_NE(of_first, nullptr) << name;
+    EXPECT_EQ(of_first->outcome, Check::Outcome::NotRun) << name;
+    EXPECT_FALSE(of_first->reason.empty()) << name;
+  }
+  EXPECT_EQ(check_of(checks, "log of this run", "rvr2")->outcome, Check::Outcome::Failed);
+  EXPECT_EQ(check_of(checks, "motion as commanded", "rvr2")->reason, "its log is not of this run");
+}
+
 TEST_F(RobotLogsTest, TheWorseOfBothVerdictsCountsWithAllReasons) {
   logs[0].record.head.end->verdict = RunVerdict::Degraded;
   logs[0].record.head.end->reasons = {"1.5 % of the cycles were skipped", "proximity was silent"};

@@ -13,6 +13,11 @@
 namespace swarmsmith {
 namespace {
 
+constexpr Question kCoverage{"film covers the run", "s", "a start or an end that no camera filmed"};
+constexpr Question kRate{"frame rate", "frames/s", "turns and gaps between two frames"};
+constexpr Question kDropped{"dropped frames", "%", "a recorder that cannot keep up"};
+constexpr Question kLength{"length of the film", "s", "a film that plays too fast or too slowly"};
+
 double duration_of(const TrackOptions& options) {
   return instant_s(options.span.cycles);
 }
@@ -64,7 +69,9 @@ std::int64_t dropped_in(const FramesOfRun& frames) {
 }
 
 void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::string& camera,
-                const TrackLimits& limits, std::vector<Issue>& issues) {
+                const TrackLimits& limits, FrameReport& report) {
+  std::vector<Issue>& issues = report.issues;
+  const std::size_t first = issues.size();
   // Clocks round to milliseconds: 10 frames a second may look like 9.99.
   constexpr double kRounding = 0.99;
   if (frames.usual_s > 0 && 1 / frames.usual_s < kRounding * limits.least_frame_rate) {
@@ -87,26 +94,44 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
                       {},
                       {}});
   }
+  if (frames.usual_s > 0) {
+    report.checks.push_back(answered(kRate, camera, outcome_of(issues, first, IssueCode::FrameRate),
+                                     1 / frames.usual_s, limits.least_frame_rate));
+  }
+  if (all > 0) {
+    report.checks.push_back(
+        answered(kDropped, camera, outcome_of(issues, first, IssueCode::FramesDropped),
+                 100 * static_cast<double>(dropped) / all, 100 * limits.dropped_share));
+  }
 }
 
 /// Files that count frames instead of timing them play too fast when frames were dropped; only
 /// their length shows it (tracking facts, section 7).
-void check_length(const CameraRecord& record, const FramesOfRun& frames,
-                  const std::optional<double>& said_s, std::vector<Issue>& issues) {
+void check_length(const CameraRecord& record, const FramesOfRun& frames, const std::string& camera,
+                  const std::optional<double>& said_s, FrameReport& report) {
   const bool is_avi = record.file.ends_with(".avi") || record.file.ends_with(".AVI");
   const bool counts = record.time_source == TimeSource::FrameRate ||
                       (is_avi && record.time_source != TimeSource::Sidecar);
-  if (!said_s || !counts || frames.times.empty()) return;
+  if (!said_s || !counts || frames.times.empty()) {
+    report.checks.push_back(
+        not_asked(kLength, camera,
+                  !said_s ? "the run log gives no `length`" : "the file has times of its own"));
+    return;
+  }
   constexpr double kTolerance_s = 0.2;
   const double length = frames.times.back() - frames.times.front() + frames.usual_s;
-  if (std::fabs(length - *said_s) <= kTolerance_s) return;
-  issues.push_back({IssueCode::Duration,
-                    fmt::format("{} lasts {:.2f} s and the run log says {:.2f} s (limit {:.1f} s): "
-                                "frames were dropped and the file has no times; record a sidecar",
-                                record.file, length, *said_s, kTolerance_s),
-                    {},
-                    {},
-                    {}});
+  const double off_s = std::fabs(length - *said_s);
+  const auto outcome = off_s <= kTolerance_s ? Check::Outcome::Passed : Check::Outcome::Failed;
+  report.checks.push_back(answered(kLength, camera, outcome, off_s, kTolerance_s));
+  if (outcome == Check::Outcome::Passed) return;
+  report.issues.push_back(
+      {IssueCode::Duration,
+       fmt::format("{} lasts {:.2f} s and the run log says {:.2f} s (limit {:.1f} s): "
+                   "frames were dropped and the file has no times; record a sidecar",
+                   record.file, length, *said_s, kTolerance_s),
+       {},
+       {},
+       {}});
 }
 
 /// Frames whose tags all stand on the same bits as in the frame before: the same picture again.
@@ -182,16 +207,18 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     report.dropped += dropped;
     report.twice += frames_twice(observations, static_cast<int>(c));
     slack = std::max(slack, 1.5 * frames.usual_s);
-    check_rate(frames, dropped, cameras[c].name, options.limits, report.issues);
-    if (!options.span.lengths_s.empty()) {
-      check_length(record, frames, options.span.lengths_s[c], report.issues);
-    }
-    for (Issue& issue : camera_issues(record, cameras[c], rig, options))
-      report.issues.push_back(std::move(issue));
+    check_rate(frames, dropped, cameras[c].name, options.limits, report);
+    check_length(record, frames, cameras[c].name,
+                 options.span.lengths_s.empty() ? std::nullopt : options.span.lengths_s[c], report);
+    check_camera(record, cameras[c], rig, options, report.issues, report.checks);
   }
   std::ranges::sort(report.times);
   measure_coverage(report, std::move(spans), duration);
+  const std::size_t first = report.issues.size();
   check_coverage(report, slack, options);
+  report.checks.insert(report.checks.begin(),
+                       answered(kCoverage, "", outcome_of(report.issues, first), report.covered_s,
+                                duration - 2 * slack));
   if (!intervals.empty()) {
     const auto [least, most] = std::ranges::minmax(intervals);
     report.frame_rate_least = 1 / most;

@@ -21,6 +21,7 @@ struct FrameReport {
   std::int64_t twice = 0;
   std::vector<double> times;  ///< of all frames of all cameras, sorted
   std::vector<Issue> issues;
+  std::vector<Check> checks;
 };
 
 /// Coverage, frame rate, dropped and repeated frames, the length of files that cannot say their

@@ -10,10 +10,27 @@
 
 #include "base/math.h"
 #include "tracking/motion/resampling.h"
+#include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
+
+constexpr Question kLens{"lens calibration", "px",
+                         "a lens that was solved badly: errors grow outwards"};
+constexpr Question kPlace{"floor tags fit the camera's place", "px",
+                          "a floor tag measured wrong, another focus"};
+constexpr Question kLeftOut{"worst floor tag, left out", "mm", "a floor tag measured wrong"};
+constexpr Question kSpread{"floor tags around the arena", "%",
+                           "a place that is guessed at the walls"};
+constexpr Question kEdited{"place file as it was made", "px", "an edited calibration"};
+constexpr Question kSurvey{"survey as it was calibrated", "", "a survey mended without its place"};
+constexpr Question kMoved{"camera stayed where it was", "px", "a camera that was pushed"};
+constexpr Question kWatched{"floor tags seen until the end", "s",
+                            "a push that came after the last look at them"};
+
+/// A camera that was pushed stays where it is, so that a later look tells of earlier ones.
+constexpr double kTail_s = 10;
 
 double shift_of(const TagCorners& a, const TagCorners& b) {
   double sum = 0;
@@ -87,8 +104,6 @@ std::optional<Issue> moved(const std::vector<Span>& spans, const std::string& ca
 
 std::optional<Issue> unchecked(const std::vector<Span>& spans, const std::string& camera,
                                double duration_s) {
-  // A camera that was pushed stays where it is, so that a later look tells of earlier ones.
-  constexpr double kTail_s = 10;
   constexpr const char* kWhatToDo =
       "a moved camera would not be noticed; keep the floor tags free, lit and in the picture";
   const auto last =
@@ -105,19 +120,68 @@ std::optional<Issue> unchecked(const std::vector<Span>& spans, const std::string
                {}};
 }
 
+/// Files that break these limits are refused before: here is how far from them they are.
+void check_calibrations(const Rig& rig, const CameraSetup& setup, std::vector<Check>& checks) {
+  const CameraLimits lens;
+  const PlaceLimits limits;
+  const auto within = [&](const Question& question, double value, double limit, bool is_within) {
+    checks.push_back(answered(question, setup.name,
+                              is_within ? Check::Outcome::Passed : Check::Outcome::Failed, value,
+                              limit));
+  };
+  const auto model = rig.models.find(setup.model_file);
+  if (model != rig.models.end()) {
+    within(kLens, model->second.rms_px, lens.rms_px, model->second.rms_px <= lens.rms_px);
+  }
+  const auto found = rig.places.find(setup.place_file);
+  if (found == rig.places.end()) return;
+  const PlaceCalibration& place = found->second;
+  within(kPlace, place.rms_px, limits.rms_px, place.rms_px <= limits.rms_px);
+  within(kLeftOut, 1000 * place.worst_left_out_m, 1000 * limits.left_out_m,
+         place.worst_left_out_m <= limits.left_out_m);
+  within(kSpread, 100 * place.coverage, 100 * limits.least_coverage,
+         place.coverage >= limits.least_coverage);
+}
+
+void check_place(const Rig& rig, const CameraSetup& setup, std::vector<Issue>& issues,
+                 std::vector<Check>& checks) {
+  const std::size_t first = issues.size();
+  for (Issue& doubt : doubts_of_place(rig, setup))
+    issues.push_back(std::move(doubt));
+  checks.push_back(answered(kEdited, setup.name, outcome_of(issues, first, IssueCode::Extrinsics)));
+  checks.push_back(
+      answered(kSurvey, setup.name, outcome_of(issues, first, IssueCode::SurveyChanged)));
+}
+
 }  // namespace
 
-std::vector<Issue> camera_issues(const CameraRecord& record, const TrackedCamera& camera,
-                                 const Rig& rig, const TrackOptions& options) {
+void check_camera(const CameraRecord& record, const TrackedCamera& camera, const Rig& rig,
+                  const TrackOptions& options, std::vector<Issue>& issues,
+                  std::vector<Check>& checks) {
   const double duration = instant_s(options.span.cycles);
   const std::vector<Span> spans = spans_of(record, camera, rig, duration);
-  std::vector<Issue> issues;
   const auto setup = std::ranges::find(rig.cameras, camera.name, &CameraSetup::name);
-  if (setup != rig.cameras.end()) issues = doubts_of_place(rig, *setup);
+  if (setup != rig.cameras.end()) {
+    check_calibrations(rig, *setup, checks);
+    check_place(rig, *setup, issues, checks);
+  }
+  const std::size_t first = issues.size();
   if (auto issue = moved(spans, camera.name, options.limits.moved_px))
     issues.push_back(std::move(*issue));
   if (auto issue = unchecked(spans, camera.name, duration)) issues.push_back(std::move(*issue));
-  return issues;
+  if (spans.empty()) {
+    checks.push_back(not_asked(kMoved, camera.name, "none of its floor tags was seen"));
+  } else {
+    checks.push_back(
+        answered(kMoved, camera.name, outcome_of(issues, first, IssueCode::CameraMoved),
+                 std::ranges::max(spans, {}, &Span::shift_px).shift_px, options.limits.moved_px));
+  }
+  const auto last =
+      std::ranges::find_if(spans.rbegin(), spans.rend(), [](const Span& s) { return s.tags >= 2; });
+  checks.push_back(answered(
+      kWatched, camera.name, outcome_of(issues, first, IssueCode::CameraUnchecked),
+      last == spans.rend() ? std::nullopt : std::optional(std::max(0.0, duration - last->time_s)),
+      kTail_s));
 }
 
 }  // namespace swarmsmith

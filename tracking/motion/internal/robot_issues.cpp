@@ -10,6 +10,20 @@
 namespace swarmsmith {
 namespace {
 
+constexpr Question kScale{"scale of the tag", "%", "a wrong height, edge or tag"};
+constexpr Question kTwins{"frames with its number twice", "", "a second tag of its number"};
+constexpr Question kGap{"longest gap", "s", "a robot that was hidden, carried or lost"};
+constexpr Question kJumps{"jumps", "", "a robot that was carried; another tag of its number"};
+constexpr Question kEnd{"gap around the last instant", "s", "an end that no camera saw"};
+constexpr Question kBridged{"bridged cycles", "%", "a path that is guessed between samples"};
+constexpr Question kGuessed{"cycles in long gaps", "", "a path that is guessed between samples"};
+constexpr Question kOutside{"samples in a row outside of the walls", "",
+                            "a robot that was carried out; a wrong survey"};
+constexpr Question kOutliers{"dropped samples", "%", "reflections, blur, a second tag"};
+constexpr Question kCameras{"cameras agree", "mm",
+                            "a clock or a place of one camera that is wrong"};
+constexpr Question kByHand{"points by hand", "", "a person's word in place of the film"};
+
 /// A stretch of the run in which a robot was not seen.
 struct Gap {
   double from_s = 0;
@@ -58,10 +72,13 @@ void check_gaps(const std::vector<Gap>& gaps, const TrackLimits& limits, Complai
   }
 }
 
-void check_breaks(const RobotTrack& track, const TrackOptions& options, Complaints& complaints) {
+/// How many.
+int check_breaks(const RobotTrack& track, const TrackOptions& options, Complaints& complaints) {
   const TrackLimits& limits = options.limits;
+  int breaks = 0;
   for (const auto& [from, to] : track.breaks) {
     if (to.time_s < 0 || from.time_s > instant_s(options.span.cycles)) continue;
+    ++breaks;
     const double way = hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y);
     const double turn = std::fabs(wrap_angle(to.pose.theta - from.pose.theta));
     const double duration = std::max(to.time_s - from.time_s, kSameInstant_s);
@@ -74,12 +91,14 @@ void check_breaks(const RobotTrack& track, const TrackOptions& options, Complain
                                limits.top_speed_m_s, limits.top_turn_rad_s),
                    from.time_s, to.time_s);
   }
+  return breaks;
 }
 
 /// A score of the last instant needs it measured: interpolated across little, never extrapolated.
-void check_end(const RobotTrack& track, const FrameReport& frames, const TrackOptions& options,
-               Complaints& complaints) {
-  if (!options.scored_at_the_end || !frames.covers_the_end) return;
+/// The gap around it; none when the film does not cover it, or no sample follows.
+std::optional<double> check_end(const RobotTrack& track, const FrameReport& frames,
+                                const TrackOptions& options, Complaints& complaints) {
+  if (!options.scored_at_the_end || !frames.covers_the_end) return std::nullopt;
   const double end = instant_s(options.span.cycles);
   const auto next =
       std::ranges::lower_bound(track.merged, end - kSameInstant_s, {}, &TimedPose::time_s);
@@ -89,16 +108,18 @@ void check_end(const RobotTrack& track, const FrameReport& frames, const TrackOp
                                "looks at {:.2f} s and nothing is extrapolated",
                                track.merged.back().time_s, end),
                    track.merged.back().time_s, end);
-    return;
+    return std::nullopt;
   }
-  if (next->time_s <= end + kSameInstant_s || next == track.merged.begin()) return;
+  if (next->time_s <= end + kSameInstant_s || next == track.merged.begin()) return 0;
   const double from = std::prev(next)->time_s;
-  if (next->time_s - from <= options.limits.last_instant_gap_s + kSameInstant_s) return;
+  const double gap_s = next->time_s - from;
+  if (gap_s <= options.limits.last_instant_gap_s + kSameInstant_s) return gap_s;
   complaints.add(IssueCode::Gap,
                  fmt::format("was not seen from {:.2f} s to {:.2f} s, around the instant that the "
                              "score looks at (limit {:.1f} s)",
                              from, next->time_s, options.limits.last_instant_gap_s),
                  from, next->time_s);
+  return gap_s;
 }
 
 /// Cycles of which the pose is a guess: across a long gap, or held where no sample is near. That a
@@ -175,6 +196,13 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
                  longest->from_s, longest->to_s);
 }
 
+/// A misread tag comes and goes; a second tag of the same number stays.
+std::size_t twins_allowed(const RobotSamples& samples) {
+  constexpr std::size_t kPersistent = 10;
+  const std::size_t share = (samples.samples.size() + 99) / 100;
+  return std::max(kPersistent, share) - 1;
+}
+
 void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const TrackLimits& limits,
                Complaints& complaints) {
   if (std::fabs(samples.scale - 1) > limits.scale_tolerance) {
@@ -185,10 +213,7 @@ void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const Trac
                                100 * (samples.scale - 1), 100 * limits.scale_tolerance));
   }
   const std::vector<std::int64_t>& frames = samples.twice;
-  if (frames.empty()) return;
-  // A misread tag comes and goes; a second tag of the same number stays.
-  constexpr std::size_t kPersistent = 10;
-  if (frames.size() < kPersistent || 100 * frames.size() < samples.samples.size()) return;
+  if (frames.size() <= twins_allowed(samples)) return;
   complaints.add(IssueCode::DuplicateId,
                  fmt::format("was seen twice in {} frames, from frame {} to frame {}; in {} of "
                              "them the robot's own could not be identified: take one tag away",
@@ -196,12 +221,15 @@ void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const Trac
                              samples.twice_unresolved));
 }
 
-/// A robot beyond the walls, and not a misread tag: several times in a row.
-void check_outside(const std::vector<Sample>& samples, const TrackOptions& options,
-                   Complaints& complaints) {
-  constexpr int kInARow = 3;
+/// A robot beyond the walls, and not a misread tag: so many times in a row.
+constexpr int kInARow = 3;
+
+/// The most samples in a row that were outside.
+int check_outside(const std::vector<Sample>& samples, const TrackOptions& options,
+                  Complaints& complaints) {
   const double end = instant_s(options.span.cycles);
   int in_a_row = 0;
+  int most_in_a_row = 0;
   std::optional<double> first;
   double from = 0;
   double to = 0;
@@ -210,24 +238,28 @@ void check_outside(const std::vector<Sample>& samples, const TrackOptions& optio
     if (sample.use == Sample::Use::Used) in_a_row = 0;
     if (sample.use != Sample::Use::Outside) continue;
     if (++in_a_row == 1) from = sample.time_s;
+    most_in_a_row = std::max(most_in_a_row, in_a_row);
     if (in_a_row < kInARow) continue;
     if (!first) first = from;
     to = sample.time_s;
   }
-  if (!first) return;
+  if (!first) return most_in_a_row;
   complaints.add(IssueCode::OutsideArena,
                  fmt::format("was more than {:.2f} m outside of the walls, first at {:.2f} s, last "
                              "at {:.2f} s",
                              options.limits.outside_m, *first, to),
                  *first, to);
+  return most_in_a_row;
 }
 
-void check_outliers(const TrackedRobot& robot, Complaints& complaints) {
+/// How many samples were dropped.
+std::int64_t check_outliers(const TrackedRobot& robot, Complaints& complaints) {
   const auto bad_fits = std::ranges::count(robot.samples, Sample::Use::BadFit, &Sample::use);
-  if (robot.outliers + bad_fits == 0) return;
+  if (robot.outliers + bad_fits == 0) return 0;
   complaints.add(IssueCode::Outliers,
                  fmt::format("lost {} samples of {} as outliers and {} as bad fits", robot.outliers,
                              robot.samples.size(), bad_fits));
+  return robot.outliers + bad_fits;
 }
 
 void check_by_hand(const RobotTrack& track, const std::vector<HandPoint>& points,
@@ -260,14 +292,27 @@ void check_cameras(const RobotTrack& track, Complaints& complaints) {
 
 TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const RobotTrack& track,
                            const FrameReport& frames, const TrackOptions& options,
-                           std::vector<Issue>& issues) {
+                           std::vector<Issue>& issues, std::vector<Check>& checks) {
   TrackedRobot made{.name = robot.setup.name, .tag = robot.setup.tag};
   made.cycles.assign(track.kinds.begin() + 1, track.kinds.end());
   made.sigmas.assign(track.sigmas.begin() + 1, track.sigmas.end());
   made.mean_scale = samples.scale;
   made.sigma = track.sigma;
   Complaints complaints(robot, issues);
-  check_tag(robot, samples, options.limits, complaints);
+  std::size_t first = issues.size();
+  /// What came of a question since the last one.
+  const auto note = [&](const Question& question, std::optional<double> value,
+                        std::optional<double> limit, std::optional<IssueCode> code = {}) {
+    checks.push_back(
+        answered(question, robot.setup.name, outcome_of(issues, first, code), value, limit));
+  };
+  const auto next = [&] { first = issues.size(); };
+  const TrackLimits& limits = options.limits;
+  check_tag(robot, samples, limits, complaints);
+  note(kScale, 100 * std::fabs(samples.scale - 1), 100 * limits.scale_tolerance,
+       IssueCode::TagSize);
+  note(kTwins, static_cast<double>(samples.twice.size()),
+       static_cast<double>(twins_allowed(samples)), IssueCode::DuplicateId);
   made.samples = std::move(samples.samples);
   double used = 0;
   for (const Sample& sample : made.samples) {
@@ -283,14 +328,44 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
     made.longest_gap_s = longest->length_s();
     made.longest_gap_from_s = longest->from_s;
   }
-  check_gaps(gaps, options.limits, complaints);
-  check_breaks(track, options, complaints);
-  check_end(track, frames, options, complaints);
-  check_bridged(track, gaps, frames, options.limits, complaints);
-  check_outside(made.samples, options, complaints);
-  check_outliers(made, complaints);
+  next();
+  check_gaps(gaps, limits, complaints);
+  note(kGap, made.longest_gap_s, limits.degraded_gap_s);
+  next();
+  const int jumps = check_breaks(track, options, complaints);
+  note(kJumps, jumps, 0);
+  next();
+  const std::optional<double> gap_at_end = check_end(track, frames, options, complaints);
+  if (options.scored_at_the_end && !frames.covers_the_end) {
+    checks.push_back(not_asked(kEnd, robot.setup.name, "the film ends before the run"));
+  } else if (options.scored_at_the_end) {
+    note(kEnd, gap_at_end, limits.last_instant_gap_s);
+  }
+  next();
+  check_bridged(track, gaps, frames, limits, complaints);
+  note(kBridged,
+       100 * static_cast<double>(bridged_cycles(track, frames).cycles) /
+           static_cast<double>(made.cycles.size()),
+       100 * limits.interpolated_share, IssueCode::Gap);
+  note(kGuessed, static_cast<double>(guessed_cycles(track, frames, limits)), 0,
+       IssueCode::Interpolated);
+  next();
+  const int most_outside = check_outside(made.samples, options, complaints);
+  note(kOutside, most_outside, kInARow - 1);
+  next();
+  const auto dropped = check_outliers(made, complaints);
+  note(kOutliers, 100 * static_cast<double>(dropped) / static_cast<double>(made.samples.size()), 0);
+  next();
   check_cameras(track, complaints);
+  if (track.compared == 0) {
+    checks.push_back(
+        not_asked(kCameras, robot.setup.name, "no two cameras saw it at the same time"));
+  } else {
+    note(kCameras, 1000 * track.worst_disagreement_m, 1000 * kDisagree_m);
+  }
+  next();
   check_by_hand(track, options.points, robot.setup.name, complaints);
+  note(kByHand, static_cast<double>(track.by_hand_s.size()), 0);
   return made;
 }
 

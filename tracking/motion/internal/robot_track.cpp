@@ -97,6 +97,7 @@ Estimate fused(const std::vector<Estimate>& estimates) {
 }
 
 void note_disagreement(const std::vector<Estimate>& estimates, double time_s, RobotTrack& track) {
+  if (estimates.size() > 1) ++track.compared;
   double worst = 0;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     for (std::size_t j = i + 1; j < estimates.size(); ++j) {

@@ -21,6 +21,7 @@ struct RobotTrack {
   Scatter sigma;  ///< of one camera's sample, systematic parts included
   /// Cycles at which two cameras measured it more than `kDisagree_m` apart.
   int disagreeing = 0;
+  int compared = 0;  ///< cycles at which two cameras measured it
   double worst_disagreement_m = 0;
   double worst_disagreement_at_s = 0;
 };
@@ -33,9 +34,9 @@ inline constexpr double kDisagree_m = 0.010;
 RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
                     std::span<const TrackedCamera> cameras, const TrackOptions& options);
 
-/// The robot's part of the run, and what is wrong with it.
+/// The robot's part of the run, what is wrong with it, and what was asked.
 TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const RobotTrack& track,
                            const FrameReport& frames, const TrackOptions& options,
-                           std::vector<Issue>& issues);
+                           std::vector<Issue>& issues, std::vector<Check>& checks);
 
 }  // namespace swarmsmith

@@ -2,7 +2,7 @@
 
 import { Component, h } from "preact";
 import { ApiError, ask } from "../api";
-import { draw_place, draw_run, draw_scores, kDistinct, pose_at, Robot, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
+import { Check, draw_place, draw_run, draw_scores, kDistinct, pose_at, Robot, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
 import { Canvas } from "../canvas";
 import { Choice, Copy, Empty, Failure, is_typing, link, pairs, Panel, Quiet, Slider, store_word, Table, typed, Waiting } from "../components";
 import { Machine } from "../figure";
@@ -65,6 +65,30 @@ function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: numbe
     }
     if (text) text.textContent = here.length > 6 ? `${here.length} robots` : here.length ? `robot ${here.join(", ")}` : "";
   });
+}
+
+const kOutcomes = ["failed", "warned", "not run", "passed"];
+
+/// "; not checked: length of the film": names once each.
+function not_checked(checks: Check[] | null | undefined) {
+  const names = [...new Set((checks ?? []).filter((one) => one.outcome === "not run").map((one) => one.name))];
+  return names.length > 0 && <small>; not checked: {names.join(", ")}</small>;
+}
+
+/// What a real run was asked; what did not pass comes first.
+function Checks({ checks }: { checks: Check[] | null }) {
+  const measure = ({ unit }: Check, value: number | null) => value === null ? null : `${number(value)} ${unit}`.trim();
+  const passed = checks?.filter((one) => one.outcome === "passed").length;
+  const rows = [...checks ?? []].sort((a, b) => kOutcomes.indexOf(a.outcome) - kOutcomes.indexOf(b.outcome));
+  return <Panel title="Checks of the verdict" wide>
+    {checks ? <p><small>{passed} of {checks.length} passed. Each says what it would have caught.</small></p>
+      : <Empty>Not recorded: an earlier version scored this run. <code>swarmsmith track rescore</code> does it again.</Empty>}
+    {checks && <Table<Check> name="k" caption="checks" rows={rows} page_size={50} row_key={(one) => one.name + one.subject} columns={[
+      { key: "outcome", show: ({ outcome }) => outcome === "passed" ? outcome : <span class="warn">{outcome}</span> },
+      { key: "name", label: "check" }, { key: "subject", label: "of", value: (one) => one.subject || null },
+      { key: "value", label: "number", show: (one) => measure(one, one.value) }, { key: "limit", show: (one) => measure(one, one.limit) },
+      { key: "catches", label: "it catches" }, { key: "reason", label: "why not", value: (one) => one.reason || null }]} />}
+  </Panel>;
 }
 
 /// Another run is another player.
@@ -268,6 +292,7 @@ class Player extends Component<PageProps, State> {
       {this.#controls()}
       <div class={ids.length === 1 ? "runs alone" : "runs"}>{ids.map((one) => this.#panel(one))}</div>
       <p class="unseen" role="status">{this.state.playing ? "" : this.state.said}</p>
+      {is_run(run) && run.verdict && <Checks checks={run.checks ?? null} />}
       {is_run(run) && <div class="grid">{ids.length < kMostRuns && this.#beside(run)}{this.#elsewhere(run)}</div>}
     </div>;
   }
@@ -320,7 +345,7 @@ class Player extends Component<PageProps, State> {
       pairs("facts", [
         ["score so far", <span data-what="score">{number(this.#score(run))}</span>],
         ["at the end", number(run.score)],
-        run.verdict ? ["verdict", run.verdict]
+        run.verdict ? ["verdict", [run.verdict, not_checked(run.checks)]]
           : ["simulated again", run.same_bits === null ? <small>nothing stored to compare with</small>
             : run.same_bits ? <span class="good" title={`state digest ${run.digest}`}>✓ same bits</span>
               : <span class="warn">differs: the store has {number(run.stored_score)}</span>]]),
