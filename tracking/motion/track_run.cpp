@@ -7,7 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "tracking/motion/internal/robot_track.h"
+#include "tracking/motion/internal/known_errors.h"
+#include "tracking/motion/internal/robot_travel.h"
 
 namespace swarmsmith {
 namespace {
@@ -66,7 +67,9 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
                                              size_text(view->camera.size), size_text(record.size)),
                                  record.file.empty() ? setup->model_file : record.file));
     }
-    cameras.push_back({setup->name, *view, span.starts_s[i], place_error(rig, *setup)});
+    const auto& lens = rig.models.at(setup->model_file);
+    cameras.push_back({setup->name, *view, span.starts_s[i], place_error(rig, *setup),
+                       lens.rms_px / lens.model.fx, setup->time_error_s});
   }
   return cameras;
 }
@@ -78,7 +81,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
   if (found != rig.offsets.end()) {
     const OffsetCalibration& offset = found->second;
     if (offset.tag == setup.tag) {
-      return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m)};
+      return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m), true,
+                         offset.has_yaw};
     }
     reason = fmt::format("the offset calibration `{}` of {} is of tag {}, and it carries tag {}",
                          setup.offset_file, setup.name, offset.tag, setup.tag);
@@ -95,7 +99,7 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
                     setup.name,
                     {},
                     {}});
-  return TaggedRobot{setup, {}, 0};
+  return TaggedRobot{setup, {}};
 }
 
 /// Numbers of the run's sightings by their tag.
@@ -238,6 +242,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                  .issues = frames.issues};
   const SightingsByTag sightings = sightings_of(observations, *cameras, options);
   list_unknown(sightings, rig, options, run.issues);
+  std::vector<TaggedRobot> robots;
   std::vector<RobotTrack> tracks;
   for (const RobotSetup& setup : rig.robots) {
     const Expected<TaggedRobot> robot = tagged_robot(setup, rig, options, run.issues);
@@ -247,13 +252,21 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
         samples_of(*robot, observations.sightings,
                    seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
                    arena, options);
-    if (!is_seen_early(samples))
-      return Unexpected(missing(*robot, samples, frames, spans_text(observations, *cameras)));
+    if (!is_seen_early(samples)) {
+      Error error = missing(*robot, samples, frames, spans_text(observations, *cameras));
+      error.message += tilt_clause(setup, samples.samples, observations.sightings, *cameras);
+      return Unexpected(std::move(error));
+    }
     tracks.push_back(track_of(*robot, samples, *cameras, options));
     run.robots.push_back(
         tracked_robot(*robot, std::move(samples), tracks.back(), frames, options, run.issues));
+    robots.push_back(*robot);
   }
   join(tracks, options.span.cycles, run);
+  const std::vector<TagEvidence> evidence =
+      judge_tags(robots, observations, *cameras, rig, options.limits, run);
+  judge_travel(robots, tracks, arena, options, run);
+  add_known_errors(robots, evidence, *cameras, rig, run);
   return run;
 }
 

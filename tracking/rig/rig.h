@@ -43,6 +43,7 @@ struct CameraSetup {
   double readout_s = 0;         ///< first row to last; 0 for a global shutter
   double least_height_m = 0.5;  ///< that it may hang at
   double most_height_m = 20;
+  double time_error_s = 0.005;  ///< one sigma of its stamps against the run's clock
 
   friend bool operator==(const CameraSetup&, const CameraSetup&) = default;
 };
@@ -50,9 +51,10 @@ struct CameraSetup {
 struct RobotSetup {
   std::string name;
   int tag = 0;
-  double edge_m = 0;        ///< of the tag's black border
-  double height_m = 0;      ///< of the tag's plane above the floor
-  std::string offset_file;  ///< of its OffsetCalibration; empty: none
+  double edge_m = 0;              ///< of the tag's black border
+  double height_m = 0;            ///< of the tag's plane above the floor
+  std::string offset_file;        ///< of its OffsetCalibration; empty: none
+  double height_error_m = 0.001;  ///< one sigma
 
   friend bool operator==(const RobotSetup&, const RobotSetup&) = default;
 };
@@ -120,6 +122,8 @@ struct Rig {
   std::vector<CameraSetup> cameras;  ///< at least one
   std::vector<ReferenceTag> references;
   std::vector<RobotSetup> robots;  ///< in the order of the score's robots
+  double survey_error_m = 0.002;   ///< one sigma of the floor tags' frame against the arena
+  double tilt_error_rad = 0.5 * 0.017453292519943295;  ///< one sigma of a robot's lean
   /// By the file's name in the setups; only those that exist.
   std::map<std::string, CalibrationFile> files;
   std::map<std::string, CameraCalibration> models;

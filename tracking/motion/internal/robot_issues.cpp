@@ -175,15 +175,7 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
                  longest->from_s, longest->to_s);
 }
 
-void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const TrackLimits& limits,
-               Complaints& complaints) {
-  if (std::fabs(samples.scale - 1) > limits.scale_tolerance) {
-    complaints.add(IssueCode::TagSize,
-                   fmt::format("measures {:.4f} m along its edge, declared are {:.4f} m ({:+.1f} "
-                               "%, limit {:.0f} %): check the tag's size and its height",
-                               samples.scale * robot.setup.edge_m, robot.setup.edge_m,
-                               100 * (samples.scale - 1), 100 * limits.scale_tolerance));
-  }
+void check_twins(const RobotSamples& samples, Complaints& complaints) {
   const std::vector<std::int64_t>& frames = samples.twice;
   if (frames.empty()) return;
   // A misread tag comes and goes; a second tag of the same number stays.
@@ -267,7 +259,7 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
   made.mean_scale = samples.scale;
   made.sigma = track.sigma;
   Complaints complaints(robot, issues);
-  check_tag(robot, samples, options.limits, complaints);
+  check_twins(samples, complaints);
   made.samples = std::move(samples.samples);
   double used = 0;
   for (const Sample& sample : made.samples) {
