@@ -9,6 +9,7 @@
 
 #include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_travel.h"
+#include "tracking/rig/lens_reach.h"
 
 namespace swarmsmith {
 namespace {
@@ -210,6 +211,42 @@ TrackOptions for_rate(TrackOptions options, double frame_rate) {
   return options;
 }
 
+/// Whether each lens was calibrated where the arena is in its picture.
+void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
+  for (const CameraSetup& camera : rig.cameras) {
+    const std::optional<View> view = rig.view_of(camera);
+    if (!view) continue;
+    const auto share = share_beyond_reach(rig.models.at(camera.model_file), view->place, arena);
+    Check check{.name = "reach of the lens calibration",
+                .subject = camera.name,
+                .value = {},
+                .limit = 100 * kMostBeyondReach,
+                .unit = "%",
+                .catches = "a lens that is a guess where robots drive",
+                .reason = {}};
+    if (!share) {
+      check.outcome = Check::Outcome::NotRun;
+      check.reason = "its file does not say where the board was; `calibrate camera` again";
+    } else {
+      check.value = 100 * *share;
+    }
+    const bool is_beyond = share && *share > kMostBeyondReach;
+    if (is_beyond) {
+      check.outcome = Check::Outcome::Failed;
+      run.issues.push_back(
+          {IssueCode::CalibrationQuality,
+           fmt::format(
+               "{:.0f} % of the arena lies where the board never was in the picture of camera "
+               "{} (limit {:.0f} %), where its lens is a guess; calibrate it there, too",
+               100 * *share, camera.name, 100 * kMostBeyondReach),
+           {},
+           {},
+           {}});
+    }
+    run.checks.push_back(std::move(check));
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(CycleKind kind) {
@@ -263,6 +300,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
     robots.push_back(*robot);
   }
   join(tracks, options.span.cycles, run);
+  judge_lenses(rig, arena, run);
   const std::vector<TagEvidence> evidence =
       judge_tags(robots, observations, *cameras, rig, options.limits, run);
   judge_travel(robots, tracks, arena, options, run);

@@ -72,11 +72,12 @@ struct CameraCalibration {
   CameraModel model;
   double rms_px = 0;
   double worst_view_px = 0;
-  int views = 0;              ///< used
-  int views_dropped = 0;      ///< as outliers
-  double coverage = 0;        ///< of the frame by the hull of the corners, 0 to 1
-  double focal_sigma_px = 0;  ///< standard deviation of f by the fit; 0: not known (fisheye)
-  std::string board;          ///< as it was described
+  int views = 0;                 ///< used
+  int views_dropped = 0;         ///< as outliers
+  double coverage = 0;           ///< of the frame by the hull of the corners, 0 to 1
+  std::vector<ImagePoint> hull;  ///< of the corners; empty in files that did not keep it
+  double focal_sigma_px = 0;     ///< standard deviation of f by the fit; 0: not known (fisheye)
+  std::string board;             ///< as it was described
   std::string made;
 };
 

@@ -39,7 +39,7 @@ class Driven {
   Driven(const Style& style, std::vector<Push> pushes, double seconds = 62) : seconds_(seconds) {
     const std::array<Pose, 3> starts{{{-0.55, -0.35, 0.3}, {0.55, -0.35, 2}, {0, 0.6, 4}}};
     for (int robot = 0; robot < 3; ++robot)
-      drive(robot, starts.at(robot), style, pushes);
+      drive(robot, starts.at(static_cast<std::size_t>(robot)), style, pushes);
   }
 
   Pose operator()(int robot, double time_s) const {
