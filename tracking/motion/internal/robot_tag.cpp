@@ -294,20 +294,25 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
   std::complex<double> tilt = 0;
   double weights = 0;
   double squares = 0;
-  // The second round knows the shortening that a tilt brings by itself.
-  for (int round = 0; round < 3; ++round) {
+  // Newton's steps: the shear is linear in the tilt, but for the shortening that it brings.
+  for (int round = 0; round < 8; ++round) {
     std::complex<double> sum = 0;
+    double slopes = 0;
     weights = 0;
     squares = 0;
     for (const Shear& shear : shears) {
       const std::complex<double> turn = std::polar(1.0, shear.heading);
       const std::complex<double> leans = tilt * turn;
-      const std::complex<double> off = shear.strain + leans * leans / 4.0;
-      sum += 2.0 * off * std::conj(shear.place) * std::conj(turn);
-      squares += std::norm(off - 0.5 * shear.place * leans);
+      const std::complex<double> off =
+          shear.strain - 0.5 * shear.place * leans + leans * leans / 4.0;
+      const std::complex<double> slope = 0.5 * (leans - shear.place) * turn;
+      sum += std::conj(slope) * off;
+      slopes += std::norm(slope);
+      squares += std::norm(off);
       weights += std::norm(shear.place);
     }
-    tilt = sum / weights;
+    if (slopes < 1e-12) return std::nullopt;
+    tilt -= sum / slopes;
   }
   const auto count = static_cast<double>(shears.size());
   const double strain_sigma = std::sqrt(squares / (2 * count));
@@ -340,7 +345,7 @@ std::string tilt_clause(const RobotSetup& robot, std::span<const Sample> samples
                         std::span<const TrackedCamera> cameras) {
   const auto tilt = tilt_of(robot, samples, sightings, cameras);
   if (!tilt || tilt->angle_rad() < tilt_limit(robot) + 3 * tilt->sigma) return "";
-  return fmt::format("; its tag is tilted by {:.0f} degrees", tilt->angle_rad() / kDegree);
+  return fmt::format("; its tag is tilted by some {:.0f} degrees", tilt->angle_rad() / kDegree);
 }
 
 }  // namespace swarmsmith

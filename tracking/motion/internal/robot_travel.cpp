@@ -83,9 +83,14 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
     const double sigma = kind == CycleKind::Measured
                              ? 0
                              : hypot(track.sigmas[i - 1].sigma_m, track.sigmas[i].sigma_m);
-    steps.push_back({instant_s(cycle - 1), instant_s(cycle), dx * half_way.cos + dy * half_way.sin,
-                     dy * half_way.cos - dx * half_way.sin, turn, sigma,
-                     touched || touched_before});
+    steps.push_back({.from_s = instant_s(cycle - 1),
+                     .to_s = instant_s(cycle),
+                     .ahead_m = dx * half_way.cos + dy * half_way.sin,
+                     .aside_m = dy * half_way.cos - dx * half_way.sin,
+                     .turn_rad = turn,
+                     .turn_sigma_rad = 1.5 * track.sigma.sigma_rad,
+                     .sigma_m = sigma,
+                     .touches = touched || touched_before});
   }
   return steps;
 }

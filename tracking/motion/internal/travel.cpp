@@ -44,6 +44,7 @@ std::vector<TravelStep> free_steps(std::span<const TravelStep> steps, int stride
     whole.ahead_m += step.ahead_m;
     whole.aside_m += step.aside_m;
     whole.turn_rad += step.turn_rad;
+    whole.turn_sigma_rad = step.turn_sigma_rad;
     whole.sigma_m = std::max(whole.sigma_m, step.sigma_m);
     ++in_a_row;
   }
@@ -61,7 +62,8 @@ struct Sums {
 struct Line {
   Eigen::Vector2d normal{1, 0};  ///< of the ways (aside, ahead) that treads can go
   double ahead_m = 0;
-  double most = 0;  ///< eigenvalue along the ways
+  double most = 0;     ///< eigenvalue along the ways
+  double by_turn = 0;  ///< way that goes with the turns, metres a radian
 };
 
 double residual(const TravelStep& step, const Line& line) {
@@ -69,7 +71,8 @@ double residual(const TravelStep& step, const Line& line) {
          line.ahead_m * step.turn_rad;
 }
 
-Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& weights) {
+Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& weights,
+              bool with_place) {
   Sums sums;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Eigen::Vector2d way(steps[i].aside_m, steps[i].ahead_m);
@@ -77,7 +80,7 @@ Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& w
     sums.with_turn += weights[i] * steps[i].turn_rad * way;
     sums.turn += weights[i] * steps[i].turn_rad * steps[i].turn_rad;
   }
-  const bool turns = sums.turn > 1e-9;
+  const bool turns = with_place && sums.turn > 1e-9;
   Eigen::Matrix2d rest = sums.way;
   if (turns) rest -= sums.with_turn * sums.with_turn.transpose() / sums.turn;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(rest);
@@ -85,6 +88,7 @@ Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& w
   line.normal = axes.eigenvectors().col(0);
   line.most = axes.eigenvalues()(1);
   if (turns) line.ahead_m = line.normal.dot(sums.with_turn) / sums.turn;
+  if (turns) line.by_turn = sums.with_turn.norm() / sums.turn;
   return line;
 }
 
@@ -95,10 +99,10 @@ double median_of(std::vector<double> values) {
 }
 
 /// Least absolute residuals, by weights: a minority that was pushed does not turn the line.
-Line robust_line(const std::vector<TravelStep>& steps, double& sigma_m) {
+Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& sigma_m) {
   constexpr int kRounds = 20;
   std::vector<double> weights(steps.size(), 1);
-  Line line = fit_line(steps, weights);
+  Line line = fit_line(steps, weights, with_place);
   std::vector<double> off(steps.size());
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < steps.size(); ++i)
@@ -106,7 +110,7 @@ Line robust_line(const std::vector<TravelStep>& steps, double& sigma_m) {
     sigma_m = std::max(kLeastStepSigma_m, median_of(off) / kMedianOfNormal);
     for (std::size_t i = 0; i < steps.size(); ++i)
       weights[i] = 1 / std::max(off[i], 2 * sigma_m);
-    line = fit_line(steps, weights);
+    line = fit_line(steps, weights, with_place);
   }
   // From those that fit, with equal weights, so that the errors of the result are known.
   double squares = 0;
@@ -119,7 +123,44 @@ Line robust_line(const std::vector<TravelStep>& steps, double& sigma_m) {
   }
   if (count < 10) return line;
   sigma_m = std::max(kLeastStepSigma_m, std::sqrt(squares / count));
-  return fit_line(steps, weights);
+  return fit_line(steps, weights, with_place);
+}
+
+}  // namespace
+
+namespace {
+
+/// Both unknowns, or the heading alone.
+TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
+  TravelFit fit;
+  double sigma_m = 0;
+  const Line line = robust_line(steps, with_place, sigma_m);
+  fit.step_sigma_m = sigma_m;
+  const auto count = static_cast<double>(steps.size());
+  double turned = std::atan2(line.normal(1), line.normal(0));
+  double forward = 0;
+  double backward = 0;
+  double turns = 0;
+  for (const TravelStep& step : steps) {
+    const double along = step.ahead_m * std::cos(turned) - step.aside_m * std::sin(turned);
+    forward += along;
+    turns += step.turn_rad * step.turn_rad;
+    if (std::fabs(along) <= 3 * sigma_m) continue;
+    fit.way_m += std::fabs(along);
+    if (step.ahead_m < 0) backward += std::fabs(along);
+  }
+  // The true heading is the sense in which it goes more.
+  fit.turned_rad = forward < 0 ? wrap_angle(turned + kPi) : turned;
+  fit.ahead_m = forward < 0 ? -line.ahead_m : line.ahead_m;
+  fit.backward_share = fit.way_m > 0 ? backward / fit.way_m : 0;
+  fit.turned_sigma_rad = sigma_m / std::sqrt(std::max(line.most, 1e-12));
+  // Noise of the turns looks like a way where way and turn always go together.
+  const double noise_m = hypot(sigma_m, line.by_turn * steps.front().turn_sigma_rad);
+  fit.knows_heading = line.most > kOverNoise * count * noise_m * noise_m &&
+                      fit.turned_sigma_rad < kHeadingTold_rad && fit.way_m >= kLeastWay_m;
+  fit.ahead_sigma_m = sigma_m / std::sqrt(std::max(turns, 1e-12));
+  fit.knows_ahead = with_place && fit.knows_heading && fit.ahead_sigma_m < kAheadTold_m;
+  return fit;
 }
 
 }  // namespace
@@ -127,43 +168,16 @@ Line robust_line(const std::vector<TravelStep>& steps, double& sigma_m) {
 TravelFit fit_travel(std::span<const TravelStep> all) {
   constexpr std::size_t kLeastSteps = 20;
   TravelFit fit;
-  for (const int stride : {1, 5}) {
-    const std::vector<TravelStep> steps = free_steps(all, stride);
-    if (steps.size() < kLeastSteps) return fit;
-    double sigma_m = 0;
-    const Line line = robust_line(steps, sigma_m);
-    if (stride == 1) fit.step_sigma_m = sigma_m;
-    const auto count = static_cast<double>(steps.size());
-    double turned = std::atan2(line.normal(1), line.normal(0));
-    double ahead_m = line.ahead_m;
-    double forward = 0;
-    double way = 0;
-    double backward_measured = 0;
-    double turns = 0;
-    for (const TravelStep& step : steps) {
-      const double along = step.ahead_m * std::cos(turned) - step.aside_m * std::sin(turned);
-      forward += along;
-      if (std::fabs(along) > 3 * sigma_m) {
-        way += std::fabs(along);
-        if (step.ahead_m < 0) backward_measured += std::fabs(along);
-      }
-      turns += step.turn_rad * step.turn_rad;
+  double step_sigma_m = 0;
+  for (const bool with_place : {true, false}) {
+    for (const int stride : {1, 5}) {
+      const std::vector<TravelStep> steps = free_steps(all, stride);
+      if (steps.size() < kLeastSteps) continue;
+      fit = fit_of(steps, with_place);
+      if (step_sigma_m == 0) step_sigma_m = fit.step_sigma_m;
+      fit.step_sigma_m = step_sigma_m;
+      if (fit.knows_heading) return fit;
     }
-    // The true heading is the sense in which it goes more.
-    if (forward < 0) {
-      turned = wrap_angle(turned + kPi);
-      ahead_m = -ahead_m;
-    }
-    fit.way_m = way;
-    fit.backward_share = way > 0 ? backward_measured / way : 0;
-    fit.turned_rad = turned;
-    fit.turned_sigma_rad = sigma_m / std::sqrt(std::max(line.most, 1e-12));
-    fit.knows_heading = line.most > kOverNoise * count * sigma_m * sigma_m &&
-                        fit.turned_sigma_rad < kHeadingTold_rad && way >= kLeastWay_m;
-    fit.ahead_m = ahead_m;
-    fit.ahead_sigma_m = sigma_m / std::sqrt(std::max(turns, 1e-12));
-    fit.knows_ahead = fit.knows_heading && fit.ahead_sigma_m < kAheadTold_m;
-    if (fit.knows_heading) return fit;
   }
   return fit;
 }
