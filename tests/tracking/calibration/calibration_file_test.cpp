@@ -98,7 +98,7 @@ TEST(CalibrationFileTest, TextsReadBackToTheSameBits) {
 TEST(CalibrationFileTest, ErrorsNameLineColumnAndKey) {
   const std::string text = calibration_text(camera());
   EXPECT_THAT(first_error(parse_camera_calibration(replaced(text, "fx = 1015.1", "fx = nan"), "f")),
-              AllOf(HasSubstr("f:18:6"), HasSubstr("E_CONFIG"), HasSubstr("`fx`")));
+              AllOf(HasSubstr("f:19:6"), HasSubstr("E_CONFIG"), HasSubstr("`fx`")));
   EXPECT_THAT(first_error(parse_camera_calibration(replaced(text, "fx =", "fz ="), "f")),
               HasSubstr("needs `fx`"));
   EXPECT_THAT(first_error(parse_camera_calibration("format = 1\nkind = ", "f")),

@@ -62,14 +62,28 @@ bool touches(const std::span<const Pose> poses, std::size_t robot, const Arena& 
   return false;
 }
 
+/// Where a robot gains or loses speed it goes on in its old direction for a moment.
+void mark_unsteady(std::vector<TravelStep>& steps, double sigma_m) {
+  constexpr double kSteady_m = 0.0015;
+  constexpr double kSigmas = 4;
+  const auto way = [&](std::size_t i) { return hypot(steps[i].ahead_m, steps[i].aside_m); };
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    if (std::fabs(way(i) - way(i - 1)) <= kSteady_m + kSigmas * sigma_m) continue;
+    steps[i].is_steady = false;
+    steps[i - 1].is_steady = false;
+  }
+}
+
 std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track, std::size_t robot,
                                  const Arena& arena, double reach_m) {
   std::vector<TravelStep> steps;
   const int cycles = run.trajectory.instants();
-  bool touched = touches(poses_at(run, 0), robot, arena, reach_m);
+  // A body that was pushed slides on until the floor has stopped it.
+  constexpr int kSlides = 10;
+  int touched = touches(poses_at(run, 0), robot, arena, reach_m) ? 0 : -kSlides - 1;
   for (int cycle = 1; cycle <= cycles; ++cycle) {
-    const bool touched_before = touched;
-    touched = touches(poses_at(run, cycle), robot, arena, reach_m);
+    const int touched_before = touched;
+    if (touches(poses_at(run, cycle), robot, arena, reach_m)) touched = cycle;
     const auto i = static_cast<std::size_t>(cycle);
     const CycleKind kind = std::max(track.kinds[i - 1], track.kinds[i]);
     // Across longer gaps it may have turned there and back.
@@ -90,8 +104,9 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
                      .turn_rad = turn,
                      .turn_sigma_rad = 1.5 * track.sigma.sigma_rad,
                      .sigma_m = sigma,
-                     .touches = touched || touched_before});
+                     .touches = cycle - std::max(touched, touched_before) <= kSlides});
   }
+  mark_unsteady(steps, track.sigma.sigma_m);
   return steps;
 }
 

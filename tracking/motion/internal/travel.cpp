@@ -27,7 +27,7 @@ std::vector<TravelStep> free_steps(std::span<const TravelStep> steps, int stride
   for (const TravelStep& step : steps) {
     const bool goes_on = !made.empty() && in_a_row > 0 && in_a_row < stride &&
                          std::fabs(made.back().to_s - step.from_s) < kSameInstant_s;
-    if (step.touches) {
+    if (step.touches || !step.is_steady) {
       // Half a long step is as good as none.
       if (in_a_row > 0 && in_a_row < stride) made.pop_back();
       in_a_row = 0;

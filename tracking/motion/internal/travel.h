@@ -20,15 +20,16 @@ struct TravelStep {
   double aside_m = 0;  ///< to its left
   double turn_rad = 0;
   double turn_sigma_rad = 0;
-  double sigma_m = 0;    ///< of what is interpolated, beyond a sample's noise
-  bool touches = false;  ///< a wall, an obstacle or a robot, which may have pushed it
+  double sigma_m = 0;     ///< of what is interpolated, beyond a sample's noise
+  bool touches = false;   ///< a wall, an obstacle or a robot, or just did, and may slide from it
+  bool is_steady = true;  ///< neither gains nor loses speed, when a body slides over its treads
 };
 
 /// What all of a run's free steps say of a tag. A heading that is off by `turned` and a point that
 /// lies `ahead` of the middle between the treads move so in each step:
 /// aside * cos(turned) + ahead_m * sin(turned) = ahead * turn. Both are fitted with weights that
-/// leave single pushes out. A robot that drives one and the same arc leaves open which of the two it
-/// is: then the heading is fitted alone, as if the point were right.
+/// leave single pushes out. A robot that drives one and the same arc leaves open which of the two
+/// it is: then the heading is fitted alone, as if the point were right.
 struct TravelFit {
   double way_m = 0;  ///< along the treads, without touch
   bool knows_heading = false;
