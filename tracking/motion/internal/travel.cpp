@@ -183,12 +183,14 @@ TravelFit fit_travel(std::span<const TravelStep> all) {
 }
 
 std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit) {
-  /// What treads slip and single bumps may add: a length, and a share of the way.
+  /// What slip and single bumps may add: a length, and a share of the way. A skid may add more.
   struct Window {
     double length_s;
     double slip_m;
+    bool with_skids;
   };
-  constexpr std::array<Window, 2> kWindows{{{1, 0.03}, {5, 0.05}}};
+  constexpr std::array<Window, 4> kWindows{
+      {{1, 0.03, false}, {5, 0.05, false}, {1, 0.1, true}, {5, 0.15, true}}};
   constexpr double kSlip = 0.1;
   constexpr double kSigmas = 4;
   const double cosine = fit.knows_heading ? std::cos(fit.turned_rad) : 1;
@@ -201,7 +203,7 @@ std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const Travel
     double way = 0;
     double squares = 0;
     const auto add = [&](const TravelStep& step, double sign) {
-      if (step.touches) return;
+      if (step.touches || (step.skids && !window.with_skids)) return;
       aside += sign * (cosine * step.aside_m + sine * step.ahead_m - ahead_m * step.turn_rad);
       way += sign * std::fabs(cosine * step.ahead_m - sine * step.aside_m);
       squares += sign * (fit.step_sigma_m * fit.step_sigma_m + step.sigma_m * step.sigma_m);
