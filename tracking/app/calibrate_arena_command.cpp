@@ -14,6 +14,7 @@
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/solve_place.h"
 #include "tracking/detection/tag_detector.h"
+#include "tracking/rig/lens_reach.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith::cli {
@@ -133,6 +134,15 @@ Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
   return question;
 }
 
+Error beyond_reach(const CameraSetup& camera, double share) {
+  return error_of(IssueCode::CalibrationQuality,
+                  fmt::format("{:.0f} % of the arena lies where the board never was in the picture "
+                              "(limit {:.0f} %), where the lens is a guess; take pictures with the "
+                              "board there, too, and `calibrate camera` again",
+                              100 * share, 100 * kMostBeyondReach),
+                  camera.model_file);
+}
+
 ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& camera,
                const Arena& arena, Output& output) {
   const auto model = rig.files.find(camera.model_file);
@@ -147,6 +157,11 @@ ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& ca
   if (!question) return fail_all(output, {question.error()});
   auto calibration = solve_place(*question);
   if (!calibration) return fail_all(output, {calibration.error()});
+  const auto beyond =
+      share_beyond_reach(rig.models.at(camera.model_file), calibration->place, arena);
+  if (beyond && *beyond > kMostBeyondReach) {
+    return fail_all(output, {beyond_reach(camera, *beyond)});
+  }
   calibration->camera_sha256 = model->second.sha256;
   calibration->made = utc_now();
   const std::string made = beside(arguments.arena, camera.place_file);

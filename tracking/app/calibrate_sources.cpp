@@ -12,6 +12,7 @@
 #include "base/text/whole_file.h"
 #include "console/counter.h"
 #include "tracking/geometry/tag_pose.h"
+#include "tracking/motion/track_run.h"
 #include "tracking/observing/observe.h"
 
 namespace swarmsmith::cli {
@@ -41,18 +42,28 @@ Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& sourc
   return std::optional(std::move(*times));
 }
 
-/// A tag that is not as large as declared, or not as high.
-std::optional<Error> wrong_size(const RobotSetup& robot, std::vector<double> scales) {
-  constexpr double kTolerance = 0.05;
+/// A tag that is not as large as declared, or not as high: refused beyond the limit of runs, a note
+/// below it.
+std::optional<Error> wrong_size(const RobotSetup& robot, double camera_height_m,
+                                std::vector<double> scales, Output& output) {
+  const TrackLimits limits;
   const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
   std::nth_element(scales.begin(), middle, scales.end());
-  if (std::abs(*middle - 1) <= kTolerance) return std::nullopt;
-  return error_of(
-      IssueCode::TagSize,
-      fmt::format("tag {} of \"{}\": its edge measures {:.1f} mm, declared are {:.1f} "
-                  "mm; check `edge` (the black border) and `height` in the arena file",
-                  robot.tag, robot.name, *middle * robot.edge_m * 1000, robot.edge_m * 1000),
-      "");
+  const double off = std::abs(*middle - 1);
+  if (off <= limits.scale_warning) return std::nullopt;
+  // The plane in which a tag of the declared edge would look like this one.
+  const double height = camera_height_m - (camera_height_m - robot.height_m) / *middle;
+  const std::string text = fmt::format(
+      "tag {} of \"{}\": its edge measures {:.1f} mm, declared are {:.1f} mm ({:+.1f} %, limit "
+      "{:.0f} "
+      "%): either its `edge` (the black border) is {:.1f} mm, or its `height` is {:.3f} m and not "
+      "{:.3f} m; measure both",
+      robot.tag, robot.name, *middle * robot.edge_m * 1000, robot.edge_m * 1000,
+      100 * (*middle - 1), 100 * limits.scale_tolerance, *middle * robot.edge_m * 1000, height,
+      robot.height_m);
+  if (off > limits.scale_tolerance) return error_of(IssueCode::TagSize, text, "");
+  print_note(output, "note: " + text);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -138,7 +149,8 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
                                            robot.tag, robot.name),
                                video));
   }
-  if (const auto wrong = wrong_size(robot, std::move(scales))) return Unexpected(*wrong);
+  if (const auto wrong = wrong_size(robot, view->place.centre().z, std::move(scales), output))
+    return Unexpected(*wrong);
   return path;
 }
 

@@ -80,6 +80,7 @@ OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
     options.span.lengths_s.push_back(video.length_s);
   options.other_tags = other_tags(whole_rig, log);
   options.points = log.points;
+  options.body = log.mission.body;
   options.scored_at_the_end = is_scored_at_the_end(log.mission);
   options.takes_tags_for_centres = takes_tags_for_centres;
   auto tracked = track_run(observations, rig, log.mission.arena, options);

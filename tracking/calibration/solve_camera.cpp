@@ -169,6 +169,9 @@ FrameCoverage coverage_of(std::span<const ImagePoint> corners, ImageSize size) {
   }
   std::vector<cv::Point2f> hull;
   cv::convexHull(all, hull);
+  for (const cv::Point2f& corner : hull)
+    coverage.hull.push_back({std::round(10 * static_cast<double>(corner.x)) / 10,
+                             std::round(10 * static_cast<double>(corner.y)) / 10});
   coverage.share = cv::contourArea(hull) / (static_cast<double>(size.width) * size.height);
   return coverage;
 }
@@ -214,6 +217,7 @@ Expected<CameraSolution> solve_camera(std::span<const BoardView> views, ImageSiz
     const FrameCoverage coverage = coverage_of(corners, size);
     solution.ninths = coverage.ninths;
     solution.calibration.coverage = coverage.share;
+    solution.calibration.hull = coverage.hull;
     break;
   }
   solution.calibration.views = static_cast<int>(used.size());

@@ -27,8 +27,9 @@ struct SolvedView {
 
 /// How corners lie in a frame.
 struct FrameCoverage {
-  std::array<int, 9> ninths{};  ///< corners in each ninth, by rows
-  double share = 0;             ///< of the frame within the corners' hull
+  std::array<int, 9> ninths{};   ///< corners in each ninth, by rows
+  double share = 0;              ///< of the frame within the corners' hull
+  std::vector<ImagePoint> hull;  ///< rounded to a tenth of a pixel
 };
 FrameCoverage coverage_of(std::span<const ImagePoint> corners, ImageSize size);
 

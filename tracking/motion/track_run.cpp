@@ -7,8 +7,11 @@
 #include <set>
 #include <utility>
 
+#include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_track.h"
+#include "tracking/motion/internal/robot_travel.h"
 #include "tracking/rig/calibration_limits.h"
+#include "tracking/rig/lens_reach.h"
 
 namespace swarmsmith {
 namespace {
@@ -71,7 +74,9 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
                                              size_text(view->camera.size), size_text(record.size)),
                                  record.file.empty() ? setup->model_file : record.file));
     }
-    cameras.push_back({setup->name, *view, span.starts_s[i], place_error(rig, *setup)});
+    const auto& lens = rig.models.at(setup->model_file);
+    cameras.push_back({setup->name, *view, span.starts_s[i], place_error(rig, *setup),
+                       lens.rms_px / lens.model.fx, setup->time_error_s});
   }
   return cameras;
 }
@@ -85,7 +90,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
     if (offset.tag == setup.tag) {
       run.checks.push_back(answered(kOffset, setup.name, Check::Outcome::Passed,
                                     1000 * offset.rms_m, 1000 * OffsetLimits{}.rms_m));
-      return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m)};
+      return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m), true,
+                         offset.has_yaw};
     }
     reason = fmt::format("the offset calibration `{}` of {} is of tag {}, and it carries tag {}",
                          setup.offset_file, setup.name, offset.tag, setup.tag);
@@ -103,7 +109,7 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
                         setup.name,
                         {},
                         {}});
-  return TaggedRobot{setup, {}, 0};
+  return TaggedRobot{setup, {}};
 }
 
 /// Numbers of the run's sightings by their tag.
@@ -218,6 +224,42 @@ TrackOptions for_rate(TrackOptions options, double frame_rate) {
   return options;
 }
 
+/// Whether each lens was calibrated where the arena is in its picture.
+void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
+  for (const CameraSetup& camera : rig.cameras) {
+    const std::optional<View> view = rig.view_of(camera);
+    if (!view) continue;
+    const auto share = share_beyond_reach(rig.models.at(camera.model_file), view->place, arena);
+    Check check{.name = "reach of the lens calibration",
+                .subject = camera.name,
+                .value = {},
+                .limit = 100 * kMostBeyondReach,
+                .unit = "%",
+                .catches = "a lens that is a guess where robots drive",
+                .reason = {}};
+    if (!share) {
+      check.outcome = Check::Outcome::NotRun;
+      check.reason = "its file does not say where the board was; `calibrate camera` again";
+    } else {
+      check.value = 100 * *share;
+    }
+    const bool is_beyond = share && *share > kMostBeyondReach;
+    if (is_beyond) {
+      check.outcome = Check::Outcome::Failed;
+      run.issues.push_back(
+          {IssueCode::CalibrationQuality,
+           fmt::format(
+               "{:.0f} % of the arena lies where the board never was in the picture of camera "
+               "{} (limit {:.0f} %), where its lens is a guess; calibrate it there, too",
+               100 * *share, camera.name, 100 * kMostBeyondReach),
+           {},
+           {},
+           {}});
+    }
+    run.checks.push_back(std::move(check));
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(CycleKind kind) {
@@ -251,6 +293,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                  .checks = frames.checks};
   const SightingsByTag sightings = sightings_of(observations, *cameras, options);
   list_unknown(sightings, rig, options, run);
+  std::vector<TaggedRobot> robots;
   std::vector<RobotTrack> tracks;
   for (const RobotSetup& setup : rig.robots) {
     const Expected<TaggedRobot> robot = tagged_robot(setup, rig, options, run);
@@ -260,13 +303,22 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
         samples_of(*robot, observations.sightings,
                    seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
                    arena, options);
-    if (!is_seen_early(samples))
-      return Unexpected(missing(*robot, samples, frames, spans_text(observations, *cameras)));
+    if (!is_seen_early(samples)) {
+      Error error = missing(*robot, samples, frames, spans_text(observations, *cameras));
+      error.message += tilt_clause(setup, samples.samples, observations.sightings, *cameras);
+      return Unexpected(std::move(error));
+    }
     tracks.push_back(track_of(*robot, samples, *cameras, options));
     run.robots.push_back(tracked_robot(*robot, std::move(samples), tracks.back(), frames, options,
                                        run.issues, run.checks));
+    robots.push_back(*robot);
   }
   join(tracks, options.span.cycles, run);
+  judge_lenses(rig, arena, run);
+  const std::vector<TagEvidence> evidence =
+      judge_tags(robots, observations, *cameras, rig, options.limits, run);
+  judge_travel(robots, tracks, arena, options, run);
+  add_known_errors(robots, evidence, *cameras, rig, run);
   return run;
 }
 

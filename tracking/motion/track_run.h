@@ -33,8 +33,10 @@ struct TrackLimits {
   double degraded_gap_s = 1.0;
   double last_instant_gap_s = 0.2;  ///< at the end of a mission that is scored there
   double interpolated_share = 0.05;
-  double outside_m = 0.15;  ///< beyond the walls
-  double scale_tolerance = 0.05;
+  double outside_m = 0.15;        ///< beyond the walls
+  double scale_tolerance = 0.03;  ///< of a tag: its height or edge is wrong
+  double scale_warning = 0.01;  ///< what an edge measured to half a millimetre may be off by twice
+  double scale_scatter = 0.05;  ///< of one sample from the others
   double residual_m = 0.0015;
   double least_frame_rate = 10;
   double dropped_share = 0.05;
@@ -46,6 +48,7 @@ struct TrackOptions {
   std::vector<HandPoint> points;  ///< by hand
   std::vector<int> other_tags;    ///< that are expected in the picture: the tag of a sync event
   TrackLimits limits;
+  Outline body = BoxOutline{kBodySide_m, kBodySide_m};  ///< of the robots: what may touch
   bool scored_at_the_end = false;       ///< the mission's score sees the last instant alone
   bool takes_tags_for_centres = false;  ///< where a robot has no offset
   bool corrects_height = true;          ///< false only to show what the error would be

@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "base/text/table_reader.h"
@@ -94,6 +95,32 @@ bool read_head(TableReader& root, const std::string& kind) {
   return false;
 }
 
+/// Corners of a hull, u and v in turn; none in files of the time before they were kept.
+std::vector<ImagePoint> read_hull(TableReader& table) {
+  constexpr std::size_t kMost = 2000;
+  const Node* node = table.take("hull");
+  if (node == nullptr) return {};
+  const auto* array = std::get_if<Array>(&node->value);
+  std::vector<double> values;
+  for (std::size_t i = 0; array != nullptr && i < array->items.size() && i < kMost; ++i) {
+    const auto& value = array->items[i].value;
+    if (const auto* real = std::get_if<double>(&value)) values.push_back(*real);
+    if (const auto* whole = std::get_if<std::int64_t>(&value))
+      values.push_back(static_cast<double>(*whole));
+  }
+  const auto is_in_reach = [](double value) { return std::abs(value) <= 1e6; };
+  const bool good = array != nullptr && values.size() == array->items.size() &&
+                    values.size() % 2 == 0 && std::ranges::all_of(values, is_in_reach);
+  if (!good) {
+    table.complain("hull", "`hull` must be a list of pixels, u and v in turn");
+    return {};
+  }
+  std::vector<ImagePoint> hull;
+  for (std::size_t i = 0; i < values.size(); i += 2)
+    hull.push_back({values[i], values[i + 1]});
+  return hull;
+}
+
 /// A row of numbers, exactly as many as wanted.
 std::vector<double> row_of(TableReader& table, const char* key, std::size_t count) {
   std::vector<double> values(count);
@@ -178,6 +205,7 @@ OrComplaints<CameraCalibration> parse_camera_calibration(std::string_view text,
   calibration.rms_px = number_of(root, "rms_px", kNotNegative);
   calibration.worst_view_px = number_of(root, "worst_view_px", kNotNegative);
   calibration.coverage = number_of(root, "coverage", kShare);
+  calibration.hull = read_hull(root);
   calibration.focal_sigma_px = number_of(root, "focal_sigma_px", kNotNegative);
   need(root, "model");
   if (auto model = root.table("model")) calibration.model = read_model(*model);

@@ -24,10 +24,22 @@ class Faults {
   std::vector<Error> errors_;
 };
 
+/// What pixels are on a floor, for people; the camera need not hang yet.
+constexpr double kFloor_m = 2.5;
+
+std::string on_the_floor(double pixels, const CameraModel& model) {
+  return fmt::format("{} on a floor {} m below", millimetres(kFloor_m * pixels / model.fx),
+                     kFloor_m);
+}
+
 }  // namespace
 
 std::string millimetres(double metres) {
   return fmt::format("{:.2f} mm", metres * 1000);
+}
+
+double rms_limit_px(const CameraModel& model, const CameraLimits& limits) {
+  return std::max(limits.least_px, limits.rms_rad * std::min(model.fx, model.fy));
 }
 
 std::vector<Error> faults_of(const CameraCalibration& calibration, const CameraLimits& limits) {
@@ -38,15 +50,18 @@ std::vector<Error> faults_of(const CameraCalibration& calibration, const CameraL
                 fmt::format("{} usable views, at least {} are needed; take more pictures of the "
                             "board, 15 or more, from differing sides",
                             calibration.views, limits.least_views));
-  faults.add_if(!(calibration.rms_px <= limits.rms_px), kCode,
-                fmt::format("RMS reprojection {:.3f} px, limit {} px; is the board flat, its "
-                            "square measured, the focus locked, every picture sharp? A lens of "
-                            "over 100 degrees needs --lens fisheye",
-                            calibration.rms_px, limits.rms_px));
-  faults.add_if(!(calibration.coverage >= limits.least_coverage), kCode,
+  const double most_px = rms_limit_px(model, limits);
+  faults.add_if(!(calibration.rms_px <= most_px), kCode,
+                fmt::format("RMS reprojection {:.3f} px, limit {:.2f} px ({}; limit {}); is the "
+                            "board flat, its square measured, the focus locked, every picture "
+                            "sharp? A lens of over 100 degrees needs --lens fisheye",
+                            calibration.rms_px, most_px, on_the_floor(calibration.rms_px, model),
+                            millimetres(kFloor_m * most_px / model.fx)));
+  const double least = calibration.hull.empty() ? limits.good_coverage : limits.least_coverage;
+  faults.add_if(!(calibration.coverage >= least), kCode,
                 fmt::format("the corners' hull covers {:.0f} % of the frame, at least {:.0f} % is "
                             "needed; bring the board into the corners of the picture, too",
-                            calibration.coverage * 100, limits.least_coverage * 100));
+                            calibration.coverage * 100, least * 100));
   const double aspect = std::abs(model.fx / model.fy - 1);
   faults.add_if(!(aspect <= limits.aspect), kCode,
                 fmt::format("fx {:.1f} and fy {:.1f} differ by {:.1f} %, limit {:.0f} %; take "
@@ -69,11 +84,18 @@ std::vector<Error> faults_of(const CameraCalibration& calibration, const CameraL
 std::vector<std::string> cautions_of(const CameraCalibration& calibration,
                                      const CameraLimits& limits) {
   std::vector<std::string> cautions;
-  if (calibration.rms_px > limits.good_rms_px) {
-    cautions.push_back(
-        fmt::format("RMS {:.3f} px is above {} px: the board may not be flat, or "
-                    "pictures are blurred",
-                    calibration.rms_px, limits.good_rms_px));
+  const double good_px = std::max(limits.least_px / 2, limits.good_rms_rad * calibration.model.fx);
+  if (calibration.rms_px > good_px) {
+    cautions.push_back(fmt::format(
+        "RMS {:.3f} px ({}) is above {:.2f} px: the board may not be flat, or pictures "
+        "are blurred",
+        calibration.rms_px, on_the_floor(calibration.rms_px, calibration.model), good_px));
+  }
+  if (calibration.coverage < limits.good_coverage) {
+    cautions.push_back(fmt::format(
+        "the corners' hull covers {:.0f} % of the frame: the arena must lie within it, which "
+        "`calibrate arena` asks for; {:.0f} % are safe",
+        calibration.coverage * 100, limits.good_coverage * 100));
   }
   const double focal = std::max(calibration.model.fx, calibration.model.fy);
   if (calibration.focal_sigma_px > limits.focal_sigma * focal) {

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <cmath>
 #include <span>
+#include <vector>
 
 #include "base/math.h"
 #include "base/text/toml_text.h"
+#include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
@@ -22,6 +25,15 @@ std::string head(const char* what, const char* kind, const std::string& made) {
          line("made", quoted_text(made));
 }
 
+std::vector<double> pairs_of(const std::vector<ImagePoint>& points) {
+  std::vector<double> pairs;
+  for (const ImagePoint& point : points) {
+    pairs.push_back(point.u);
+    pairs.push_back(point.v);
+  }
+  return pairs;
+}
+
 }  // namespace
 
 std::string calibration_text(const CameraCalibration& calibration) {
@@ -35,10 +47,11 @@ std::string calibration_text(const CameraCalibration& calibration) {
          line("board", quoted_text(calibration.board)) +
          line("views", std::to_string(calibration.views), "used; at least 10") +
          line("views_dropped", std::to_string(calibration.views_dropped), "as outliers") +
-         line("rms_px", number_text(calibration.rms_px), "reprojection; at most 0.3") +
+         line("rms_px", number_text(calibration.rms_px),
+              "reprojection; limit " + number_text(std::round(100 * rms_limit_px(model)) / 100)) +
          line("worst_view_px", number_text(calibration.worst_view_px)) +
-         line("coverage", number_text(calibration.coverage),
-              "of the frame by the corners' hull; at least 0.7") +
+         line("coverage", number_text(calibration.coverage), "of the frame by the corners' hull") +
+         line("hull", numbers(pairs_of(calibration.hull)), "u and v of its corners, in turn") +
          line("focal_sigma_px", number_text(calibration.focal_sigma_px),
               "standard deviation of f; 0: not known (fisheye)") +
          "\n[model]\n" + line("width", std::to_string(model.size.width), "pixels") +

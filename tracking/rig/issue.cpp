@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 38> kNames = {"E_VIDEO_UNREADABLE",
+constexpr std::array<std::string_view, 43> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_VIDEO_TRUNCATED",
                                                      "E_CALIB_SIZE",
                                                      "E_CALIB_QUALITY",
@@ -47,8 +47,13 @@ constexpr std::array<std::string_view, 38> kNames = {"E_VIDEO_UNREADABLE",
                                                      "W_ROBOT_DEGRADED",
                                                      "E_ROBOT_INVALID",
                                                      "W_MOTION_UNLIKE_LOG",
-                                                     "W_SYNC_DIFFERS"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::SyncDiffers) + 1);
+                                                     "W_SYNC_DIFFERS",
+                                                     "E_TAG_TURNED",
+                                                     "W_HEADING_OFF",
+                                                     "E_PUSHED",
+                                                     "W_TAG_SIZE",
+                                                     "W_TILTED"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::Tilted) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

@@ -52,6 +52,11 @@ enum class IssueCode {
   RobotInvalid,     ///< the same, beyond what counts
   MotionUnlikeLog,  ///< a warning: a robot did not move as its log commands
   SyncDiffers,      ///< a warning: the log's start is not when the sync tag says
+  TagTurned,        ///< a robot's tag does not sit as it was calibrated, by how the robot moves
+  HeadingOff,       ///< a warning: the same, and no position is wrong by it
+  Pushed,           ///< a robot went where treads cannot take it
+  TagSizeDoubtful,  ///< a warning: a tag's size and height do not quite fit together
+  Tilted,           ///< a warning: a tag or its robot is not level
 };
 
 /// "E_GAP".

@@ -43,6 +43,7 @@ struct CameraSetup {
   double readout_s = 0;         ///< first row to last; 0 for a global shutter
   double least_height_m = 0.5;  ///< that it may hang at
   double most_height_m = 20;
+  double time_error_s = 0.005;  ///< one sigma of its stamps against the run's clock
 
   friend bool operator==(const CameraSetup&, const CameraSetup&) = default;
 };
@@ -50,9 +51,10 @@ struct CameraSetup {
 struct RobotSetup {
   std::string name;
   int tag = 0;
-  double edge_m = 0;        ///< of the tag's black border
-  double height_m = 0;      ///< of the tag's plane above the floor
-  std::string offset_file;  ///< of its OffsetCalibration; empty: none
+  double edge_m = 0;              ///< of the tag's black border
+  double height_m = 0;            ///< of the tag's plane above the floor
+  std::string offset_file;        ///< of its OffsetCalibration; empty: none
+  double height_error_m = 0.001;  ///< one sigma
 
   friend bool operator==(const RobotSetup&, const RobotSetup&) = default;
 };
@@ -70,11 +72,12 @@ struct CameraCalibration {
   CameraModel model;
   double rms_px = 0;
   double worst_view_px = 0;
-  int views = 0;              ///< used
-  int views_dropped = 0;      ///< as outliers
-  double coverage = 0;        ///< of the frame by the hull of the corners, 0 to 1
-  double focal_sigma_px = 0;  ///< standard deviation of f by the fit; 0: not known (fisheye)
-  std::string board;          ///< as it was described
+  int views = 0;                 ///< used
+  int views_dropped = 0;         ///< as outliers
+  double coverage = 0;           ///< of the frame by the hull of the corners, 0 to 1
+  std::vector<ImagePoint> hull;  ///< of the corners; empty in files that did not keep it
+  double focal_sigma_px = 0;     ///< standard deviation of f by the fit; 0: not known (fisheye)
+  std::string board;             ///< as it was described
   std::string made;
 };
 
@@ -120,6 +123,8 @@ struct Rig {
   std::vector<CameraSetup> cameras;  ///< at least one
   std::vector<ReferenceTag> references;
   std::vector<RobotSetup> robots;  ///< in the order of the score's robots
+  double survey_error_m = 0.002;   ///< one sigma of the floor tags' frame against the arena
+  double tilt_error_rad = 0.5 * 0.017453292519943295;  ///< one sigma of a robot's lean
   /// By the file's name in the setups; only those that exist.
   std::map<std::string, CalibrationFile> files;
   std::map<std::string, CameraCalibration> models;

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "base/math.h"
 #include "base/text/sha256.h"
 #include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
@@ -21,6 +22,9 @@ constexpr Limits<double> kTagHeight{0, 20};
 constexpr Limits<double> kCameraHeight{0.05, 100};
 /// Exposure and readout of a frame: a second is far beyond what can be tracked.
 constexpr Limits<double> kFrameTime{0, 1};
+/// One sigma of what people measure.
+constexpr Limits<double> kLengthError{0, 0.1};
+constexpr Limits<double> kTiltError{0, 20};
 
 /// The arena file while it is read.
 struct Reading {
@@ -69,6 +73,7 @@ CameraSetup read_camera(TableReader& table, const std::vector<std::string>& take
   }
   camera.exposure_s = table.seconds("exposure", kFrameTime).value_or(0);
   camera.readout_s = table.seconds("readout", kFrameTime).value_or(0);
+  camera.time_error_s = table.seconds("time_error", kFrameTime).value_or(camera.time_error_s);
   if (const auto height = table.interval("height", "a range of metres, such as [0.5, 20]")) {
     const bool good = height->least >= kCameraHeight.least && height->most <= kCameraHeight.most &&
                       height->least < height->most;
@@ -109,6 +114,7 @@ RobotSetup read_robot(TableReader& table, Reading& reading, const std::vector<st
                                  number_text(least) + " m; this is " + number_text(robot.height_m));
   }
   robot.offset_file = table.text("offset").value_or("");
+  robot.height_error_m = table.number("height_error", kLengthError).value_or(robot.height_error_m);
   table.finish();
   return robot;
 }
@@ -183,6 +189,10 @@ OrComplaints<Rig> parse_rig(std::string_view text, const std::filesystem::path& 
   reading.rig.file = file.filename().string();
   read_format(root);
   read_family(root, reading);
+  Rig& rig = reading.rig;
+  rig.survey_error_m = root.number("survey_error", kLengthError).value_or(rig.survey_error_m);
+  if (const auto tilt = root.number("tilt_error", kTiltError))
+    rig.tilt_error_rad = *tilt * kPi / 180;
   read_cameras(root, reading, find);
   for (TableReader& table : root.tables("reference"))
     reading.rig.references.push_back(read_reference(table, reading));

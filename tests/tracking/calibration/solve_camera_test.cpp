@@ -13,6 +13,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// What a script finds that calls OpenCV as its tutorial does.
 CameraModel solved_by_defaults(const std::vector<BoardView>& views, ImageSize size) {
@@ -109,12 +110,30 @@ TEST(SolveCameraTest, AFisheyeIsSolvedToo) {
   EXPECT_EQ(found.model.lens, Lens::Fisheye);
 }
 
+/// The same lens and pictures, twice as large: the limit is an angle, and no number of pixels.
+TEST(SolveCameraTest, TheLimitGrowsWithThePicture) {
+  CameraCalibration large;
+  large.model = wide_camera();
+  large.views = 20;
+  large.coverage = 0.9;
+  large.rms_px = 0.45;
+  EXPECT_EQ(faults(large), "");
+  CameraCalibration small = large;
+  small.model.size = {960, 540};
+  for (double* value : {&small.model.fx, &small.model.fy, &small.model.cx, &small.model.cy})
+    *value /= 2;
+  EXPECT_THAT(faults(small), HasSubstr("0.450 px, limit 0.25 px (2.22 mm on a floor 2.5 m below"));
+  small.rms_px /= 2;
+  EXPECT_EQ(faults(small), "");
+}
+
 TEST(SolveCameraTest, EachLimitRefusesWithItsValue) {
   const CameraModel camera = wide_camera();
   EXPECT_THAT(faults(solved(held_boards(camera, 9, 1), camera).calibration),
               AllOf(HasSubstr("E_CALIB_QUALITY"), HasSubstr("9 usable views, at least 10")));
   EXPECT_THAT(faults(solved(held_boards(camera, 17, 1, {.noise_px = 0.5}), camera).calibration),
-              AllOf(HasSubstr("RMS reprojection 0.7"), HasSubstr("limit 0.3 px")));
+              AllOf(HasSubstr("RMS reprojection 0.7"), HasSubstr("limit 0.51 px"),
+                    HasSubstr("on a floor 2.5 m below; limit 1.25 mm")));
   // The board never came into the right half.
   std::vector<BoardView> left;
   for (const BoardView& view : held_boards(camera, 60, 1)) {
@@ -122,7 +141,13 @@ TEST(SolveCameraTest, EachLimitRefusesWithItsValue) {
     if (std::ranges::all_of(view.seen, is_left)) left.push_back(view);
   }
   const CameraSolution half = solved(left, camera);
-  EXPECT_THAT(faults(half.calibration), HasSubstr("% of the frame, at least 70 %"));
+  EXPECT_THAT(faults(half.calibration), Not(HasSubstr("of the frame")));
+  EXPECT_THAT(cautions_of(half.calibration),
+              testing::Contains(HasSubstr("the arena must lie within it")));
+  // A file that does not say where its corners were needs all of the frame.
+  CameraCalibration old = half.calibration;
+  old.hull.clear();
+  EXPECT_THAT(faults(old), HasSubstr("% of the frame, at least 70 %"));
   EXPECT_EQ(half.ninths[2] + half.ninths[5] + half.ninths[8], 0);
   EXPECT_GT(half.ninths[0], 0);
 

@@ -175,6 +175,47 @@ TEST(CameraMovedTest, OfOneFloorTagTellsOnlyThatItMoved) {
   EXPECT_NE(find_issue(pushed.track().value(), IssueCode::CameraMoved), nullptr);
 }
 
+/// A robot stands half over a floor tag from then on, until another time: its corners are found
+/// elsewhere.
+void stand_on(SeenRun& seen, int tag, double from_s, double to_s) {
+  for (ReferenceLook& look : seen.observations.cameras[0].references) {
+    const double time = look.time_s - seen.options.span.starts_s[0];
+    if (look.tag != tag || time < from_s || time > to_s) continue;
+    for (ImagePoint& corner : look.corners)
+      corner.u += 1.4;
+  }
+}
+
+TEST(CameraMovedTest, ARobotOnOneOfTwoFloorTagsIsNoMovedCamera) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 300});
+  cover_references(seen, 102);
+  stand_on(seen, 101, 5, 9);
+  EXPECT_TRUE(seen.track()->issues.empty());
+  // Until the end, it cannot be told any more, which is a reason for doubt and no consent.
+  stand_on(seen, 101, 9.1, 100);
+  const TrackedRun run = seen.track().value();
+  ASSERT_EQ(run.issues.size(), 1U);
+  EXPECT_EQ(run.issues[0].code, IssueCode::CameraUnchecked);
+  // A camera that was pushed moves both.
+  SeenRun pushed = seen_run(on_circle, {.cycles = 300});
+  cover_references(pushed, 102);
+  for (ReferenceLook& look : pushed.observations.cameras[0].references) {
+    for (ImagePoint& corner : look.corners)
+      corner.v += look.time_s - pushed.options.span.starts_s[0] > 11 ? 1.5 : 0;
+  }
+  EXPECT_NE(find_issue(pushed.track().value(), IssueCode::CameraMoved), nullptr);
+}
+
+TEST(CameraMovedTest, AFloorTagAloneIsNoWitnessWhereTwoLaterOnesSayOtherwise) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 300});
+  stand_on(seen, 100, 5, 9);
+  std::erase_if(seen.observations.cameras[0].references, [&](const ReferenceLook& look) {
+    const double time = look.time_s - seen.options.span.starts_s[0];
+    return look.tag > 100 && time >= 5 && time <= 9;
+  });
+  EXPECT_TRUE(seen.track()->issues.empty());
+}
+
 TEST(CameraMovedTest, IsAskedForAtTheEndAsWell) {
   SeenRun seen = seen_run(on_circle, {.cycles = 300});
   cover_references(seen, 100, 15);

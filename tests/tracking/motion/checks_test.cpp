@@ -87,7 +87,7 @@ TEST(ChecksTest, SayWhatFailedWhereAndByHowMuch) {
     robot.edge_m = 0.09;
   const TrackedRun sized = wrong.track().value();
   expect_sound(sized, "edge");
-  const Check* scale = find_check(sized, "scale of the tag", "rvr3");
+  const Check* scale = find_check(sized, "size of the tag", "rvr3");
   EXPECT_EQ(scale->outcome, Outcome::Failed);
   EXPECT_NEAR(scale->value.value(), 100 * (0.1 / 0.09 - 1), 0.1);
 

@@ -119,6 +119,7 @@ SeenRun seen_run(const Truth& truth, const Seeing& seeing) {
     offset.robot = name;
     offset.tag = robot + 1;
     offset.offset = seeing.offset;
+    offset.has_yaw = true;
   }
   film(run, truth, seeing, view_from_above({0, 0}));
   return run;

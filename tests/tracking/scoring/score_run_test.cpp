@@ -48,22 +48,24 @@ TEST(ScoreRunTest, SaysWhatIsTooCloseToCall) {
   ASSERT_EQ(scored.reasons.size(), 1U);
   EXPECT_THAT(scored.reasons[0], HasSubstr("W_TOO_CLOSE_TO_CALL: rvr1 ends"));
   EXPECT_THAT(scored.reasons[0], HasSubstr("may count 1"));
-  // 5 mm are far with this noise.
-  EXPECT_EQ(score_run(standing_at(0.505), mission, {}, {})->verdict, Verdict::Valid);
+  // The noise is a tenth of a millimetre; survey, height and tilt are 2.7 mm, and 5 mm are within
+  // three of them.
+  EXPECT_EQ(score_run(standing_at(0.505), mission, {}, {})->verdict, Verdict::Degraded);
+  EXPECT_EQ(score_run(standing_at(0.512), mission, {}, {})->verdict, Verdict::Valid);
 }
 
 /// Between frames a robot is less sure than in them; what counts is how sure it is at the end.
 TEST(ScoreRunTest, AsksHowWellTheLastInstantIsKnown) {
   const Mission mission = mission_of("aggregation", 100);
-  TrackedRun run = standing_at(0.505);
-  run.robots[0].sigmas.front().sigma_m = 0.003;
+  TrackedRun run = standing_at(0.512);
+  run.robots[0].sigmas.front().sigma_m = 0.005;
   EXPECT_EQ(score_run(run, mission, {}, {})->verdict, Verdict::Valid);
-  run.robots[0].sigmas.back().sigma_m = 0.003;
+  run.robots[0].sigmas.back().sigma_m = 0.005;
   const ScoredRun scored = score_run(run, mission, {}, {}).value();
   EXPECT_EQ(scored.verdict, Verdict::Degraded);
   EXPECT_TRUE(scored.borders[0]->too_close);
-  EXPECT_EQ(scored.borders[0]->sigma_m, 0.003);
-  EXPECT_THAT(scored.reasons[0], HasSubstr("is known to 9.0 mm (3 sigma)"));
+  EXPECT_EQ(scored.borders[0]->sigma_m, 0.005);
+  EXPECT_THAT(scored.reasons[0], HasSubstr("is known to 15.0 mm (3 sigma)"));
 }
 
 TEST(ScoreRunTest, TheVerdictFollowsFromAllIssues) {

@@ -10,7 +10,6 @@
 namespace swarmsmith {
 namespace {
 
-constexpr Question kScale{"scale of the tag", "%", "a wrong height, edge or tag"};
 constexpr Question kTwins{"frames with its number twice", "", "a second tag of its number"};
 constexpr Question kGap{"longest gap", "s", "a robot that was hidden, carried or lost"};
 constexpr Question kJumps{"jumps", "", "a robot that was carried; another tag of its number"};
@@ -203,15 +202,7 @@ std::size_t twins_allowed(const RobotSamples& samples) {
   return std::max(kPersistent, share) - 1;
 }
 
-void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const TrackLimits& limits,
-               Complaints& complaints) {
-  if (std::fabs(samples.scale - 1) > limits.scale_tolerance) {
-    complaints.add(IssueCode::TagSize,
-                   fmt::format("measures {:.4f} m along its edge, declared are {:.4f} m ({:+.1f} "
-                               "%, limit {:.0f} %): check the tag's size and its height",
-                               samples.scale * robot.setup.edge_m, robot.setup.edge_m,
-                               100 * (samples.scale - 1), 100 * limits.scale_tolerance));
-  }
+void check_twins(const RobotSamples& samples, Complaints& complaints) {
   const std::vector<std::int64_t>& frames = samples.twice;
   if (frames.size() <= twins_allowed(samples)) return;
   complaints.add(IssueCode::DuplicateId,
@@ -308,9 +299,7 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
   };
   const auto next = [&] { first = issues.size(); };
   const TrackLimits& limits = options.limits;
-  check_tag(robot, samples, limits, complaints);
-  note(kScale, 100 * std::fabs(samples.scale - 1), 100 * limits.scale_tolerance,
-       IssueCode::TagSize);
+  check_twins(samples, complaints);
   note(kTwins, static_cast<double>(samples.twice.size()),
        static_cast<double>(twins_allowed(samples)), IssueCode::DuplicateId);
   made.samples = std::move(samples.samples);

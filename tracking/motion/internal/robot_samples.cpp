@@ -67,7 +67,7 @@ double drop_bad_fits(std::vector<Sample>& samples, double edge_m, const TrackLim
   int count = 0;
   for (Sample& sample : samples) {
     if (sample.use != Sample::Use::Used) continue;
-    if (std::fabs(sample.scale - usual) > limits.scale_tolerance ||
+    if (std::fabs(sample.scale - usual) > limits.scale_scatter ||
         residual_of_shape(sample, edge_m) > limits.residual_m) {
       sample.use = Sample::Use::BadFit;
       continue;

@@ -14,6 +14,8 @@ struct TrackedCamera {
   View view;
   double start_s = 0;        ///< of the run, on the camera's clock
   double place_error_m = 0;  ///< on the floor, one sigma, from its calibration
+  double lens_error_rad = 0;  ///< of a ray, one sigma, from its lens calibration
+  double time_error_s = 0;    ///< of its stamps, one sigma
 };
 
 /// A robot with what is known of its tag.
@@ -21,6 +23,8 @@ struct TaggedRobot {
   RobotSetup setup;
   TagOffset offset;
   double offset_sigma_m = 0;  ///< of one axis, from its calibration; 0 without one
+  bool has_offset = false;
+  bool has_yaw = false;  ///< a straight run told the heading
 };
 
 /// What was made of a robot's sightings.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tracking/motion/internal/robot_samples.h"
+#include "tracking/observing/observations.h"
+
+namespace swarmsmith {
+
+/// How a tag leans out of the plane that its robot's file gives it: the upward slope of its plane,
+/// in the axes of the measured tag.
+struct TagTilt {
+  double along = 0;  ///< its x axis
+  double aside = 0;  ///< its y axis
+  double sigma = 0;  ///< of each
+
+  double angle_rad() const;
+};
+
+/// From the shapes of a tag at several places: a plane that leans shears the picture of the tag,
+/// the more, the further it is from the point below the camera. Nothing
+/// when they are all near that point.
+std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> samples,
+                               const std::vector<Sighting>& sightings,
+                               std::span<const TrackedCamera> cameras);
+
+/// What its pictures say of a robot's tag, where that is more than is known of it beforehand.
+struct TagEvidence {
+  double height_off_m = 0;  ///< that its height may be wrong by
+  double tilt_rad = 0;      ///< that it leans
+};
+
+/// Asks of each robot whether its tag has the size that its height makes of it (E_TAG_SIZE,
+/// W_TAG_SIZE) and lies level (W_TILTED).
+std::vector<TagEvidence> judge_tags(const std::vector<TaggedRobot>& robots,
+                                    const Observations& observations,
+                                    std::span<const TrackedCamera> cameras, const Rig& rig,
+                                    const TrackLimits& limits, TrackedRun& run);
+
+/// The same for a robot that cannot be tracked: a clause for its error, or nothing.
+std::string tilt_clause(const RobotSetup& robot, std::span<const Sample> samples,
+                        const std::vector<Sighting>& sightings,
+                        std::span<const TrackedCamera> cameras);
+
+}  // namespace swarmsmith

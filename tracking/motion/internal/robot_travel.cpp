@@ -1,0 +1,340 @@
+#include "tracking/motion/internal/robot_travel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/math.h"
+#include "base/overloaded.h"
+#include "tracking/geometry/walls.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+/// A straight run gives a heading to better than that.
+constexpr double kHeading_rad = 5 * kDegree;
+/// Of a place on the floor: an offset that is wrong by it moves the grid exploration score by less
+/// than a percent (tracking facts, section 5).
+constexpr double kPlace_m = 0.010;
+/// What moves no place by more than a calibration may is harmless (PlaceLimits::left_out_m).
+constexpr double kHarmless_m = 0.005;
+/// Walls give, and survey and height are off by that much.
+constexpr double kTouch_m = 0.03;
+/// A robot that drives so much backwards may drive ahead, with its tag turned round.
+constexpr double kMostlyBackwards = 0.9;
+
+/// The radius of the circle around a body.
+double reach_of(const Outline& outline) {
+  return std::visit(
+      Overloaded{[](const CircleOutline& circle) { return circle.radius_m; },
+                 [](const BoxOutline& box) { return 0.5 * hypot(box.length_m, box.width_m); },
+                 [](const PolygonOutline& polygon) {
+                   double reach = 0;
+                   for (const Point& corner : polygon.corners)
+                     reach = std::max(reach, hypot(corner.x, corner.y));
+                   return reach;
+                 }},
+      outline);
+}
+
+/// The poses of all robots at an instant, 0 the start.
+std::span<const Pose> poses_at(const TrackedRun& run, int cycle) {
+  return cycle == 0 ? std::span<const Pose>(run.starts) : run.trajectory.at(cycle - 1);
+}
+
+bool touches(const std::span<const Pose> poses, std::size_t robot, const Arena& arena,
+             double reach_m) {
+  const Point at = poses[robot].position();
+  if (distance_to_walls(arena, at) < reach_m + kTouch_m) return true;
+  for (const Obstacle& obstacle : arena.obstacles) {
+    if (hypot(at.x - obstacle.pose.x, at.y - obstacle.pose.y) <
+        reach_m + reach_of(obstacle.outline) + kTouch_m)
+      return true;
+  }
+  for (std::size_t other = 0; other < poses.size(); ++other) {
+    if (other != robot &&
+        hypot(at.x - poses[other].x, at.y - poses[other].y) < 2 * reach_m + kTouch_m)
+      return true;
+  }
+  return false;
+}
+
+/// Where a robot gains or loses speed it goes on in its old direction for a moment.
+void mark_unsteady(std::vector<TravelStep>& steps, double sigma_m) {
+  constexpr double kSteady_m = 0.0015;
+  constexpr double kSigmas = 4;
+  const auto way = [&](std::size_t i) { return hypot(steps[i].ahead_m, steps[i].aside_m); };
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    if (std::fabs(way(i) - way(i - 1)) <= kSteady_m + kSigmas * sigma_m) continue;
+    steps[i].is_steady = false;
+    steps[i - 1].is_steady = false;
+  }
+  constexpr double kTurns_rad = 0.05;
+  constexpr double kSkids_s = 0.85;
+  double turned_s = -kSkids_s;
+  for (TravelStep& step : steps) {
+    if (std::fabs(step.turn_rad) > kTurns_rad) turned_s = step.to_s;
+    step.skids = !step.is_steady && step.to_s - turned_s < kSkids_s;
+  }
+}
+
+std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track, std::size_t robot,
+                                 const Arena& arena, double reach_m) {
+  std::vector<TravelStep> steps;
+  const int cycles = run.trajectory.instants();
+  // A body that was pushed slides on until the floor has stopped it.
+  constexpr int kSlides = 10;
+  int touched = touches(poses_at(run, 0), robot, arena, reach_m) ? 0 : -kSlides - 1;
+  for (int cycle = 1; cycle <= cycles; ++cycle) {
+    const int touched_before = touched;
+    if (touches(poses_at(run, cycle), robot, arena, reach_m)) touched = cycle;
+    const auto i = static_cast<std::size_t>(cycle);
+    const CycleKind kind = std::max(track.kinds[i - 1], track.kinds[i]);
+    // Across longer gaps it may have turned there and back.
+    if (kind > CycleKind::Interpolated) continue;
+    const Pose& from = poses_at(run, cycle - 1)[robot];
+    const Pose& to = poses_at(run, cycle)[robot];
+    const double turn = wrap_angle(to.theta - from.theta);
+    const SinCos half_way = sin_cos(from.theta + 0.5 * turn);
+    const double dx = to.x - from.x;
+    const double dy = to.y - from.y;
+    const double sigma = kind == CycleKind::Measured
+                             ? 0
+                             : hypot(track.sigmas[i - 1].sigma_m, track.sigmas[i].sigma_m);
+    steps.push_back({.from_s = instant_s(cycle - 1),
+                     .to_s = instant_s(cycle),
+                     .ahead_m = dx * half_way.cos + dy * half_way.sin,
+                     .aside_m = dy * half_way.cos - dx * half_way.sin,
+                     .turn_rad = turn,
+                     .turn_sigma_rad = 1.5 * track.sigma.sigma_rad,
+                     .sigma_m = sigma,
+                     .touches = cycle - std::max(touched, touched_before) <= kSlides});
+  }
+  mark_unsteady(steps, track.sigma.sigma_m);
+  return steps;
+}
+
+/// What would be measured of a robot whose tag sits otherwise than calibrated.
+struct Misplaced {
+  double turned_rad = 0;
+  double ahead_m = 0;  ///< of the measured point, before the true middle
+  double off_m = 0;    ///< its distance from it
+};
+
+/// Its own tag, put back turned at the same place.
+Misplaced if_turned(const TagOffset& own, double turned_rad) {
+  const SinCos turn = sin_cos(turned_rad);
+  const SinCos yaw = sin_cos(own.yaw_rad);
+  const double x = own.x_m - (turn.cos * own.x_m - turn.sin * own.y_m);
+  const double y = own.y_m - (turn.sin * own.x_m + turn.cos * own.y_m);
+  return {turned_rad, yaw.cos * x - yaw.sin * y, hypot(x, y)};
+}
+
+/// Its tag rides where that of another robot should.
+Misplaced if_exchanged(const TagOffset& own, const TagOffset& others) {
+  const SinCos yaw = sin_cos(others.yaw_rad);
+  const double x = others.x_m - own.x_m;
+  const double y = others.y_m - own.y_m;
+  return {wrap_angle(others.yaw_rad - own.yaw_rad), yaw.cos * x - yaw.sin * y, hypot(x, y)};
+}
+
+bool explains(const Misplaced& guess, const TravelFit& fit) {
+  return std::fabs(wrap_angle(guess.turned_rad - fit.turned_rad)) < kHeading_rad &&
+         (!fit.knows_ahead || std::fabs(guess.ahead_m - fit.ahead_m) < kPlace_m);
+}
+
+std::string degrees(double radians) {
+  return fmt::format("{:.0f} degrees", radians / kDegree);
+}
+
+/// One robot before the court.
+class Case {
+ public:
+  Case(const std::vector<TaggedRobot>& robots, const std::vector<TravelFit>& fits,
+       std::size_t number, TrackedRun& run)
+      : robots_(robots),
+        fits_(fits),
+        number_(number),
+        robot_(robots[number]),
+        fit_(fits[number]),
+        run_(run) {}
+
+  void judge_heading() {
+    Check check{.name = "travel against heading",
+                .subject = robot_.setup.name,
+                .value = {},
+                .limit = kHeading_rad / kDegree,
+                .unit = "degrees",
+                .catches = "a tag that was put back turned, or on another robot",
+                .reason = {}};
+    if (!robot_.has_yaw) return skip(std::move(check), "no straight run was filmed");
+    if (!fit_.knows_heading) return skip(std::move(check), kTooLittle);
+    const double off = std::fabs(fit_.turned_rad);
+    const bool backwards = kPi - off <= kHeading_rad;
+    check.value = (backwards ? kPi - off : off) / kDegree;
+    if (backwards) {
+      judge_backwards(std::move(check));
+    } else if (off > kHeading_rad) {
+      const Misplaced turned = if_turned(robot_.offset, fit_.turned_rad);
+      accuse(std::move(check), turned.off_m > kHarmless_m || !robot_.has_offset,
+             fmt::format("travels {} beside its heading, all over the run (limit {})", degrees(off),
+                         degrees(kHeading_rad)),
+             turned);
+    } else {
+      run_.checks.push_back(std::move(check));
+    }
+  }
+
+  /// The measured point against the middle between the treads, along the robot.
+  void judge_place() {
+    Check check{.name = "tag against the treads",
+                .subject = robot_.setup.name,
+                .value = {},
+                .limit = 1000 * kPlace_m,
+                .unit = "mm",
+                .catches = "a tag that sits elsewhere than calibrated",
+                .reason = {}};
+    if (!robot_.has_offset) return skip(std::move(check), "its tag was taken for its centre");
+    if (!fit_.knows_ahead) return skip(std::move(check), kTooLittle);
+    check.value = 1000 * std::fabs(fit_.ahead_m);
+    const bool is_off = std::fabs(fit_.ahead_m) > kPlace_m + 3 * fit_.ahead_sigma_m;
+    if (!is_off || is_accused_) {
+      if (is_off) check.outcome = Check::Outcome::Failed;
+      return run_.checks.push_back(std::move(check));
+    }
+    accuse(std::move(check), true,
+           fmt::format("turns about a point {:.0f} mm {} where its offset puts its centre (limit "
+                       "{:.0f} mm)",
+                       1000 * std::fabs(fit_.ahead_m), fit_.ahead_m > 0 ? "behind" : "ahead of",
+                       1000 * kPlace_m),
+           {0, fit_.ahead_m, std::fabs(fit_.ahead_m)});
+  }
+
+  void judge_slide(const std::vector<TravelStep>& steps) {
+    Check check{.name = "way to the side",
+                .subject = robot_.setup.name,
+                .value = {},
+                .limit = {},
+                .unit = "mm",
+                .catches = "a robot that was pushed or carried",
+                .reason = {}};
+    const std::optional<Slide> worst = worst_slide(steps, fit_);
+    if (!worst) return skip(std::move(check), "it stood still, or touched something all the time");
+    check.value = 1000 * std::fabs(worst->aside_m);
+    check.limit = 1000 * worst->limit_m;
+    if (std::fabs(worst->aside_m) <= worst->limit_m) return run_.checks.push_back(std::move(check));
+    check.outcome = Check::Outcome::Failed;
+    run_.checks.push_back(std::move(check));
+    add(IssueCode::Pushed,
+        fmt::format("went {:.0f} mm to the side from {:.1f} s to {:.1f} s (limit {:.0f} mm), which "
+                    "treads cannot, and nothing touched it: it was pushed or carried, or its tag "
+                    "came loose; leave robots alone and film the run again",
+                    1000 * std::fabs(worst->aside_m), worst->from_s, worst->to_s,
+                    1000 * worst->limit_m),
+        worst->from_s, worst->to_s);
+  }
+
+ private:
+  static constexpr const char* kTooLittle =
+      "it drove and turned too little where it touched nothing";
+
+  void skip(Check check, const char* reason) {
+    check.outcome = Check::Outcome::NotRun;
+    check.reason = reason;
+    run_.checks.push_back(std::move(check));
+  }
+
+  void add(IssueCode code, const std::string& text, std::optional<double> from = {},
+           std::optional<double> to = {}) {
+    run_.issues.push_back({code,
+                           fmt::format("{} (tag {}) {}", robot_.setup.name, robot_.setup.tag, text),
+                           robot_.setup.name, from, to});
+  }
+
+  /// It drives backwards, or ahead with its tag turned round. Where it turns about tells, unless
+  /// the tag sits over the treads' middle.
+  void judge_backwards(Check check) {
+    const Misplaced turned = if_turned(robot_.offset, kPi);
+    const bool is_told = fit_.knows_ahead && std::fabs(turned.ahead_m) > kPlace_m;
+    // Measured in the axes of a robot that drives ahead.
+    const bool is_turned =
+        is_told && std::fabs(fit_.ahead_m - turned.ahead_m) < std::fabs(fit_.ahead_m);
+    if (is_turned) {
+      return accuse(std::move(check), true,
+                    "drives backwards, and turns about another point than its offset says", turned);
+    }
+    const bool is_harmless = turned.off_m <= kHarmless_m && robot_.has_offset;
+    if (is_told || is_harmless || fit_.backward_share < kMostlyBackwards)
+      return run_.checks.push_back(std::move(check));
+    check.outcome = Check::Outcome::Warned;
+    run_.checks.push_back(std::move(check));
+    add(IssueCode::HeadingOff,
+        fmt::format("drives backwards in {:.0f} % of its way: if it cannot, its tag is turned by "
+                    "180 degrees, and its centre is {:.0f} mm off; look at the film",
+                    100 * fit_.backward_share, 1000 * turned.off_m));
+  }
+
+  void accuse(Check check, bool moves_places, const std::string& what, const Misplaced& turned) {
+    is_accused_ = true;
+    check.outcome = moves_places ? Check::Outcome::Failed : Check::Outcome::Warned;
+    run_.checks.push_back(std::move(check));
+    add(moves_places ? IssueCode::TagTurned : IssueCode::HeadingOff,
+        what + ": " + cause(turned) +
+            (moves_places ? "; put it back as it was calibrated and film the run again, or "
+                            "calibrate the robot as it is and `rescore`"
+                          : "; positions are right, headings are not; calibrate the robot again"));
+  }
+
+  std::string cause(const Misplaced& turned) const {
+    for (std::size_t other = 0; other < robots_.size(); ++other) {
+      if (other == number_ || !robots_[other].has_yaw || !fits_[other].knows_heading) continue;
+      const TagOffset& others = robots_[other].offset;
+      if (explains(if_exchanged(robot_.offset, others), fit_) &&
+          explains(if_exchanged(others, robot_.offset), fits_[other])) {
+        return fmt::format(
+            "it moves as {} would with this tag, and {} as this one: their tags "
+            "were exchanged",
+            robots_[other].setup.name, robots_[other].setup.name);
+      }
+    }
+    if (std::fabs(turned.turned_rad) > kHeading_rad && explains(turned, fit_)) {
+      return fmt::format(
+          "its tag is turned by {} since it was calibrated, which puts its centre "
+          "{:.0f} mm off",
+          degrees(turned.turned_rad), 1000 * turned.off_m);
+    }
+    return "its tag sits otherwise than calibrated, or is that of another robot";
+  }
+
+  const std::vector<TaggedRobot>& robots_;
+  const std::vector<TravelFit>& fits_;
+  std::size_t number_;
+  const TaggedRobot& robot_;
+  const TravelFit& fit_;
+  TrackedRun& run_;
+  bool is_accused_ = false;
+};
+
+}  // namespace
+
+void judge_travel(const std::vector<TaggedRobot>& robots, const std::vector<RobotTrack>& tracks,
+                  const Arena& arena, const TrackOptions& options, TrackedRun& run) {
+  const double reach = reach_of(options.body);
+  std::vector<std::vector<TravelStep>> steps;
+  std::vector<TravelFit> fits;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    steps.push_back(steps_of(run, tracks[i], i, arena, reach));
+    fits.push_back(fit_travel(steps.back()));
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    Case one(robots, fits, i, run);
+    one.judge_heading();
+    one.judge_place();
+    one.judge_slide(steps[i]);
+  }
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,226 @@
+#include "tracking/motion/internal/travel.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kMedianOfNormal = 0.6744897501960817;
+/// Rounding of the centre's path; below it a residual is none.
+constexpr double kLeastStepSigma_m = 5e-5;
+/// A heading is told by less than this: a third of what a straight run may spread by.
+constexpr double kHeadingTold_rad = 1.5 * kPi / 180;
+constexpr double kAheadTold_m = 0.003;
+/// The way must stand out of the noise, and the turns too.
+constexpr double kOverNoise = 10;
+constexpr double kLeastWay_m = 0.25;
+
+/// Steps put together, so that slow robots stand out of the noise, too.
+std::vector<TravelStep> free_steps(std::span<const TravelStep> steps, int stride) {
+  std::vector<TravelStep> made;
+  int in_a_row = 0;
+  for (const TravelStep& step : steps) {
+    const bool goes_on = !made.empty() && in_a_row > 0 && in_a_row < stride &&
+                         std::fabs(made.back().to_s - step.from_s) < kSameInstant_s;
+    if (step.touches || !step.is_steady) {
+      // Half a long step is as good as none.
+      if (in_a_row > 0 && in_a_row < stride) made.pop_back();
+      in_a_row = 0;
+      continue;
+    }
+    if (!goes_on) {
+      if (in_a_row > 0 && in_a_row < stride) made.pop_back();
+      made.push_back(step);
+      in_a_row = 1;
+      continue;
+    }
+    TravelStep& whole = made.back();
+    whole.to_s = step.to_s;
+    whole.ahead_m += step.ahead_m;
+    whole.aside_m += step.aside_m;
+    whole.turn_rad += step.turn_rad;
+    whole.turn_sigma_rad = step.turn_sigma_rad;
+    whole.sigma_m = std::max(whole.sigma_m, step.sigma_m);
+    ++in_a_row;
+  }
+  if (in_a_row > 0 && in_a_row < stride) made.pop_back();
+  return made;
+}
+
+/// Weighted sums of the products of (aside, ahead) and the turn.
+struct Sums {
+  Eigen::Matrix2d way = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d with_turn = Eigen::Vector2d::Zero();
+  double turn = 0;
+};
+
+struct Line {
+  Eigen::Vector2d normal{1, 0};  ///< of the ways (aside, ahead) that treads can go
+  double ahead_m = 0;
+  double most = 0;     ///< eigenvalue along the ways
+  double by_turn = 0;  ///< way that goes with the turns, metres a radian
+};
+
+double residual(const TravelStep& step, const Line& line) {
+  return line.normal(0) * step.aside_m + line.normal(1) * step.ahead_m -
+         line.ahead_m * step.turn_rad;
+}
+
+Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& weights,
+              bool with_place) {
+  Sums sums;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Eigen::Vector2d way(steps[i].aside_m, steps[i].ahead_m);
+    sums.way += weights[i] * way * way.transpose();
+    sums.with_turn += weights[i] * steps[i].turn_rad * way;
+    sums.turn += weights[i] * steps[i].turn_rad * steps[i].turn_rad;
+  }
+  const bool turns = with_place && sums.turn > 1e-9;
+  Eigen::Matrix2d rest = sums.way;
+  if (turns) rest -= sums.with_turn * sums.with_turn.transpose() / sums.turn;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(rest);
+  Line line;
+  line.normal = axes.eigenvectors().col(0);
+  line.most = axes.eigenvalues()(1);
+  if (turns) line.ahead_m = line.normal.dot(sums.with_turn) / sums.turn;
+  if (turns) line.by_turn = sums.with_turn.norm() / sums.turn;
+  return line;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Least absolute residuals, by weights: a minority that was pushed does not turn the line.
+Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& sigma_m) {
+  constexpr int kRounds = 20;
+  std::vector<double> weights(steps.size(), 1);
+  Line line = fit_line(steps, weights, with_place);
+  std::vector<double> off(steps.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      off[i] = std::fabs(residual(steps[i], line));
+    sigma_m = std::max(kLeastStepSigma_m, median_of(off) / kMedianOfNormal);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      weights[i] = 1 / std::max(off[i], 2 * sigma_m);
+    line = fit_line(steps, weights, with_place);
+  }
+  // From those that fit, with equal weights, so that the errors of the result are known.
+  double squares = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double is = residual(steps[i], line);
+    weights[i] = std::fabs(is) < 4 * sigma_m ? 1 : 0;
+    squares += weights[i] * is * is;
+    count += weights[i];
+  }
+  if (count < 10) return line;
+  sigma_m = std::max(kLeastStepSigma_m, std::sqrt(squares / count));
+  return fit_line(steps, weights, with_place);
+}
+
+}  // namespace
+
+namespace {
+
+/// Both unknowns, or the heading alone.
+TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
+  TravelFit fit;
+  double sigma_m = 0;
+  const Line line = robust_line(steps, with_place, sigma_m);
+  fit.step_sigma_m = sigma_m;
+  const auto count = static_cast<double>(steps.size());
+  double turned = std::atan2(line.normal(1), line.normal(0));
+  double forward = 0;
+  double backward = 0;
+  double turns = 0;
+  for (const TravelStep& step : steps) {
+    const double along = step.ahead_m * std::cos(turned) - step.aside_m * std::sin(turned);
+    forward += along;
+    turns += step.turn_rad * step.turn_rad;
+    if (std::fabs(along) <= 3 * sigma_m) continue;
+    fit.way_m += std::fabs(along);
+    if (step.ahead_m < 0) backward += std::fabs(along);
+  }
+  // The true heading is the sense in which it goes more.
+  fit.turned_rad = forward < 0 ? wrap_angle(turned + kPi) : turned;
+  fit.ahead_m = forward < 0 ? -line.ahead_m : line.ahead_m;
+  fit.backward_share = fit.way_m > 0 ? backward / fit.way_m : 0;
+  fit.turned_sigma_rad = sigma_m / std::sqrt(std::max(line.most, 1e-12));
+  // Noise of the turns looks like a way where way and turn always go together.
+  const double noise_m = hypot(sigma_m, line.by_turn * steps.front().turn_sigma_rad);
+  fit.knows_heading = line.most > kOverNoise * count * noise_m * noise_m &&
+                      fit.turned_sigma_rad < kHeadingTold_rad && fit.way_m >= kLeastWay_m;
+  fit.ahead_sigma_m = sigma_m / std::sqrt(std::max(turns, 1e-12));
+  fit.knows_ahead = with_place && fit.knows_heading && fit.ahead_sigma_m < kAheadTold_m;
+  return fit;
+}
+
+}  // namespace
+
+TravelFit fit_travel(std::span<const TravelStep> all) {
+  constexpr std::size_t kLeastSteps = 20;
+  TravelFit fit;
+  double step_sigma_m = 0;
+  for (const bool with_place : {true, false}) {
+    for (const int stride : {1, 5}) {
+      const std::vector<TravelStep> steps = free_steps(all, stride);
+      if (steps.size() < kLeastSteps) continue;
+      fit = fit_of(steps, with_place);
+      if (step_sigma_m == 0) step_sigma_m = fit.step_sigma_m;
+      fit.step_sigma_m = step_sigma_m;
+      if (fit.knows_heading) return fit;
+    }
+  }
+  return fit;
+}
+
+std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit) {
+  /// What slip and single bumps may add: a length, and a share of the way. A skid may add more.
+  struct Window {
+    double length_s;
+    double slip_m;
+    bool with_skids;
+  };
+  constexpr std::array<Window, 4> kWindows{
+      {{1, 0.03, false}, {5, 0.05, false}, {1, 0.1, true}, {5, 0.15, true}}};
+  constexpr double kSlip = 0.1;
+  constexpr double kSigmas = 4;
+  const double cosine = fit.knows_heading ? std::cos(fit.turned_rad) : 1;
+  const double sine = fit.knows_heading ? std::sin(fit.turned_rad) : 0;
+  const double ahead_m = fit.knows_ahead ? fit.ahead_m : 0;
+  std::optional<Slide> worst;
+  for (const Window& window : kWindows) {
+    std::size_t first = 0;
+    double aside = 0;
+    double way = 0;
+    double squares = 0;
+    const auto add = [&](const TravelStep& step, double sign) {
+      if (step.touches || (step.skids && !window.with_skids)) return;
+      aside += sign * (cosine * step.aside_m + sine * step.ahead_m - ahead_m * step.turn_rad);
+      way += sign * std::fabs(cosine * step.ahead_m - sine * step.aside_m);
+      squares += sign * (fit.step_sigma_m * fit.step_sigma_m + step.sigma_m * step.sigma_m);
+    };
+    for (std::size_t last = 0; last < steps.size(); ++last) {
+      add(steps[last], 1);
+      while (steps[last].to_s - steps[first].from_s > window.length_s + kSameInstant_s)
+        add(steps[first++], -1);
+      const double limit =
+          window.slip_m + kSlip * way + kSigmas * std::sqrt(std::max(0.0, squares));
+      const double is = std::fabs(aside);
+      if (worst && is - limit <= std::fabs(worst->aside_m) - worst->limit_m) continue;
+      if (is == 0) continue;
+      worst = Slide{steps[first].from_s, steps[last].to_s, aside, limit};
+    }
+  }
+  return worst;
+}
+
+}  // namespace swarmsmith

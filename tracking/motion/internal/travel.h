@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tracking/motion/resampling.h"
+
+namespace swarmsmith {
+
+/// How a robot travels against how it heads. Treads cannot go sideways: whatever they do, the
+/// middle between them moves along the robot's heading. So travel tells where a tag really sits,
+/// and when somebody else moved the robot.
+
+/// One step from an instant to the next, in the axes of the measured pose half way.
+struct TravelStep {
+  double from_s = 0;
+  double to_s = 0;
+  double ahead_m = 0;  ///< along the measured heading
+  double aside_m = 0;  ///< to its left
+  double turn_rad = 0;
+  double turn_sigma_rad = 0;
+  double sigma_m = 0;     ///< of what is interpolated, beyond a sample's noise
+  bool touches = false;   ///< a wall, an obstacle or a robot, or just did, and may slide from it
+  bool skids = false;     ///< it turned and changed its speed: a body goes on in its old direction
+  bool is_steady = true;  ///< neither gains nor loses speed, when a body slides over its treads
+};
+
+/// What all of a run's free steps say of a tag. A heading that is off by `turned` and a point that
+/// lies `ahead` of the middle between the treads move so in each step:
+/// aside * cos(turned) + ahead_m * sin(turned) = ahead * turn. Both are fitted with weights that
+/// leave single pushes out. A robot that drives one and the same arc leaves open which of the two
+/// it is: then the heading is fitted alone, as if the point were right.
+struct TravelFit {
+  double way_m = 0;  ///< along the treads, without touch
+  bool knows_heading = false;
+  double turned_rad = 0;  ///< the measured heading minus the true one, if it drives ahead mostly
+  double turned_sigma_rad = 0;
+  double backward_share = 0;  ///< of the way, by the measured heading
+  bool knows_ahead = false;
+  double ahead_m = 0;
+  double ahead_sigma_m = 0;
+  double step_sigma_m = 0;  ///< of one step to the side
+};
+TravelFit fit_travel(std::span<const TravelStep> steps);
+
+/// A stretch in which the robot went sideways more than noise and slip allow.
+struct Slide {
+  double from_s = 0;
+  double to_s = 0;
+  double aside_m = 0;
+  double limit_m = 0;
+};
+/// The stretch that is furthest beyond its limit, or nearest to it; over a second and over five.
+/// Nothing without free steps.
+std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit);
+
+}  // namespace swarmsmith
