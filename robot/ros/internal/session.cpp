@@ -33,21 +33,6 @@ bool first_session() {
   return !std::exchange(taken, true);
 }
 
-/// http://HOST:PORT/ as two texts; false when it is none. roscpp aborts the process on such.
-bool split_uri(std::string uri, std::string& host, std::string& port) {
-  constexpr const char* kScheme = "http://";
-  if (uri.compare(0, 7, kScheme) != 0) return false;
-  uri = uri.substr(7);
-  if (!uri.empty() && uri.back() == '/') uri.pop_back();
-  const std::size_t colon = uri.rfind(':');
-  if (colon == std::string::npos || colon == 0) return false;
-  host = uri.substr(0, colon);
-  port = uri.substr(colon + 1);
-  return !port.empty() && port.size() <= 5 &&
-         std::all_of(port.begin(), port.end(),
-                     [](unsigned char digit) { return std::isdigit(digit) != 0; });
-}
-
 bool resolves(const std::string& host) {
   addrinfo* found = nullptr;
   const bool there = getaddrinfo(host.c_str(), nullptr, nullptr, &found) == 0;
@@ -130,6 +115,20 @@ RosExpected<ros::M_string> remappings_of(const std::string& name_space, const Ro
 }
 
 }  // namespace
+
+bool split_uri(std::string uri, std::string& host, std::string& port) {
+  constexpr const char* kScheme = "http://";
+  if (uri.compare(0, 7, kScheme) != 0) return false;
+  uri = uri.substr(7);
+  if (!uri.empty() && uri.back() == '/') uri.pop_back();
+  const std::size_t colon = uri.rfind(':');
+  if (colon == std::string::npos || colon == 0) return false;
+  host = uri.substr(0, colon);
+  port = uri.substr(colon + 1);
+  return !port.empty() && port.size() <= 5 &&
+         std::all_of(port.begin(), port.end(),
+                     [](unsigned char digit) { return std::isdigit(digit) != 0; });
+}
 
 bool is_ros_name(const std::string& name) {
   if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0) return false;
