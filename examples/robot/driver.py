@@ -36,7 +36,7 @@ def obey(left_mps, right_mps):
 
 while True:
     node.send_string("hello driver")  # again and again: a node that was restarted does not know us
-    # `driven`, what the treads do: a robot whose driver does not say so stands still, and its run is not VALID
+    # `driven` is what the treads do: without it no run is VALID
     for topic, values in ("ranges", ranges_m()), ("ground_color", ground_color()), ("driven", driven):
         node.send_string(f"{topic} {time.time_ns()} " + " ".join(map(repr, values)))
     due += 0.1

@@ -154,6 +154,18 @@ class OverZeroMq(Drivers):
     def test_a_second_one(self):
         self.second()
 
+    def test_how_the_run_of_a_killed_node_ended_is_unknown(self):
+        treads, start = self.begin()
+        self.node.kill()
+        fault_at = time.monotonic()
+        self.assertEqual(start.end(), 6, start.said())
+        self.assertRegex(start.said(), r"rvr1: unknown; it was last heard \d+\.\d s ago, running after \d+ cycles")
+        self.assertNotIn("VALID\n", start.said().replace("r1: INVALID\n", ""))
+        with (self.folder / "r1.toml").open("rb") as file:
+            noted = tomllib.load(file)["robot"][0]
+        self.assertEqual((noted["verdict"], noted["reasons"]), ("INVALID", ["it did not answer after the run"]))
+        self.assert_treads_stand(treads, fault_at)
+
     def test_one_that_says_that_it_is_an_operator(self):
         treads, start = self.begin()
         fault_at = self.spoil(treads, "operator")

@@ -240,6 +240,8 @@ void Session::look_for_unreachable() {
     return;
   }
   std::set<std::string> unreached;
+  std::string first;  // nodes that were killed stay at the master for days: one line for all
+  std::string others;
   for (const ros::Subscriber& subscriber : subscribers_) {
     if (subscriber.getNumPublishers() > 0) continue;
     for (const std::string& node : state.publishers[subscriber.getTopic()]) {
@@ -247,9 +249,15 @@ void Session::look_for_unreachable() {
       unreached.insert(node);
       // Whoever was there when this was looked at before has had its time.
       if (suspects_.count(node) == 0 || !told_.insert(node).second) continue;
-      on_trouble_(why_unreachable(node, subscriber.getTopic()), false);
+      if (first.empty()) {
+        first = why_unreachable(node, subscriber.getTopic());
+      } else {
+        others += (others.empty() ? "" : ", ") + node;
+      }
     }
   }
+  if (!first.empty())
+    on_trouble_(first + (others.empty() ? "" : "; nor is there one to " + others), false);
   suspects_ = std::move(unreached);
 }
 
