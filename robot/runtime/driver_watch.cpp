@@ -17,6 +17,11 @@ constexpr Duration kSpell = std::chrono::seconds(3);
 /// A driver says several times a second what it does.
 constexpr Duration kUsualSilence = std::chrono::milliseconds(250);
 
+constexpr Duration kDelayStep = std::chrono::milliseconds(50);
+/// Changes that are remembered, and that are needed to tell a late driver.
+constexpr int kMostChanges = 25;
+constexpr int kLeastChanges = 12;
+
 bool same(double a, double b) {
   return std::fabs(a - b) <= kSame_mps;
 }
@@ -65,6 +70,41 @@ std::optional<TimePoint> DriverWatch::commanded_until(const DrivenMessage& drive
   return std::nullopt;
 }
 
+DriverWatch::Commanded DriverWatch::commanded_at(TimePoint time) const {
+  for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
+    if (command->from <= time) return *command;
+  }
+  return commands_.empty() ? Commanded{} : commands_.front();
+}
+
+void DriverWatch::compare_changes(const DrivenMessage& driven) {
+  const bool changed =
+      last_ && last_->sender == driven.sender &&
+      !(same(last_->left_mps, driven.left_mps) && same(last_->right_mps, driven.right_mps));
+  if (!changed) return;
+  changed_ = driven.arrival.at;
+  changes_ = std::min(changes_ + 1, kMostChanges);
+  for (std::size_t i = 0; i < kDelays; ++i) {
+    const Commanded then = commanded_at(driven.arrival.at - static_cast<int>(i) * kDelayStep);
+    const bool is_it =
+        same(then.left_mps, driven.left_mps) && same(then.right_mps, driven.right_mps);
+    follows_[i] += ((is_it ? 1.0 : 0.0) - follows_[i]) / changes_;
+  }
+}
+
+/// "it is 1.00 s behind", when its changes follow those that were commanded so much better.
+std::string DriverWatch::why_behind() const {
+  constexpr double kSure = 0.9;
+  constexpr double kBetter = 0.2;
+  if (changes_ < kLeastChanges) return {};
+  const auto late = follows_.begin() + limits_.hold / kDelayStep + 1;
+  const double prompt = *std::max_element(follows_.begin(), late);
+  const auto best = std::max_element(late, follows_.end());
+  if (*best < kSure || *best - prompt < kBetter) return {};
+  const std::chrono::duration<double> delay = (best - follows_.begin()) * kDelayStep;
+  return fmt::format("{} does each change {:.2f} s after its command", driver_, delay.count());
+}
+
 void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
   if (!spell || spell->name != name || at - spell->last > kSpell) spell = Spell{name, at, at};
   spell->last = at;
@@ -79,9 +119,10 @@ void DriverWatch::hear(const DrivenMessage& driven) {
   }
   if (driver_.empty() || driver_ == driven.sender) {
     driver_ = driven.sender;
-    last_ = driven;
     const auto until = commanded_until(driven);
     const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
+    compare_changes(driven);
+    last_ = driven;
     strange_ = until || stands ? 0 : strange_ + 1;
     if (until) obeyed_ = std::max(obeyed_, *until);
     return;
@@ -104,6 +145,10 @@ void DriverWatch::set_listeners(std::vector<Listener> listeners, TimePoint now) 
       came_later_.push_back(one.name);
   }
   if (any_of_start) replaced_ = now;
+  for (Listener& known : lively_) {
+    const auto one = std::ranges::find(listeners_, known.name, &Listener::name);
+    if (one != listeners_.end()) known.heard = std::max(known.heard, one->heard);
+  }
   for (const std::string& name : listened_at_start_) {
     if (runs_ && !listens(name) && !contains(went_, name)) went_.push_back(name);
   }
@@ -114,30 +159,40 @@ void DriverWatch::begin(TimePoint start) {
   obeyed_ = replaced_ = start;
   unobeyed_since_ = unobeyed_at_ = {};
   unobeyed_ = unobeyed_before_ = {};
-  strange_ = 0;
+  strange_ = changes_ = 0;
+  follows_ = {};
   second_.reset();
   rival_.reset();
   came_later_.clear();
   went_.clear();
   listened_at_start_.clear();
-  for (const Listener& one : listeners_)
+  lively_.clear();
+  for (const Listener& one : listeners_) {
     listened_at_start_.push_back(one.name);
+    if (listened_ - one.heard <= limits_.give_up) lively_.push_back(one);
+  }
   driver_.clear();
   if (last_ && listens(last_->sender)) driver_ = last_->sender;
 }
 
 std::string DriverWatch::why_not_obeyed(TimePoint now) const {
   if (listeners_.empty()) return driver_ + " is gone: nobody listens to the speeds of the treads";
-  if (is_quiet(now)) return driver_ + " does not say what the treads do";
+  if (is_quiet(now)) {
+    return second_ && now - second_->last <= kUsualSilence
+               ? second_->name + " drives the treads in place of " + driver_
+               : driver_ + " does not say what the treads do";
+  }
   const Commanded wanted = commands_.empty() ? Commanded{} : commands_.back();
   const std::string told = driver_ + " says that they do " +
                            speeds(last_->left_mps, last_->right_mps) + ", and " +
                            speeds(wanted.left_mps, wanted.right_mps) + " are commanded: ";
-  if (const auto until = commanded_until(*last_)) {
+  const bool stands = last_->left_mps == 0 && last_->right_mps == 0;
+  const auto until = commanded_until(*last_);
+  if (stands && (!until || now - *until > limits_.give_up)) return told + "it holds them";
+  if (until) {
     return told + fmt::format("it is {:.2f} s behind",
                               std::chrono::duration<double>(last_->arrival.at - *until).count());
   }
-  if (last_->left_mps == 0 && last_->right_mps == 0) return told + "it holds them";
   if (same(last_->left_mps, wanted.left_mps)) return told + "only the left one obeys";
   if (same(last_->right_mps, wanted.right_mps)) return told + "only the right one obeys";
   return told + "it obeys another one";
@@ -161,14 +216,20 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
     return since(std::max(listened_, obeyed_), "nobody listens to the speeds of the treads");
   if (replaced_ < listened_)
     return since(replaced_, "another one came in place of the driver: " + names_of(listeners_));
-  const TimePoint heard = std::ranges::max_element(listeners_, {}, &Listener::heard)->heard;
-  // It may be a client that speaks seldom: stopping the treads by it would stop many that are well.
-  if (now - heard <= limits_.give_up) return std::nullopt;
-  return Trouble{heard, true, true, names_of(listeners_) + " gives no sign of life"};
+  // Of clients that say that they drive each may be the one; others may as well only listen.
+  TimePoint heard{};
+  for (const Listener& one : lively_) {
+    heard = std::max(heard, one.heard);
+    if (one.drives && now - one.heard > limits_.give_up)
+      return Trouble{one.heard, true, true, one.name + " gives no sign of life"};
+  }
+  if (lively_.empty() || now - heard <= limits_.give_up) return std::nullopt;
+  return Trouble{heard, true, true, names_of(lively_) + " gives no sign of life"};
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {
   constexpr int kStrange = 3;
+  if (auto why = why_behind(); !why.empty()) return Trouble{changed_, true, true, std::move(why)};
   if (now - obeyed_ <= limits_.hold) return std::nullopt;
   if (now - unobeyed_at_ > kSpell) unobeyed_ = unobeyed_before_ = {};
   if (unobeyed_since_ != obeyed_) unobeyed_before_ += unobeyed_;
@@ -181,8 +242,9 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   if (!runs_) return std::nullopt;
-  const std::string beside = is_quiet(now) ? " drives the treads in place of " + driver_
-                                           : " drives the treads, too, beside " + driver_;
+  const std::string beside =
+      (is_quiet(now) ? " drives the treads in place of " : " drives the treads, too, beside ") +
+      driver_;
   std::vector<std::optional<Trouble>> all = {trouble_of(rival_, " commands the treads, too", now),
                                              trouble_of(second_, beside, now)};
   if (driver_.empty()) {
@@ -226,6 +288,11 @@ std::vector<std::string> DriverWatch::doubts() const {
     for (const std::string& name : went_)
       doubts.push_back(name + " listened to the speeds of the treads, and went in the run");
   }
+  constexpr double kFollows = 0.6;
+  const auto late = follows_.begin() + limits_.hold / kDelayStep + 1;
+  if (changes_ == kMostChanges && *std::max_element(follows_.begin(), late) < kFollows)
+    doubts.push_back(driver_ +
+                     " says changes of speed that do not follow those that are commanded");
   for (const std::string& name : came_later_)
     doubts.push_back(name + " came in the run and says that it drives");
   return doubts;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 #include <deque>
 #include <optional>
 #include <string>
@@ -72,6 +73,9 @@ class DriverWatch {
                                     TimePoint now) const;
   std::optional<Trouble> trouble_of_silent_kind(TimePoint now) const;
   std::optional<Trouble> trouble_of_driver(TimePoint now);
+  Commanded commanded_at(TimePoint time) const;
+  void compare_changes(const DrivenMessage& driven);
+  std::string why_behind() const;
   bool listens(const std::string& name) const;
   bool is_quiet(TimePoint now) const;
   static void extend(std::optional<Spell>& spell, const std::string& name, TimePoint at);
@@ -88,7 +92,15 @@ class DriverWatch {
   bool runs_ = false;
   std::string driver_;  ///< whose word counts; empty: none has said anything
   TimePoint obeyed_{};  ///< when the treads last did what was commanded, as far as is known
-  int strange_ = 0;     ///< so often in succession it said what was never commanded
+  /// Robots have few speeds, which come again and again, so that a late one may look like a prompt
+  /// one. What tells is when they change: how often the new ones were those that were commanded so
+  /// long before, in steps of 50 ms.
+  static constexpr std::size_t kDelays = 61;
+  std::array<double, kDelays> follows_{};
+  int changes_ = 0;
+  TimePoint changed_{};  ///< the last time
+
+  int strange_ = 0;  ///< so often in succession it said what was never commanded
   /// For how long the treads were not known to obey: now, and before in the same spell. Treads that
   /// stand because the node stopped them obey for that moment alone.
   TimePoint unobeyed_since_{};
@@ -97,6 +109,7 @@ class DriverWatch {
   Duration unobeyed_before_{};
   std::optional<Spell> second_;  ///< another one that drives the treads, too
   std::vector<std::string> listened_at_start_;
+  std::vector<Listener> lively_;  ///< of these, who gave signs of life then
   std::vector<std::string> came_later_;
   std::vector<std::string> went_;
   TimePoint replaced_{};  ///< since when nobody of those is there

@@ -1,12 +1,12 @@
 """Drivers of a robot's node as processes of their own, from docs/robot-messages.md alone: ROS 1 by its wire protocol, ZeroMQ
 by libzmq's C interface. Neither has code of ours in it.
 
-    drivers.py sensors|treads|second|joystick ros NAME | zeromq ENDPOINT
+    drivers.py sensors|treads|quiet|second|joystick ros NAME | zeromq ENDPOINT
 
 `treads` does what a driver must: obeys one publisher, stops after 300 ms without a command, and says what the treads do.
 It prints what they do, "T LEFT RIGHT", by CLOCK_MONOTONIC. A line on its input spoils it: `slow`, `half`, `foreign`, or
-`operator` (over ZeroMQ: says another hello and hears no speeds any more). `second` says that it drives them, too;
-`joystick` sends speeds of its own, over ROS.
+`operator` (over ZeroMQ: says another hello and hears no speeds any more). `quiet` is such a driver that does
+not say what the treads do. `second` says that it drives them, too; `joystick` sends speeds of its own, over ROS.
 """
 import ctypes
 import os
@@ -228,7 +228,7 @@ def main():
                                 ("second", "driven", Ros.ARRAY), ("joystick", "wheels", Ros.ARRAY)):
             if role == topic:
                 way.publish(of, what)
-        if role in ("treads", "second"):
+        if role in ("treads", "quiet", "second"):
             way.subscribe("wheels")
     treads = Treads(way)
     due, count = time.monotonic(), 0
@@ -237,10 +237,10 @@ def main():
         due, count = due + 0.1, count + 1
         way.say_hello()
         if role == "sensors":  # something in front, now and then: the robot turns
-            way.ranges([INFINITY] * 8 if count % 17 < 9 else [0.1] * 8)
+            way.ranges([INFINITY] * 8 if count % 17 < 9 else [0.1] * 3 + [INFINITY] * 5)
         elif role == "joystick":
             way.array("wheels", (0.2, 0.2))
-        else:
+        elif role != "quiet":
             way.driven(*treads.now)
         while time.monotonic() < due:
             treads.turn()

@@ -44,9 +44,9 @@ class Drivers(ProgramTest):
         driver.process.stdin.flush()
         return float(driver.wait_for(r"fault (\S+)\n").group(1))
 
-    def begin(self, seconds=30):
+    def begin(self, seconds=30, role="treads"):
         """A run with a driver that obeys, until the treads turn."""
-        treads = self.driver("treads")
+        treads = self.driver(role)
         start = self.swarm.program(self, "start", "--run", "r1", "--robots", "1", "--seconds", seconds, "--in", "0.6",
                                    "--patience", "20", "--write", self.folder / "r1.toml", key="operator")
         treads.wait_for(r"\d 0\.3 0\.3\n")
@@ -67,9 +67,11 @@ class Drivers(ProgramTest):
         with (self.folder / "r1.rvr1.log.csv").open() as file:
             rows = list(csv.DictReader(file))
         self.assertRegex(rows[-1]["event"], reason)
-        moves = [float(row["clock_s"]) - fault_at for row in rows if float(row["left_mps"]) or float(row["right_mps"])]
-        print(f"{self.id().split('.', 1)[1]}: stands {moves[-1] + 0.1:.2f} s after the fault: {end['reasons'][0]}")
-        self.assertLess(moves[-1], STANDS_AFTER)
+        moves = [float(row["clock_s"]) - (fault_at or 0) for row in rows if float(row["left_mps"]) or float(row["right_mps"])]
+        print(f"{self.id().split('.', 1)[1]}: {end['reasons'][0]}"
+              + (f"; stands {moves[-1] + 0.1:.2f} s after the fault" if fault_at else ""))
+        if fault_at is not None:
+            self.assertLess(moves[-1], STANDS_AFTER)
 
     def assert_treads_stand(self, treads, fault_at):
         """What the driver itself had the treads do."""
@@ -104,7 +106,9 @@ class Drivers(ProgramTest):
 
     def slow(self):
         treads, start = self.begin()
-        self.assert_invalid(start, self.spoil(treads, "slow") + 1, "s behind|holds them|obeys")
+        self.spoil(treads, "slow")
+        # Speeds come again and again: it takes a dozen changes to tell late ones from others.
+        self.assert_invalid(start, None, r"s behind|after its command")
 
     def half(self):
         treads, start = self.begin()
@@ -121,6 +125,18 @@ class Drivers(ProgramTest):
         fault_at = time.monotonic()
         self.assert_invalid(start, fault_at, "drives the treads, too, beside")
         self.assert_treads_stand(treads, fault_at)
+
+
+    def quiet(self):
+        _, start = self.begin(seconds=2, role="quiet")
+        self.assertEqual(start.end(), 0, start.said())
+        self.assertIn("driver: no driver says what the treads do", start.said())
+        self.assertIn("r1: DEGRADED", start.said())
+
+    def quiet_and_hangs(self):
+        treads, start = self.begin(role="quiet")
+        treads.signal(signal.SIGSTOP)
+        self.assert_invalid(start, None, "gives no sign of life")
 
 
 @robots.by_the_clock
@@ -153,6 +169,12 @@ class OverZeroMq(Drivers):
 
     def test_a_second_one(self):
         self.second()
+
+    def test_one_that_does_not_say_what_the_treads_do(self):
+        self.quiet()
+
+    def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
+        self.quiet_and_hangs()
 
     def test_how_the_run_of_a_killed_node_ended_is_unknown(self):
         treads, start = self.begin()
@@ -204,6 +226,12 @@ class OverRos(Drivers):
 
     def test_a_second_one(self):
         self.second()
+
+    def test_one_that_does_not_say_what_the_treads_do(self):
+        self.quiet()
+
+    def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
+        self.quiet_and_hangs()
 
     def test_another_one_that_sends_speeds(self):
         treads, start = self.begin()

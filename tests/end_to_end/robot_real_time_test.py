@@ -211,7 +211,7 @@ class OverZeroMq(RealTime):
         run.wait_for("all robots are running")
         world.signal(signal.SIGKILL)
         self.assertEqual(run.end(), 6, run.said())
-        self.assertRegex(self.answer(run)["complaints"][0], r"failed: (\w+: silent for 1\.|driver: .* for 1\.)")
+        self.assertRegex(self.answer(run)["complaints"][0], r"failed: (\w+: silent for 1\.|driver: .* \(for 1\.)")
         self.assert_replays()
 
     def test_a_person_interrupts_stops_and_kills(self):

@@ -45,6 +45,12 @@ class BenchRobot {
     if (neighbours) send_neighbours();
   }
 
+  void send_driver() {
+    node.driver().set_listeners({{"driver", clock}}, clock);
+    if (!obeys) return;
+    node.driver().hear(DrivenMessage{{clock, 0}, treads.left_mps, treads.right_mps, "driver"});
+  }
+
   Decision tick() {
     Decision decision = node.tick(now());
     if (decision.row) rows.push_back(*decision.row);
@@ -56,10 +62,7 @@ class BenchRobot {
   Decision cycle(Duration late = {}) {
     clock += settings_.period;
     send_all();
-    node.driver().set_listeners({{"driver", clock}}, clock);
-    if (obeys) {
-      node.driver().hear(DrivenMessage{{clock, 0}, treads.left_mps, treads.right_mps, "driver"});
-    }
+    send_driver();
     if (alive) node.hear(order(Order::Kind::Alive), now());
     clock += late;
     Decision decision = tick();

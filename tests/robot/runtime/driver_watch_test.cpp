@@ -170,7 +170,7 @@ TEST(DriverWatch, ADriverThatHoldsTheTreadsEndsTheRun) {
     of.say(0, 0);
   });
   // While the node holds them, too, they agree for a moment; it tries a few times.
-  expect_invalid(robot, "it holds them", false);
+  expect_invalid(robot, "driver says that they do 0 and 0 m/s, and 0.3", false);
 }
 
 TEST(DriverWatch, ADriverOfOneTreadEndsTheRun) {
@@ -201,6 +201,39 @@ TEST(DriverWatch, ASlowDriverEndsTheRun) {
       of.say(of.commanded(behind).left_mps, of.commanded(behind).right_mps);
     });
     expect_invalid(robot, "s behind", false);
+  }
+}
+
+TEST(DriverWatch, ASlowDriverIsFoundWhereSpeedsComeAgain) {
+  for (const std::size_t behind : {5U, 8U, 10U, 17U}) {
+    int cycle = 0;
+    const auto of_time = [&cycle](std::size_t ago) {  // straight on, then left and straight in turn
+      const int k = cycle - static_cast<int>(ago);
+      return k % 17 < 9 || k % 2 == 0 ? Command{0.3, 0.3, {}} : Command{0.3, -0.3, {}};
+    };
+    DriverWatch watch({});
+    TimePoint clock{std::chrono::seconds(100)};
+    watch.set_listeners({{"driver", clock}}, clock);
+    watch.begin(clock);
+    std::optional<DriverWatch::Trouble> trouble;
+    int prompt_cycles = 0;
+    for (; cycle < 300 && !(trouble && trouble->ends); ++cycle) {
+      const Command now = of_time(0);
+      const bool is_late = cycle >= 150;
+      watch.commanded(clock, now.left_mps, now.right_mps);
+      const Command then = of_time(is_late ? behind : 1);
+      clock += milliseconds(60);
+      watch.hear(DrivenMessage{{clock, 0}, then.left_mps, then.right_mps, "driver"});
+      clock += milliseconds(40);
+      trouble = watch.trouble(clock);
+      if (!is_late) {
+        EXPECT_FALSE(trouble) << trouble->what;
+        ++prompt_cycles;
+      }
+    }
+    EXPECT_EQ(prompt_cycles, 150);
+    ASSERT_TRUE(trouble && trouble->ends) << behind;
+    EXPECT_THAT(trouble->what, HasSubstr("s after its command")) << behind;
   }
 }
 
