@@ -27,15 +27,23 @@ if len(sys.argv) > 2:  # the key's file, as `swarmsmith keygen` makes it
     node.curve_serverkey = key["server"].encode()
 node.connect(sys.argv[1])
 due = heard = time.monotonic()
+driven = 0, 0
+
+def obey(left_mps, right_mps):
+    global driven
+    drive(left_mps, right_mps)
+    driven = left_mps, right_mps
+
 while True:
     node.send_string("hello driver")  # again and again: a node that was restarted does not know us
-    for topic, values in ("ranges", ranges_m()), ("ground_color", ground_color()):
+    # `driven` is what the treads do: without it no run is VALID
+    for topic, values in ("ranges", ranges_m()), ("ground_color", ground_color()), ("driven", driven):
         node.send_string(f"{topic} {time.time_ns()} " + " ".join(map(repr, values)))
     due += 0.1
     while node.poll(max(0, 1000 * (due - time.monotonic()))):
         words = node.recv_string().split()
         if words[0] == "wheels":  # wheels STAMP LEFT RIGHT
             heard = time.monotonic()
-            drive(float(words[2]), float(words[3]))
+            obey(float(words[2]), float(words[3]))
     if time.monotonic() - heard > 0.3:
-        drive(0, 0)
+        obey(0, 0)

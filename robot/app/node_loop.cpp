@@ -32,15 +32,20 @@ NodeLoop::NodeLoop(RobotNode& node, RobotEnd& end, LoopOptions options)
 
 NodeLoop::Ending NodeLoop::run() {
   const Now now = now_on_both_clocks();
-  const std::chrono::duration<double> wall(now.unix_s);
-  node_.feeds().set_wall_offset(std::chrono::duration_cast<Duration>(wall) -
-                                now.clock.time_since_epoch());
+  set_wall_offset(now);
   world_heard_ = now.clock;
   while (turn()) {
   }
   close();
   if (ending_ == Ending::NoMoreRuns && node_.phase() == Phase::Failed) return Ending::Wrong;
   return *ending_;
+}
+
+/// Each time: the wall clock may be stepped.
+void NodeLoop::set_wall_offset(const Now& now) {
+  const std::chrono::duration<double> wall(now.unix_s);
+  node_.feeds().set_wall_offset(std::chrono::duration_cast<Duration>(wall) -
+                                now.clock.time_since_epoch());
 }
 
 bool NodeLoop::turn() {
@@ -61,8 +66,9 @@ bool NodeLoop::turn_by_clock() {
     if (ending_) return false;
     if (steady_now() >= deadline && ++behind >= kMostBehindDeadline) break;
   }
-  node_.set_driver(end_.connected());
+  node_.driver().set_listeners(end_.listeners(), steady_now());
   const Now now = now_on_both_clocks();
+  set_wall_offset(now);
   carry_out(node_.tick(now));
   tend_log();
   tell_state(false);
@@ -103,6 +109,8 @@ void NodeLoop::hear(const ToRobot& message) {
                           finish(Ending::Lost);
                         },
                         [this](const BatteryMessage& battery) { node_.hear(battery); },
+                        [this](const DrivenMessage& driven) { node_.driver().hear(driven); },
+                        [this](const RivalMessage& rival) { node_.driver().hear(rival); },
                         [](const ImuMessage&) {}, [](const OdometryMessage&) {},
                         [this](const auto& reading) {
                           node_.feeds().hear(reading);
@@ -114,9 +122,16 @@ void NodeLoop::hear(const ToRobot& message) {
 void NodeLoop::hear_order(const OrderMessage& message) {
   const auto order = parse_order(message.text);
   if (!order) {
+    if (order.error().message != last_refused_) options_.note(order.error().message);
+    last_refused_ = order.error().message;
     node_.refuse_order(order.error().message);
     tell_state(true);
     return;
+  }
+  if (!order->unknown_keys.empty() && order->unknown_keys != last_unknown_) {
+    last_unknown_ = order->unknown_keys;
+    options_.note("an order " + std::string(name_of(order->kind)) + " has the key " +
+                  order->unknown_keys + ", which no order has: it is ignored");
   }
   const bool was_on = node_.is_on();
   node_.hear(*order, now_on_both_clocks());

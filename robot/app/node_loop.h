@@ -53,6 +53,7 @@ class NodeLoop {
  private:
   /// False: the loop is over.
   bool turn();
+  void set_wall_offset(const Now& now);
   bool turn_by_clock();
   bool turn_in_lock_step();
   void hear(const ToRobot& message);
@@ -78,6 +79,8 @@ class NodeLoop {
   std::string told_;  ///< of what was told, the part that must be told when it changes
   TimePoint world_heard_;
   std::string last_trouble_;
+  std::string last_refused_;  ///< of texts that are no orders
+  std::string last_unknown_;  ///< keys of orders
 };
 
 }  // namespace swarmsmith::cli

@@ -144,6 +144,7 @@ Expected<NodeSettings> settings_of(const Words& words, bool lock_step) {
   double operator_gone = 1;
   numbers.read(words.operator_gone, "--operator-gone", 0, 3600, operator_gone);
   settings.operator_gone = duration_of(operator_gone);
+  settings.operator_hold = std::min(settings.operator_hold, settings.operator_gone);
   double battery_percent = 100 * settings.least_battery;
   numbers.read(words.least_battery, "--least-battery", 0, 100, battery_percent);
   settings.least_battery = battery_percent / 100;
@@ -185,6 +186,7 @@ EndOptions end_options(const Words& words, const PerFeed<bool>& needed, Pace pac
                  .neighbours = around && words.neighbours == "neighbours",
                  .light = needed[index_of(Feed::Light)],
                  .body = pace == Pace::Clock,
+                 .driven = pace == Pace::Clock,
                  .senses = false};
   if (pace == Pace::Senses) {
     end.sensors = {};
@@ -319,7 +321,7 @@ Run declare_robot_run(Options& options) {
   options.text("--max-speed SPEED", words->max_speed, "Of a tread, m/s (default 0.35)");
   options.texts("--max-age", words->max_ages,
                 "SENSOR=SECONDS of silence until the treads stop, repeatable (default "
-                "proximity=0.3, all others 0.5)");
+                "proximity=0.3, all others 0.35)");
   options.texts("--need SENSOR", words->needs, "A sensor that must be there besides the machine's");
   options.text("--operator-gone", words->operator_gone,
                "Seconds of silence of `start` that end a run; 0: never (default 1)");

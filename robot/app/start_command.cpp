@@ -51,6 +51,26 @@ class Teller {
   bool began_ = false;
 };
 
+/// A robot that was not heard to end its run: how it ended is not known here, whatever it said
+/// last.
+std::string unknown(const RolledRobot& robot) {
+  const std::chrono::duration<double> ago = now_on_both_clocks().clock - robot.heard;
+  return fmt::format(
+      "{}: unknown; it was last heard {:.1f} s ago, {} after {} cycles: look after it, and at its "
+      "log",
+      robot.name, ago.count(), name_of(robot.state->phase), robot.state->cycle);
+}
+
+/// The verdict of each robot; "unknown" of one that was not heard to end.
+JsonObject verdicts_of(const RunStarter& starter) {
+  JsonObject verdicts;
+  for (const RolledRobot& robot : starter.roll().robots()) {
+    verdicts.add(robot.name,
+                 starter.is_over_for(robot) ? name_of(robot.state->verdict) : "unknown");
+  }
+  return verdicts;
+}
+
 ExitCode answer(const Words& words, const RunStarter& starter, const std::string& file,
                 Output& output) {
   const bool valid = starter.verdict() != RunVerdict::Invalid;
@@ -64,12 +84,17 @@ ExitCode answer(const Words& words, const RunStarter& starter, const std::string
                     std::chrono::duration<double>(starter.start().clock.time_since_epoch()).count())
                .add("start_unix_s", starter.start().unix_s)
                .add("file", file)
+               .add("verdicts", verdicts_of(starter))
                .add("robots", JsonPiece{roll_json(starter.roll(), now_on_both_clocks().clock)})
                .text()
         << "\n";
   } else {
     for (const RolledRobot& robot : starter.roll().robots()) {
       if (!robot.state) continue;
+      if (!starter.is_over_for(robot)) {
+        output.out << unknown(robot) << "\n";
+        continue;
+      }
       output.out << fmt::format("{}: {} after {} cycles, {}\n", robot.name,
                                 name_of(robot.state->phase), robot.state->cycle,
                                 name_of(robot.state->verdict));

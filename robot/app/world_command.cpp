@@ -103,7 +103,7 @@ SensorTopics sensors_of(const Words& words) {
   sensors.neighbours = !sensors.scan;
   sensors.ranges_apart = words.ranges == "apart";
   sensors.light = words.light;
-  sensors.body = words.real_time;
+  sensors.body = sensors.driven = words.real_time;
   sensors.senses = words.lock_step && !words.topics;
   return sensors;
 }

@@ -20,6 +20,7 @@
 #include <thread>
 #include <utility>
 
+#include "robot/ros/internal/listener_watch.h"
 #include "robot/ros/internal/range_array.h"
 #include "robot/ros/internal/session.h"
 #include "robot/transport/inbox.h"
@@ -161,6 +162,8 @@ class RosRobotEnd final : public RobotEnd {
                                  });
     if (!session) return tl::unexpected(session.error());
     end->node_.session = std::move(*session);
+    end->watch_ = std::make_unique<ListenerWatch>(
+        [inbox = end->inbox_](std::string text) { inbox->put(TroubleMessage{std::move(text)}); });
     end->connect("/" + name);
     return end;
   }
@@ -189,7 +192,7 @@ class RosRobotEnd final : public RobotEnd {
   void send(const AnswerMessage& answer) override {
     publish_or_keep(answers_, doubles_message(numbers_of(answer)));
   }
-  bool connected() override { return (by_number_ ? answers_ : wheels_).getNumSubscribers() > 0; }
+  std::vector<Listener> listeners() override { return watch_->listeners(); }
   void flush(Duration most) override { give_time(most); }
 
  private:
@@ -216,7 +219,26 @@ class RosRobotEnd final : public RobotEnd {
   ros::Publisher advertise(ros::NodeHandle& handle, const std::string& topic) {
     return handle.advertise<Message>(
         topic, queue_of(options_.keep),
-        [this](const ros::SingleSubscriberPublisher&) { publish_early(); });
+        [this](const ros::SingleSubscriberPublisher& one) {
+          publish_early();
+          watch_->joined(one.getSubscriberName());
+        },
+        [this](const ros::SingleSubscriberPublisher& one) {
+          watch_->left(one.getSubscriberName());
+        });
+  }
+  /// Commands go out, and those of others to the same treads come in.
+  template <class Message>
+  void advertise_wheels(ros::NodeHandle& handle) {
+    const std::string topic = wheels_topic(form_);
+    wheels_ = advertise<Message>(handle, topic);
+    if (options_.keep == Keep::All) return;
+    node_.subscribe<Message>(handle, topic, command_queue_of(options_.keep),
+                             [this](const Message&, const std::string& sender) {
+                               if (sender == ros::this_node::getName()) return;
+                               inbox_->put(RivalMessage{arrival_of(), sender});
+                             });
+    watch_->look_for_rivals(wheels_.getTopic());
   }
 
   /// A message made of numbers.
@@ -250,11 +272,11 @@ class RosRobotEnd final : public RobotEnd {
     if (sensors.senses) {
       answers_ = advertise<std_msgs::Float64MultiArray>(handle, AnswerMessage::kTopic);
     } else if (form_ == WheelsForm::Doubles) {
-      wheels_ = advertise<std_msgs::Float64MultiArray>(handle, wheels_topic(form_));
+      advertise_wheels<std_msgs::Float64MultiArray>(handle);
     } else if (form_ == WheelsForm::Floats) {
-      wheels_ = advertise<std_msgs::Float32MultiArray>(handle, wheels_topic(form_));
+      advertise_wheels<std_msgs::Float32MultiArray>(handle);
     } else {
-      wheels_ = advertise<geometry_msgs::Twist>(handle, wheels_topic(form_));
+      advertise_wheels<geometry_msgs::Twist>(handle);
     }
     leds_ = handle.advertise<std_msgs::Float32MultiArray>("leds", queue);
     // The last one: who sees it at the master sees all the others (RosWorldEnd::connected).
@@ -305,6 +327,31 @@ class RosRobotEnd final : public RobotEnd {
       listen<NeighboursMessage, std_msgs::Float64MultiArray>(handle, "neighbours");
     if (sensors.light) listen<LightMessage, std_msgs::Float64MultiArray>(handle, "light");
     if (sensors.body) connect_body(handle);
+    if (sensors.driven) {
+      node_.subscribe<std_msgs::Float64MultiArray>(
+          handle, DrivenMessage::kTopic, command_queue_of(options_.keep),
+          [this](const std_msgs::Float64MultiArray& message, const std::string& sender) {
+            if (!watch_->listens(sender)) return not_believed(sender);
+            DrivenMessage driven;
+            driven.arrival = arrival_of();
+            driven.sender = watch_->name_of(sender);
+            if (read_numbers(message.data, driven)) return inbox_->put(std::move(driven));
+            if (complaints_.first(DrivenMessage::kTopic)) {
+              inbox_->put(TroubleMessage{sender + " sent " + std::to_string(message.data.size()) +
+                                             " numbers on driven, and two are wanted: left, right",
+                                         false});
+            }
+          });
+    }
+  }
+
+  /// Its first words may come before its connection.
+  void not_believed(const std::string& sender) {
+    constexpr int kMany = 20;
+    if (++deaf_[sender] != kMany) return;
+    inbox_->put(TroubleMessage{sender + " says what the treads do, and does not listen to their "
+                                        "speeds; it is not believed",
+                               false});
   }
 
   void connect_body(ros::NodeHandle& handle) {
@@ -349,7 +396,8 @@ class RosRobotEnd final : public RobotEnd {
   WheelsForm form_;
   bool by_number_;
   std::shared_ptr<RobotInbox> inbox_;
-  Complaints complaints_;  ///< of the spinner's thread
+  Complaints complaints_;            ///< of the spinner's thread, as is the next one
+  std::map<std::string, int> deaf_;  ///< messages of those who drive and do not listen
   std::mutex early_mutex_;
   std::function<void()> early_;  ///< sends what had nobody to go to
   RangesMessage ranges_;         ///< with ranges_apart
@@ -358,6 +406,7 @@ class RosRobotEnd final : public RobotEnd {
   ros::Publisher leds_;
   ros::Publisher state_;
   ros::Publisher answers_;
+  std::unique_ptr<ListenerWatch> watch_;
   Node node_;  ///< ends first: its callbacks use the others
 };
 
@@ -458,6 +507,9 @@ class RosWorldEnd final : public WorldEnd {
     message.percentage = static_cast<float>(battery.charge);
     publish(robot, "battery", message);
   }
+  void send(std::size_t robot, const DrivenMessage& driven) override {
+    publish(robot, DrivenMessage::kTopic, doubles_message(numbers_of(driven)));
+  }
   void send(std::size_t robot, const SensesMessage& senses) override {
     publish(robot, "senses", doubles_message(numbers_of(senses)));
   }
@@ -553,6 +605,7 @@ class RosWorldEnd final : public WorldEnd {
     if (sensors.scan) offer<sensor_msgs::LaserScan>(handle, robot, "scan");
     if (sensors.neighbours) offer<std_msgs::Float64MultiArray>(handle, robot, "neighbours");
     if (sensors.light) offer<std_msgs::Float64MultiArray>(handle, robot, "light");
+    if (sensors.driven) offer<std_msgs::Float64MultiArray>(handle, robot, DrivenMessage::kTopic);
     if (!sensors.body) return;
     offer<sensor_msgs::Imu>(handle, robot, "imu");
     offer<nav_msgs::Odometry>(handle, robot, "odom");

@@ -75,6 +75,7 @@ RobotNode::RobotNode(NodeSettings settings, const Controller& controller, const 
       needed_(feeds_of(senses_used_by(controller, flavour))),
       feeds_(settings_.feeds),
       door_(settings_.robot),
+      driver_({.hold = settings_.driver_hold, .give_up = settings_.give_up}),
       seed_(settings_.seed) {
   for (const Feed feed : kAllFeeds)
     needed_[index_of(feed)] |= settings_.also_needed[index_of(feed)];
@@ -107,7 +108,8 @@ std::vector<std::string> RobotNode::not_ready(TimePoint now) const {
     const Duration age = feeds_.age(feed, now).value_or(Duration::max());
     if (age > settings_.hold[index_of(feed)]) reasons.push_back(told({feed, age}));
   }
-  if (!driver_) reasons.emplace_back("driver: nobody listens to the speeds of the treads");
+  for (std::string& reason : driver_.not_ready(now))
+    reasons.push_back(std::move(reason));
   if (battery_ && *battery_ < settings_.least_battery) {
     reasons.push_back(fmt::format("battery: {:.0f} %, at least {:.0f} % are wanted",
                                   100 * *battery_, 100 * settings_.least_battery));
@@ -123,11 +125,9 @@ void RobotNode::hear(const BatteryMessage& message) {
 
 void RobotNode::hear(const Order& order, const Now& now) {
   if (!door_.is_for_this_robot(order)) return;
+  // Comes often: says nothing of the last real order.
+  if (order.kind == Order::Kind::Alive) return hear_alive(order, now);
   auto refusal = door_.refusal(order, now.unix_s);
-  if (order.kind == Order::Kind::Alive) {  // comes often: says nothing of the last real order
-    if (!refusal && is_on() && order.run == run_) operator_heard_ = now.clock;
-    return;
-  }
   order_ = order.id;
   refused_.clear();
   if (refusal) {
@@ -135,6 +135,40 @@ void RobotNode::hear(const Order& order, const Now& now) {
   } else {
     obey(order, now);
   }
+}
+
+/// An old one, held up on its way or played back, says nothing. How old it is follows from the
+/// steady clock here: a wall clock may be stepped in a run, and neither run nor operator is gone.
+void RobotNode::hear_alive(const Order& order, const Now& now) {
+  constexpr double kDrift = 1e-3;  // of two clocks
+  if (!is_on() || order.run != run_) return;
+  const double since_s = seconds_of(now.clock - operator_clock_.clock);
+  const double ahead_s = order.sent_unix_s - (operator_clock_.unix_s + since_s);
+  operator_behind_s_ = 0;
+  if (ahead_s < -order.valid_s - kDrift * since_s) {
+    operator_behind_s_ = -ahead_s;
+    return;
+  }
+  operator_heard_ = now.clock;
+  if (ahead_s > order.valid_s + kDrift * since_s) {
+    new_step_ = fmt::format("the operator's clock was stepped by {:+.2f} s", ahead_s);
+    clock_steps_.push_back(fmt::format("{} at {:.1f} s", new_step_, time_s(now.clock)));
+  }
+  if (ahead_s > 0) operator_clock_ = {now.clock, order.sent_unix_s};
+}
+
+/// The run goes by the steady clock; that the other one was stepped is told.
+void RobotNode::look_at_clock(const Now& now) {
+  constexpr double kStep_s = 0.1;
+  const double ahead_s = now.unix_s - clock_s(now.clock);
+  const double step_s = ahead_s - std::exchange(wall_ahead_s_, ahead_s);
+  if (std::fabs(step_s) < kStep_s) return;
+  new_step_ = fmt::format("this computer's clock was stepped by {:+.2f} s", step_s);
+  clock_steps_.push_back(fmt::format("{} at {:.1f} s", new_step_, time_s(now.clock)));
+}
+
+double RobotNode::time_s(TimePoint at) const {
+  return std::max(0.0, seconds_of(at - clock_->start()));
 }
 
 void RobotNode::obey(const Order& order, const Now& now) {
@@ -186,6 +220,8 @@ void RobotNode::arm(const Order& order, const Now& now) {
   phase_ = Phase::Armed;
   seconds_ = order.seconds;
   operator_heard_ = now.clock;
+  operator_clock_ = {now.clock, order.sent_unix_s};
+  wall_ahead_s_ = now.unix_s - clock_s(now.clock);
   if (const auto offset = order.clock_offsets_s.find(settings_.robot);
       offset != order.clock_offsets_s.end())
     clock_offset_s_ = offset->second;
@@ -203,10 +239,15 @@ void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, c
   control_.emplace(*controller_, *flavour_, control_stream(seed, settings_.robot_index));
   cycle_ = stepped_ = held_ = skipped_ = late_readings_ = cut_ = 0;
   held_for_ = {};
+  by_driver_ = by_operator_ = {};
+  clock_steps_.clear();
+  new_step_.clear();
+  operator_behind_s_ = 0;
   longest_silence_ = {};
   broken_.clear();
   log_lost_ = false;
   phase_ = Phase::Running;
+  driver_.begin(start.clock);
   judge();
 }
 
@@ -217,6 +258,27 @@ TimePoint RobotNode::next_tick(TimePoint now) const {
 }
 
 Decision RobotNode::tick(const Now& now) {
+  Decision decision = decide(now);
+  if (decision.command)
+    driver_.commanded(now.clock, decision.command->left_mps, decision.command->right_mps);
+  if (decision.row && !new_step_.empty()) {
+    std::string& event = decision.row->event;
+    event += (event.empty() ? "" : "; ") + std::exchange(new_step_, {});
+  }
+  return decision;
+}
+
+std::string RobotNode::silence_of_operator(const Now& now) const {
+  const double silent_s = seconds_of(now.clock - operator_heard_);
+  if (operator_behind_s_ == 0) return fmt::format("the operator is silent for {:.2f} s", silent_s);
+  return fmt::format(
+      "the operator's orders have been dated {:.2f} s too early for {:.2f} s: its clock was "
+      "stepped "
+      "back, or the network holds them up",
+      operator_behind_s_, silent_s);
+}
+
+Decision RobotNode::decide(const Now& now) {
   last_tick_ = now.clock;
   if (phase_ == Phase::Idle || phase_ == Phase::Ready) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
@@ -224,9 +286,9 @@ Decision RobotNode::tick(const Now& now) {
   }
   if (is_on() && settings_.operator_gone > Duration::zero() &&
       now.clock - operator_heard_ > settings_.operator_gone) {
-    fail(fmt::format("the operator is silent for {:.2f} s",
-                     seconds_of(now.clock - operator_heard_)));
+    fail(silence_of_operator(now));
   }
+  if (is_on()) look_at_clock(now);
   if (phase_ == Phase::Armed && now.clock >= clock_->start()) phase_ = Phase::Running;
   if (phase_ == Phase::Running) {
     const ControlClock::Beat beat = clock_->beat(now.clock);
@@ -249,17 +311,28 @@ Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
     fail(told(*lost));
     return decision;
   }
+  if (const auto trouble = driver_.trouble(now.clock)) {
+    const std::string why =
+        fmt::format("driver: {} (for {:.2f} s, since {:.1f} s)", trouble->what,
+                    seconds_of(now.clock - trouble->since), time_s(trouble->since));
+    if (trouble->ends) {
+      Decision decision = hold(beat.cycle, beat.late, now, why);
+      fail(why);
+      return decision;
+    }
+    count(by_driver_, "driver: " + trouble->what, trouble->since, now);
+    return hold_and_count(beat, now, why);
+  }
   if (const auto silent = silence(now.clock, settings_.hold)) {
-    ++held_;
     ++held_for_[index_of(silent->feed)];
     Duration& longest = longest_silence_[index_of(silent->feed)];
     longest = std::max(longest, silent->age);
-    Decision decision = hold(beat.cycle, beat.late, now, told(*silent));
-    if (static_cast<double>(held_) > kInvalid * static_cast<double>(clock_->cycles())) {
-      fail(fmt::format("sensors were silent in {} of {} cycles; {}", held_, clock_->cycles(),
-                       told(*silent)));
-    }
-    return decision;
+    return hold_and_count(beat, now, told(*silent));
+  }
+  if (settings_.operator_gone > Duration::zero() &&
+      now.clock - operator_heard_ > settings_.operator_hold) {
+    count(by_operator_, "the operator was silent", operator_heard_, now);
+    return hold_and_count(beat, now, silence_of_operator(now));
   }
   PerFeed<Duration> late;
   late.fill(settings_.late);
@@ -269,6 +342,25 @@ Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
   sensed_.time_s = seconds_of(now.clock - clock_->start());
   Decision decision = step(beat.cycle, beat.late, now);
   if (old && decision.row && decision.row->event.empty()) decision.row->event = told(*old);
+  return decision;
+}
+
+void RobotNode::count(Standing& standing, const std::string& what, TimePoint since,
+                      const Now& now) {
+  ++standing.cycles;
+  if (now.clock - since <= standing.longest) return;
+  standing.what = what;
+  standing.longest = now.clock - since;
+  standing.at_s = time_s(since);
+}
+
+/// A cycle that is not stepped; too many of them end the run.
+Decision RobotNode::hold_and_count(const ControlClock::Beat& beat, const Now& now,
+                                   const std::string& why) {
+  ++held_;
+  Decision decision = hold(beat.cycle, beat.late, now, why);
+  if (static_cast<double>(held_) > kInvalid * static_cast<double>(clock_->cycles()))
+    fail(fmt::format("the treads stood in {} of {} cycles; {}", held_, clock_->cycles(), why));
   return decision;
 }
 
@@ -371,6 +463,7 @@ Decision RobotNode::step_counted(const Now& now) {
 
 void RobotNode::end(Phase phase) {
   phase_ = phase;
+  driver_.end();
   judge();
 }
 
@@ -391,6 +484,7 @@ void RobotNode::fail(const std::string& why) {
 void RobotNode::disarm(const std::string& why) {
   refused_ = why;
   run_.clear();
+  driver_.end();
   phase_ = Phase::Idle;
 }
 
@@ -427,6 +521,19 @@ void RobotNode::judge() {
         fmt::format("{} was silent for up to {:.2f} s: {} cycles were not stepped", name_of(feed),
                     seconds_of(longest_silence_[i]), held_for_[i]));
   }
+  for (const Standing* standing : {&by_driver_, &by_operator_}) {
+    if (standing->cycles == 0) continue;
+    add(RunVerdict::Degraded,
+        fmt::format("{}, for up to {:.2f} s, at {:.1f} s: {} cycles were not stepped",
+                    standing->what, seconds_of(standing->longest), standing->at_s,
+                    standing->cycles));
+  }
+  if (clock_ && !lock_step_) {
+    for (const std::string& doubt : driver_.doubts())
+      add(RunVerdict::Degraded, "driver: " + doubt);
+  }
+  for (const std::string& step : clock_steps_)
+    add(RunVerdict::Valid, step);
   if (cut_ > 0) {
     add(RunVerdict::Degraded,
         fmt::format("speeds were cut to {} m/s in {} cycles", settings_.max_mps, cut_));

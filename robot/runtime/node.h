@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "robot/runtime/control_clock.h"
+#include "robot/runtime/driver_watch.h"
 #include "robot/runtime/feeds.h"
 #include "robot/runtime/node_state.h"
 #include "robot/runtime/order.h"
@@ -31,10 +32,14 @@ struct NodeSettings {
   /// A needed feed that is silent for longer is counted,
   Duration late = std::chrono::milliseconds(150);
   /// for longer stops the treads,
-  PerFeed<Duration> hold = {std::chrono::milliseconds(300), std::chrono::milliseconds(500),
-                            std::chrono::milliseconds(500), std::chrono::milliseconds(500)};
-  /// and for longer ends the run.
+  PerFeed<Duration> hold = {std::chrono::milliseconds(300), std::chrono::milliseconds(350),
+                            std::chrono::milliseconds(350), std::chrono::milliseconds(350)};
+  /// and for longer ends the run. With a period on top the treads stand within 0.5 s.
   Duration give_up = std::chrono::seconds(1);
+  /// The same of a driver that does not obey (it ends the run after `give_up`), and of the
+  /// operator.
+  Duration driver_hold = std::chrono::milliseconds(300);
+  Duration operator_hold = std::chrono::milliseconds(300);
   Duration operator_gone = std::chrono::seconds(1);  ///< 0: the operator may go
   double least_battery = 0.2;                        ///< charge, 0 to 1
   std::string lock_step_run = "run";                 ///< runs in lock-step are this and their seed
@@ -74,8 +79,8 @@ class RobotNode {
 
   /// Why no run can start, by name of what is missing; empty: it can.
   std::vector<std::string> not_ready(TimePoint now) const;
-  /// Whether anybody listens to commands.
-  void set_driver(bool listens) { driver_ = listens; }
+  /// What is known of who drives the treads.
+  DriverWatch& driver() { return driver_; }
 
   /// When the node wants to be ticked next, at the latest.
   TimePoint next_tick(TimePoint now) const;
@@ -117,7 +122,10 @@ class RobotNode {
   void begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& start);
   void obey(const Order& order, const Now& now);
   void arm(const Order& order, const Now& now);
+  void hear_alive(const Order& order, const Now& now);
+  void look_at_clock(const Now& now);
   void end(Phase phase);
+  Decision decide(const Now& now);
   Decision step(std::int64_t cycle, Duration late, const Now& now);
   Decision run_cycle(const ControlClock::Beat& beat, const Now& now);
   Decision hold(std::int64_t cycle, Duration late, const Now& now, std::string why);
@@ -129,6 +137,17 @@ class RobotNode {
   };
   std::optional<Silence> silence(TimePoint now, const PerFeed<Duration>& limits) const;
   std::string told(const Silence& silence) const;
+  double time_s(TimePoint at) const;
+  /// Why the treads stand, besides sensors: the driver, or the operator.
+  struct Standing {
+    std::string what;
+    std::int64_t cycles = 0;
+    Duration longest{};
+    double at_s = 0;  ///< when that began
+  };
+  void count(Standing& standing, const std::string& what, TimePoint since, const Now& now);
+  Decision hold_and_count(const ControlClock::Beat& beat, const Now& now, const std::string& why);
+  std::string silence_of_operator(const Now& now) const;
   void judge();
 
   NodeSettings settings_;
@@ -140,7 +159,7 @@ class RobotNode {
   Feeds feeds_;
   OrderDoor door_;
   std::optional<double> battery_;
-  bool driver_ = true;
+  DriverWatch driver_;
   bool killed_ = false;
 
   Phase phase_ = Phase::Idle;
@@ -159,6 +178,11 @@ class RobotNode {
   std::optional<ControlClock> clock_;
   std::optional<ControlSoftware> control_;
   TimePoint operator_heard_;
+  Now operator_clock_;            ///< a steady instant here, and the operator's wall clock then
+  double operator_behind_s_ = 0;  ///< so much too early the last order was dated, if it was
+  double wall_ahead_s_ = 0;       ///< the wall clock minus the steady one
+  std::vector<std::string> clock_steps_;
+  std::string new_step_;  ///< for the log's next row
   Sensed sensed_;
   std::int64_t cycle_ = 0;
   std::int64_t stepped_ = 0;
@@ -166,6 +190,8 @@ class RobotNode {
   std::int64_t skipped_ = 0;
   std::int64_t late_readings_ = 0;
   std::int64_t cut_ = 0;
+  Standing by_driver_;
+  Standing by_operator_;
   PerFeed<std::int64_t> held_for_{};
   PerFeed<Duration> longest_silence_{};
   std::string broken_;  ///< why it failed or was stopped

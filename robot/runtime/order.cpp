@@ -27,7 +27,26 @@ std::string text_of_key(const nlohmann::json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+constexpr std::array<std::string_view, 10> kKeys = {
+    "order",   "id",        "run",     "robots", "sent_unix_s",
+    "valid_s", "at_unix_s", "seconds", "seed",   "clock_offsets_s"};
+
+/// "`sed`, `robot`".
+std::string unknown_keys(const nlohmann::json& json) {
+  std::string text;
+  for (const auto& [key, value] : json.items()) {
+    if (std::ranges::find(kKeys, key) != kKeys.end()) continue;
+    text += (text.empty() ? "`" : ", `") + key + "`";
+  }
+  return text;
+}
+
 Expected<void> check_start(const Order& order) {
+  if (!order.unknown_keys.empty()) {
+    return bad_input("a start has no key " + order.unknown_keys +
+                     ": a run that is not the one that was meant does not begin");
+  }
+
   if (!is_plain_name(order.run))
     return bad_input("a start needs a run's name of letters, digits, - and _");
   if (!(order.seconds > 0 && order.seconds <= 86'400))
@@ -65,6 +84,7 @@ Expected<Order> parse_order(std::string_view text) {
   if (known == kKinds.end()) return bad_input("there is no order `" + kind + "`");
   Order order;
   order.kind = static_cast<Order::Kind>(known - kKinds.begin());
+  order.unknown_keys = unknown_keys(json);
   order.id = text_of_key(json, "id");
   if (order.id.empty()) return bad_input("an order needs an `id`");
   order.run = text_of_key(json, "run");

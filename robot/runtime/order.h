@@ -34,6 +34,8 @@ struct Order {
   /// Of Start: a robot's wall clock minus the operator's, as measured.
   std::map<std::string, double> clock_offsets_s;
 
+  std::string unknown_keys;  ///< of an order that was read: "`sed`"; empty: it has none
+
   friend bool operator==(const Order&, const Order&) = default;
 };
 

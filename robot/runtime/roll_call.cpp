@@ -9,7 +9,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr Duration kEchoPatience = std::chrono::milliseconds(250);
-constexpr Duration kAliveEvery = std::chrono::milliseconds(200);
+constexpr Duration kAliveEvery = std::chrono::milliseconds(100);
 constexpr Duration kStopEvery = std::chrono::milliseconds(200);
 constexpr Duration kMostSilence = std::chrono::seconds(1);
 constexpr Duration kArmPatience = std::chrono::seconds(1);

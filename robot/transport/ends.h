@@ -40,6 +40,7 @@ struct SensorTopics {
   bool neighbours = false;
   bool light = false;
   bool body = false;    ///< imu, odom and battery
+  bool driven = false;  ///< what the driver of the treads says
   bool senses = false;  ///< lock-step by number; then none of the others is needed
 };
 
@@ -48,6 +49,13 @@ struct EndOptions {
   Keep keep = Keep::Newest;
   SensorTopics sensors{};
   WheelsForm wheels = WheelsForm::Doubles;
+};
+
+/// Who gets the speeds of the treads.
+struct Listener {
+  std::string name;    ///< another one for each connection
+  TimePoint heard{};   ///< its last sign of life
+  bool drives = true;  ///< says that it is a driver; else it may as well only listen
 };
 
 /// A robot's node.
@@ -59,8 +67,10 @@ class RobotEnd {
   virtual void send(const LedsMessage& leds) = 0;
   virtual void send(const StateMessage& state) = 0;
   virtual void send(const AnswerMessage& answer) = 0;
-  /// Whether a driver or a world listens to what this node commands: what was sent before is lost.
-  virtual bool connected() = 0;
+  /// Drivers, a world and all others that get what this node commands.
+  virtual std::vector<Listener> listeners() = 0;
+  /// Whether there is one: what was sent before is lost.
+  bool connected() { return !listeners().empty(); }
   /// Waits no longer than `most` for what was sent to go out. For the last command of a node.
   virtual void flush(Duration most) = 0;
 };
@@ -86,6 +96,7 @@ class WorldEnd {
   virtual void send(std::size_t robot, const ImuMessage& imu) = 0;
   virtual void send(std::size_t robot, const OdometryMessage& odometry) = 0;
   virtual void send(std::size_t robot, const BatteryMessage& battery) = 0;
+  virtual void send(std::size_t robot, const DrivenMessage& driven) = 0;
   virtual void send(std::size_t robot, const SensesMessage& senses) = 0;
   /// Whether the robot's node listens to all that it needs: what was sent before is lost.
   virtual bool connected(std::size_t robot) = 0;

@@ -38,7 +38,7 @@ struct InProcessSwarm::Impl {
     void send(const AnswerMessage& answer) override {
       swarm->world.inbox.put(index, arrived(answer));
     }
-    bool connected() override { return true; }
+    std::vector<Listener> listeners() override { return {{"world", now()}}; }
     void flush(Duration) override {}
 
     Impl* swarm;
@@ -62,6 +62,11 @@ struct InProcessSwarm::Impl {
     void send(std::size_t robot, const ImuMessage& m) override { swarm->to_robot(robot, m); }
     void send(std::size_t robot, const OdometryMessage& m) override { swarm->to_robot(robot, m); }
     void send(std::size_t robot, const BatteryMessage& m) override { swarm->to_robot(robot, m); }
+    void send(std::size_t robot, const DrivenMessage& m) override {
+      DrivenMessage sent = m;
+      if (sent.sender.empty()) sent.sender = "world";
+      swarm->to_robot(robot, sent);
+    }
     void send(std::size_t robot, const SensesMessage& m) override { swarm->to_robot(robot, m); }
     bool connected(std::size_t) override { return true; }
     void flush(Duration) override {}

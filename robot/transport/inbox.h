@@ -72,6 +72,13 @@ class RobotInbox {
   template <class Message>
   void put(Message message) {
     if (keep_ == Keep::All || !kNewestCounts<Message>) return inbox_.put(std::move(message));
+    if constexpr (std::is_same_v<Message, DrivenMessage> || std::is_same_v<Message, RivalMessage>) {
+      const std::string sender = message.sender;  // a second one must be noticed
+      return inbox_.put_newest(std::move(message), [&sender](const ToRobot& old) {
+        const auto* of_kind = std::get_if<Message>(&old);
+        return of_kind != nullptr && of_kind->sender == sender;
+      });
+    }
     inbox_.put_newest(std::move(message),
                       [](const ToRobot& old) { return std::holds_alternative<Message>(old); });
   }

@@ -101,6 +101,22 @@ struct BatteryMessage {
   double charge = 0;  ///< 0 empty to 1 full; NaN not known
 };
 
+/// What the driver of the treads has them do: the speeds of the command that it obeys, as they
+/// came, or 0 and 0 where it stops them by itself. Several times a second, also while it stands.
+struct DrivenMessage {
+  static constexpr const char* kTopic = "driven";
+  Arrival arrival{};
+  double left_mps = 0;
+  double right_mps = 0;
+  std::string sender{};  ///< who sent it, where the transport knows
+};
+
+/// Speeds for this node's treads that another one sent.
+struct RivalMessage {
+  Arrival arrival{};
+  std::string sender{};
+};
+
 /// An order of the operator, to all robots: a JSON object. What it means is robot/runtime's.
 struct OrderMessage {
   static constexpr const char* kTopic = "order";
@@ -129,9 +145,10 @@ struct TroubleMessage {
 };
 
 /// What reaches a robot's node.
-using ToRobot = std::variant<RangesMessage, GroundColorMessage, ScanMessage, NeighboursMessage,
-                             LightMessage, ImuMessage, OdometryMessage, BatteryMessage,
-                             OrderMessage, SensesMessage, TroubleMessage>;
+using ToRobot =
+    std::variant<RangesMessage, GroundColorMessage, ScanMessage, NeighboursMessage, LightMessage,
+                 ImuMessage, OdometryMessage, BatteryMessage, DrivenMessage, RivalMessage,
+                 OrderMessage, SensesMessage, TroubleMessage>;
 
 /// Speeds of the treads over ground.
 struct WheelsMessage {

@@ -209,6 +209,17 @@ bool read_numbers(const std::vector<double>& numbers, OdometryMessage& odometry)
   return true;
 }
 
+std::vector<double> numbers_of(const DrivenMessage& driven) {
+  return {driven.left_mps, driven.right_mps};
+}
+
+bool read_numbers(const std::vector<double>& numbers, DrivenMessage& driven) {
+  if (numbers.size() != 2) return false;
+  driven.left_mps = numbers[0];
+  driven.right_mps = numbers[1];
+  return true;
+}
+
 std::vector<double> numbers_of(const BatteryMessage& battery) {
   return {battery.voltage_V, battery.charge};
 }

@@ -56,4 +56,8 @@ bool read_numbers(const std::vector<double>& numbers, OdometryMessage& odometry)
 std::vector<double> numbers_of(const BatteryMessage& battery);
 bool read_numbers(const std::vector<double>& numbers, BatteryMessage& battery);
 
+/// left, right.
+std::vector<double> numbers_of(const DrivenMessage& driven);
+bool read_numbers(const std::vector<double>& numbers, DrivenMessage& driven);
+
 }  // namespace swarmsmith

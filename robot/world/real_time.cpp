@@ -78,6 +78,7 @@ class Laboratory final : public Decider {
     if (sensors_.scan) send(scan_message(question.senses));
     if (sensors_.neighbours) send(neighbours_message(question.senses));
     if (sensors_.light) send(light_message(question.senses));
+    say_driven(robot);
     if (!sensors_.body) return;
     const auto send_body = [&](auto message) {
       message.arrival = arrival;
@@ -109,6 +110,7 @@ class Laboratory final : public Decider {
     // While they wait for the start, robots that are told to drive do: real ones would. Here they
     // would not start where the mission says, so that it is refused.
     if (!treads) return std::nullopt;
+    say_driven(static_cast<std::size_t>(index));
     if (waits_ && treads->move()) {
       throw Broken(Error{ErrorKind::BadInput,
                          "its node drives before a run was started; the robots are not where the "
@@ -136,6 +138,12 @@ class Laboratory final : public Decider {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
                std::chrono::system_clock::now().time_since_epoch())
         .count();
+  }
+
+  void say_driven(std::size_t robot) {
+    if (!sensors_.driven) return;
+    const SimulatedDriver::Treads& treads = robots_[robot].driver.treads();
+    end_->send(robot, DrivenMessage{{{}, stamp_now()}, treads.left_mps, treads.right_mps, {}});
   }
 
   void hear(const WorldEnd::Received& received) {

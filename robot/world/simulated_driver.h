@@ -29,6 +29,8 @@ class SimulatedDriver {
   /// What the treads shall do from `now` on, if that is new.
   std::optional<Treads> act(TimePoint now);
 
+  /// What the treads do.
+  const Treads& treads() const { return treads_; }
   /// Whether it stands still because commands stopped coming, or two senders are there.
   bool silent() const { return silent_; }
   bool has_rivals() const { return rivals_; }

@@ -78,6 +78,7 @@ template std::string frame_of(const LightMessage&);
 template std::string frame_of(const ImuMessage&);
 template std::string frame_of(const OdometryMessage&);
 template std::string frame_of(const BatteryMessage&);
+template std::string frame_of(const DrivenMessage&);
 template std::string frame_of(const SensesMessage&);
 template std::string frame_of(const OrderMessage&);
 template std::string frame_of(const WheelsMessage&);
@@ -99,6 +100,7 @@ std::optional<ToRobot> message_to_robot(std::string_view frame) {
          read_as<LightMessage>(topic, frame, found) || read_as<ImuMessage>(topic, frame, found) ||
          read_as<OdometryMessage>(topic, frame, found) ||
          read_as<BatteryMessage>(topic, frame, found) ||
+         read_as<DrivenMessage>(topic, frame, found) ||
          read_as<SensesMessage>(topic, frame, found));
   return found;
 }

@@ -116,14 +116,19 @@ class ServingEnd final : public RobotEnd {
   }
   void send(const StateMessage& state) override { outbox_.put(frame_of(state), false); }
   void send(const AnswerMessage& answer) override { outbox_.put(frame_of(answer), false); }
-  bool connected() override { return drivers_ > 0; }
+  std::vector<Listener> listeners() override {
+    const std::lock_guard lock(drivers_mutex_);
+    return drivers_;
+  }
   void flush(Duration most) override {
     wait_until_sent([this] { return outbox_.empty() && !sending_; }, most);
   }
 
  private:
   struct Peer {
+    std::string name;
     bool drives = false;
+    TimePoint heard{};
   };
 
   void run() {
@@ -134,6 +139,7 @@ class ServingEnd final : public RobotEnd {
       ServerSocket::Received received;
       while (socket_->receive(received))
         hear(received);
+      tell_refused();
       sending_ = true;
       for (const std::string& frame : outbox_.take())
         send_out(frame);
@@ -143,6 +149,10 @@ class ServingEnd final : public RobotEnd {
   }
 
   void hear(const ServerSocket::Received& received) {
+    if (const auto known = peers_.find(received.peer); known != peers_.end()) {
+      known->second.heard = SystemClock().now();
+      if (known->second.drives) keep_drivers();
+    }
     if (const auto hello = hello_of(received.frame)) return greet(received, *hello);
     auto message = message_to_robot(received.frame);
     if (!message) {
@@ -157,19 +167,42 @@ class ServingEnd final : public RobotEnd {
                                          : "sent a sensor's message, and its key is no worker's");
     }
     set_arrival(*message);
+    if (auto* driven = std::get_if<DrivenMessage>(&*message)) {
+      const auto known = peers_.find(received.peer);
+      if (known == peers_.end() || !known->second.drives) {
+        return complain(received.peer,
+                        "says what the treads do, and is no driver: it said no `hello driver`, or "
+                        "another hello after it; it is not believed");
+      }
+      driven->sender = known->second.name;
+    }
     std::visit([this](auto& one) { inbox_.put(std::move(one)); }, *message);
+  }
+
+  /// "client at 10.0.0.11 (connection 3)".
+  std::string name_of(const ServerSocket::Received& received) {
+    const std::string who = received.client.empty() ? "client" : std::string(received.client);
+    return who + " at " + std::string(received.address) + " (connection " +
+           std::to_string(++connections_) + ")";
   }
 
   void greet(const ServerSocket::Received& received, const std::vector<std::string>& words) {
     const bool drives = !words.empty() && words.front() == kDriver;
     if (drives && !may_work(received.role))
       return complain(received.peer, "wants to drive, and its key is no worker's");
-    peers_[received.peer].drives = drives;
+    Peer& peer = peers_[received.peer];
+    if (peer.drives && !drives)
+      inbox_.put(TroubleMessage{peer.name + " drives no more: it said `hello " +
+                                    (words.empty() ? "" : words.front()) + "`",
+                                false});
+    if (peer.name.empty()) peer.name = name_of(received);
+    peer.drives = drives;
+    peer.heard = SystemClock().now();
     if (socket_->send(received.peer, hello_frame(hello_)) != SendStatus::Sent)
       peers_.erase(received.peer);
     else if (!state_.empty())
       socket_->send(received.peer, state_);
-    count_drivers();
+    keep_drivers();
   }
 
   void send_out(const std::string& frame) {
@@ -180,12 +213,27 @@ class ServingEnd final : public RobotEnd {
       const SendStatus status = socket_->send(known.first, frame);
       return status == SendStatus::Gone || status == SendStatus::Full;
     });
-    count_drivers();
+    keep_drivers();
   }
 
-  void count_drivers() {
-    drivers_ = static_cast<int>(std::count_if(
-        peers_.begin(), peers_.end(), [](const auto& known) { return known.second.drives; }));
+  /// For the other thread.
+  void keep_drivers() {
+    const std::lock_guard lock(drivers_mutex_);
+    drivers_.clear();
+    for (const auto& [id, peer] : peers_) {
+      if (peer.drives) drivers_.push_back({peer.name, peer.heard});
+    }
+  }
+
+  /// Who was kept out, and why: with a key that is not listed, say.
+  void tell_refused() {
+    constexpr std::size_t kMost = 100;
+    const Refusals refusals = socket_->refusals();
+    for (const auto& [reason, from] : refusals.last_from) {
+      std::string text = "a client at " + from + " was refused: " + reason;
+      if (refused_.size() < kMost && refused_.insert(text).second)
+        inbox_.put(TroubleMessage{std::move(text), false});
+    }
   }
 
   void complain(PeerId peer, const std::string& what) {
@@ -199,8 +247,11 @@ class ServingEnd final : public RobotEnd {
   std::unique_ptr<ServerSocket> socket_;
   std::map<PeerId, Peer> peers_;
   std::set<PeerId> complained_;
-  std::string state_;  ///< the last one, for who comes later
-  std::atomic<int> drivers_{0};
+  std::string state_;              ///< the last one, for who comes later
+  int connections_ = 0;            ///< that said hello
+  std::set<std::string> refused_;  ///< as told
+  std::mutex drivers_mutex_;
+  std::vector<Listener> drivers_;
   std::atomic<bool> sending_{false};
   std::atomic<bool> ends_{false};
   std::thread thread_;
@@ -349,6 +400,7 @@ class ClientWorldEnd final : public WorldEnd {
   void send(std::size_t robot, const ImuMessage& m) override { put(robot, m); }
   void send(std::size_t robot, const OdometryMessage& m) override { put(robot, m); }
   void send(std::size_t robot, const BatteryMessage& m) override { put(robot, m); }
+  void send(std::size_t robot, const DrivenMessage& m) override { put(robot, m); }
   void send(std::size_t robot, const SensesMessage& m) override { put(robot, m); }
   bool connected(std::size_t robot) override { return links_[robot]->connected(); }
   void flush(Duration most) override {

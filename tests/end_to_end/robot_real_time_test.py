@@ -4,6 +4,7 @@ import csv
 import json
 import re
 import signal
+import time
 import unittest
 
 import robots
@@ -116,6 +117,9 @@ class RealTime(ProgramTest):
         self.nodes["rvr2"].signal(signal.SIGKILL)
         self.assertEqual(run.end(), 6, run.said())
         self.assertIn("rvr2: is silent for 1 s", self.answer(run)["complaints"])
+        self.assertEqual(self.answer(run)["verdicts"], {"rvr1": "INVALID", "rvr2": "unknown", "rvr3": "INVALID"})
+        self.assertRegex((self.folder / "run07.toml").read_text(),
+                         r'name = "rvr2"\nverdict = "INVALID"\nreasons = \["it did not answer after the run"\]')
         self.assertIsNone(self.end_of("rvr2"))
         self.assertIn('state = "stopped"', self.end_of("rvr1"))
         self.assert_replays()
@@ -190,9 +194,14 @@ class OverZeroMq(RealTime):
             check = self.swarm.program(self, "check", "--robots", "1-3", "--json", key="operator")
             check.end()
             states = [robot["state"] for robot in self.answer(check)["robots"]]
-            return all(state and state["state"] == "failed" for state in states) and states
+            return all(state and state["state"] == "failed" and not state["log_open"] for state in states) and states
+        gone_at = time.monotonic()
         for state in robots.wait_for(all_failed, "the end of all nodes' runs"):
             self.assertRegex(state["reasons"][0], r"the operator is silent for 1\.")
+        for robot in ("rvr1", "rvr2", "rvr3"):
+            moves = [float(row["clock_s"]) for row in self.rows(robot) if speed(row) > 0]
+            print(f"{robot} is told to stand {moves[-1] + 0.1 - gone_at:.2f} s after the operator is gone")
+            self.assertLess(moves[-1] + 0.1 - gone_at, STANDS_AFTER)
         self.assert_replays()
 
     def test_nodes_stop_when_the_world_is_gone(self):
@@ -202,7 +211,7 @@ class OverZeroMq(RealTime):
         run.wait_for("all robots are running")
         world.signal(signal.SIGKILL)
         self.assertEqual(run.end(), 6, run.said())
-        self.assertRegex(self.answer(run)["complaints"][0], r"failed: \w+: silent for 1\.")
+        self.assertRegex(self.answer(run)["complaints"][0], r"failed: (\w+: silent for 1\.|driver: .* \(for 1\.)")
         self.assert_replays()
 
     def test_a_person_interrupts_stops_and_kills(self):

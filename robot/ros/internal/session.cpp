@@ -33,21 +33,6 @@ bool first_session() {
   return !std::exchange(taken, true);
 }
 
-/// http://HOST:PORT/ as two texts; false when it is none. roscpp aborts the process on such.
-bool split_uri(std::string uri, std::string& host, std::string& port) {
-  constexpr const char* kScheme = "http://";
-  if (uri.compare(0, 7, kScheme) != 0) return false;
-  uri = uri.substr(7);
-  if (!uri.empty() && uri.back() == '/') uri.pop_back();
-  const std::size_t colon = uri.rfind(':');
-  if (colon == std::string::npos || colon == 0) return false;
-  host = uri.substr(0, colon);
-  port = uri.substr(colon + 1);
-  return !port.empty() && port.size() <= 5 &&
-         std::all_of(port.begin(), port.end(),
-                     [](unsigned char digit) { return std::isdigit(digit) != 0; });
-}
-
 bool resolves(const std::string& host) {
   addrinfo* found = nullptr;
   const bool there = getaddrinfo(host.c_str(), nullptr, nullptr, &found) == 0;
@@ -130,6 +115,20 @@ RosExpected<ros::M_string> remappings_of(const std::string& name_space, const Ro
 }
 
 }  // namespace
+
+bool split_uri(std::string uri, std::string& host, std::string& port) {
+  constexpr const char* kScheme = "http://";
+  if (uri.compare(0, 7, kScheme) != 0) return false;
+  uri = uri.substr(7);
+  if (!uri.empty() && uri.back() == '/') uri.pop_back();
+  const std::size_t colon = uri.rfind(':');
+  if (colon == std::string::npos || colon == 0) return false;
+  host = uri.substr(0, colon);
+  port = uri.substr(colon + 1);
+  return !port.empty() && port.size() <= 5 &&
+         std::all_of(port.begin(), port.end(),
+                     [](unsigned char digit) { return std::isdigit(digit) != 0; });
+}
 
 bool is_ros_name(const std::string& name) {
   if (name.empty() || std::isalpha(static_cast<unsigned char>(name.front())) == 0) return false;
@@ -241,6 +240,8 @@ void Session::look_for_unreachable() {
     return;
   }
   std::set<std::string> unreached;
+  std::string first;  // nodes that were killed stay at the master for days: one line for all
+  std::string others;
   for (const ros::Subscriber& subscriber : subscribers_) {
     if (subscriber.getNumPublishers() > 0) continue;
     for (const std::string& node : state.publishers[subscriber.getTopic()]) {
@@ -248,9 +249,15 @@ void Session::look_for_unreachable() {
       unreached.insert(node);
       // Whoever was there when this was looked at before has had its time.
       if (suspects_.count(node) == 0 || !told_.insert(node).second) continue;
-      on_trouble_(why_unreachable(node, subscriber.getTopic()), false);
+      if (first.empty()) {
+        first = why_unreachable(node, subscriber.getTopic());
+      } else {
+        others += (others.empty() ? "" : ", ") + node;
+      }
     }
   }
+  if (!first.empty())
+    on_trouble_(first + (others.empty() ? "" : "; nor is there one to " + others), false);
   suspects_ = std::move(unreached);
 }
 

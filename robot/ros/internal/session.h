@@ -63,6 +63,9 @@ struct SystemState {
 /// False when the master does not answer.
 bool ask_system_state(SystemState& state);
 
+/// http://HOST:PORT/ as two texts; false when it is none. roscpp aborts the process on such.
+bool split_uri(std::string uri, std::string& host, std::string& port);
+
 /// Whether the text is a name as ROS has it for a robot: a letter, then letters, digits and _.
 bool is_ros_name(const std::string& name);
 

@@ -43,6 +43,7 @@ class RunningNode {
     if (options.pace == Pace::Clock) settings.period = milliseconds(10);
     settings.hold.fill(patience);
     settings.give_up = settings.operator_gone = patience;
+    settings.driver_hold = settings.operator_hold = patience;
     node_.emplace(settings, controller_, watermelon());
     options.ends = [this]() -> std::optional<std::string> {
       if (!asked_) return std::nullopt;

@@ -45,6 +45,12 @@ class BenchRobot {
     if (neighbours) send_neighbours();
   }
 
+  void send_driver() {
+    node.driver().set_listeners({{"driver", clock}}, clock);
+    if (!obeys) return;
+    node.driver().hear(DrivenMessage{{clock, 0}, treads.left_mps, treads.right_mps, "driver"});
+  }
+
   Decision tick() {
     Decision decision = node.tick(now());
     if (decision.row) rows.push_back(*decision.row);
@@ -56,6 +62,7 @@ class BenchRobot {
   Decision cycle(Duration late = {}) {
     clock += settings_.period;
     send_all();
+    send_driver();
     if (alive) node.hear(order(Order::Kind::Alive), now());
     clock += late;
     Decision decision = tick();
@@ -73,7 +80,7 @@ class BenchRobot {
     made.kind = kind;
     made.id = "bench-" + std::to_string(++orders_);
     made.run = run;
-    made.sent_unix_s = unix_s();
+    made.sent_unix_s = unix_s() + operator_ahead_s;
     made.at_unix_s = unix_s() + 1;
     made.seconds = seconds;
     return made;
@@ -91,12 +98,14 @@ class BenchRobot {
 
   TimePoint clock{std::chrono::seconds(1000)};
   double wall_ahead_s = 0;
+  double operator_ahead_s = 0;  ///< its clock
   std::string run = "run07";
   double seconds = 30;
   bool ranges = true;
   bool ground = true;
   bool neighbours = true;
   bool alive = true;
+  bool obeys = true;  ///< its driver, which says so
   Command treads;
   std::vector<LogRow> rows;
 

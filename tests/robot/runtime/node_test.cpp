@@ -209,7 +209,7 @@ TEST(RobotNode, EndsTheRunWhenASensorIsSilentForASecond) {
     (feed == Feed::Proximity ? robot.ranges
      : feed == Feed::Ground  ? robot.ground
                              : robot.neighbours) = false;
-    const int until_held = feed == Feed::Proximity ? 4 : 6;
+    constexpr int until_held = 4;  // within 0.5 s, of whatever sensor
     robot.cycles(until_held - 1);
     EXPECT_GT(robot.speed(), 0) << name_of(feed);
     robot.cycle();
@@ -252,7 +252,7 @@ TEST(RobotNode, EndsTheRunWhenSensorsWereSilentInMoreThanATwentiethOfIt) {
   }
   EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_EQ(robot.state().held, 16);
-  EXPECT_THAT(robot.state().reasons[0], HasSubstr("silent in 16 of 300 cycles"));
+  EXPECT_THAT(robot.state().reasons[0], HasSubstr("the treads stood in 16 of 300 cycles"));
 }
 
 TEST(RobotNode, SaysWhenItsComputerWasTooBusy) {
@@ -303,12 +303,64 @@ TEST(RobotNode, EndsTheRunWhenTheOperatorIsGone) {
   robot.cycle();
   EXPECT_EQ(robot.state().phase, Phase::Failed);
   EXPECT_EQ(robot.speed(), 0);
-  EXPECT_THAT(robot.state().reasons, ElementsAre("the operator is silent for 1.10 s"));
+  EXPECT_EQ(robot.state().reasons[0], "the operator is silent for 1.10 s");
   BenchRobot alone({.operator_gone = Duration::zero()});
   alone.alive = false;
   alone.start();
   alone.cycles(50);
   EXPECT_EQ(alone.state().phase, Phase::Running);
+}
+
+TEST(RobotNode, StandsStillWithinHalfASecondOfItsOperatorsSilence) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(10);
+  robot.alive = false;
+  robot.cycles(3);
+  EXPECT_GT(robot.speed(), 0);
+  robot.cycle();  // 400 ms
+  EXPECT_EQ(robot.speed(), 0);
+  EXPECT_EQ(robot.rows.back().event, "the operator is silent for 0.40 s");
+  EXPECT_EQ(robot.state().phase, Phase::Running);
+  robot.alive = true;
+  robot.cycle();
+  EXPECT_GT(robot.speed(), 0);
+  EXPECT_THAT(robot.state().reasons,
+              ElementsAre("the operator was silent, for up to 0.40 s, at 1.0 s: 1 cycles were not "
+                          "stepped"));
+}
+
+TEST(RobotNode, GoesOnWhenAClockIsSteppedAndSaysWhich) {
+  for (const double step_s : {-5.0, 5.0}) {
+    BenchRobot robot;
+    robot.start();
+    robot.cycles(10);
+    robot.wall_ahead_s = step_s;  // of the robot's own
+    robot.cycles(30);
+    EXPECT_EQ(robot.state().phase, Phase::Running);
+    EXPECT_GT(robot.speed(), 0);
+    EXPECT_EQ(robot.state().verdict, RunVerdict::Valid);
+    EXPECT_THAT(
+        robot.state().reasons,
+        ElementsAre(HasSubstr("this computer's clock was stepped by " +
+                              std::string(step_s > 0 ? "+5.00" : "-5.00") + " s at 1.1 s")));
+    EXPECT_THAT(robot.rows[10].event, HasSubstr("this computer's clock was stepped"));
+  }
+  BenchRobot ahead;
+  ahead.start();
+  ahead.cycles(10);
+  ahead.operator_ahead_s = 7;
+  ahead.cycles(30);
+  EXPECT_EQ(ahead.state().phase, Phase::Running);
+  EXPECT_THAT(ahead.state().reasons,
+              ElementsAre(HasSubstr("the operator's clock was stepped by +7.00 s")));
+  BenchRobot back;  // may as well be orders that were held up
+  back.start();
+  back.cycles(10);
+  back.operator_ahead_s = -7;
+  back.cycles(30);
+  EXPECT_EQ(back.state().phase, Phase::Failed);
+  EXPECT_THAT(back.state().reasons[0], HasSubstr("dated 7.00 s too early"));
 }
 
 TEST(RobotNode, HearsOnlyTheOperatorOfItsRun) {
@@ -330,12 +382,11 @@ TEST(RobotNode, HearsOnlyTheOperatorOfItsRun) {
 TEST(RobotNode, WantsABatteryAndADriver) {
   BenchRobot robot;
   robot.node.hear(BatteryMessage{.charge = 0.15});
-  robot.node.set_driver(false);
   robot.cycle();
+  robot.node.driver().set_listeners({}, robot.clock);
   EXPECT_THAT(robot.state().not_ready,
               ElementsAre(HasSubstr("driver"), "battery: 15 %, at least 20 % are wanted"));
   robot.node.hear(BatteryMessage{.charge = 0.8});
-  robot.node.set_driver(true);
   robot.node.hear(BatteryMessage{.charge = std::nan("")});
   robot.cycle();
   EXPECT_EQ(robot.state().phase, Phase::Ready);

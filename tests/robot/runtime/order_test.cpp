@@ -50,6 +50,15 @@ TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
   }
 }
 
+TEST(Orders, WithUnknownKeysStopButDoNotStart) {
+  const auto start = parse_order(R"({"order":"start","id":"a","run":"r","seconds":3,"sed":7})");
+  ASSERT_FALSE(start);
+  EXPECT_THAT(start.error().message, testing::HasSubstr("a start has no key `sed`"));
+  const auto stop = parse_order(R"({"order":"stop","id":"a","runs":"r","why":1})");
+  ASSERT_TRUE(stop);
+  EXPECT_EQ(stop->unknown_keys, "`runs`, `why`");
+}
+
 TEST(OrderDoor, RefusesOldRepeatedAndFutureStarts) {
   OrderDoor door("rvr1");
   Order order = start_order();

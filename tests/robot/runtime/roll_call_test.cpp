@@ -54,6 +54,7 @@ class Bench {
     if (++steps_ % 10 != 0) return;
     for (std::size_t i = 0; i < robots.size(); ++i) {
       robots[i]->send_all();
+      robots[i]->send_driver();
       robots[i]->tick();
       tell(i);
     }

@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "proto/socket.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -114,6 +116,49 @@ TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
   ASSERT_TRUE(told.has_value());
   EXPECT_THAT(told->text, HasSubstr("does not accept this key"));
   EXPECT_FALSE((*stranger)->connected(0));
+  const auto said = next<TroubleMessage>(*node->end);
+  ASSERT_TRUE(said.has_value());
+  EXPECT_EQ(said->text, "a client at 127.0.0.1 was refused: unlisted key");
+}
+
+TEST(ZmqEnds, KnowWhoDrivesAndWhatItSays) {
+  auto node = zmq_robot_end("rvr1", {});
+  ASSERT_TRUE(node.has_value());
+  auto world = zmq_world_end({{"rvr1", node->endpoint}}, {});
+  auto operating = zmq_operator_end({{"rvr1", node->endpoint}}, {});
+  ASSERT_TRUE(becomes([&] { return (*world)->connected(0) && (*operating)->connected(0); }));
+  ASSERT_TRUE(becomes([&] { return node->end->connected(); }));
+  const std::vector<Listener> listeners = node->end->listeners();
+  ASSERT_EQ(listeners.size(), 1U) << "an operator gets no speeds";
+  EXPECT_TRUE(listeners[0].drives);
+  (*world)->send(0, DrivenMessage{{}, 0.3, 0.1, {}});
+  const auto driven = next<DrivenMessage>(*node->end);
+  ASSERT_TRUE(driven.has_value());
+  EXPECT_EQ(driven->left_mps, 0.3);
+  EXPECT_EQ(driven->right_mps, 0.1);
+  EXPECT_EQ(driven->sender, listeners[0].name);
+  EXPECT_GE(node->end->listeners()[0].heard, listeners[0].heard);
+  world->reset();
+  EXPECT_TRUE(becomes([&] {
+    node->end->send(WheelsMessage{});
+    return !node->end->connected();
+  }));
+}
+
+TEST(ZmqEnds, WhatADriverSaysAfterAnotherHelloIsNotBelieved) {
+  auto node = zmq_robot_end("rvr1", {});
+  ASSERT_TRUE(node.has_value());
+  ClientSocket client(node->endpoint);
+  client.connect();
+  client.send("hello driver");
+  ASSERT_TRUE(becomes([&] { return node->end->connected(); }));
+  client.send("hello operator");
+  const auto said = next<TroubleMessage>(*node->end);
+  ASSERT_TRUE(said.has_value());
+  EXPECT_THAT(said->text, HasSubstr("drives no more: it said `hello operator`"));
+  EXPECT_FALSE(node->end->connected());
+  client.send("driven 0 0.3 0.3");
+  EXPECT_THAT(next<TroubleMessage>(*node->end)->text, HasSubstr("it is not believed"));
 }
 
 TEST(ZmqEnds, ASecondNodeOfTheRobotFindsTheAddressTaken) {

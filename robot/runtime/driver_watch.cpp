@@ -1,0 +1,301 @@
+#include "robot/runtime/driver_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarmsmith {
+namespace {
+
+/// Drivers round: the published one to 1 cm/s.
+constexpr double kSame_mps = 0.011;
+/// Commands are remembered for so long, to tell a slow driver from one that obeys another.
+constexpr Duration kMemory = std::chrono::seconds(10);
+/// Others that come within so long of each other are one.
+constexpr Duration kSpell = std::chrono::seconds(3);
+/// A driver says several times a second what it does.
+constexpr Duration kUsualSilence = std::chrono::milliseconds(250);
+
+constexpr Duration kDelayStep = std::chrono::milliseconds(50);
+/// Changes that are remembered, and that are needed to tell a late driver.
+constexpr int kMostChanges = 25;
+constexpr int kLeastChanges = 12;
+
+bool same(double a, double b) {
+  return std::fabs(a - b) <= kSame_mps;
+}
+
+std::string speeds(double left_mps, double right_mps) {
+  return fmt::format("{:.3g} and {:.3g} m/s", left_mps, right_mps);
+}
+
+std::string names_of(const std::vector<Listener>& listeners) {
+  std::string text;
+  for (const Listener& one : listeners)
+    text += (text.empty() ? "" : ", ") + one.name;
+  return text;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+}  // namespace
+
+bool DriverWatch::listens(const std::string& name) const {
+  return std::ranges::find(listeners_, name, &Listener::name) != listeners_.end();
+}
+
+bool DriverWatch::is_quiet(TimePoint now) const {
+  return !last_ || now - last_->arrival.at > kUsualSilence;
+}
+
+void DriverWatch::commanded(TimePoint at, double left_mps, double right_mps) {
+  while (commands_.size() > 1 && at - commands_[1].from > kMemory)
+    commands_.pop_front();
+  const bool is_new = commands_.empty() || commands_.back().left_mps != left_mps ||
+                      commands_.back().right_mps != right_mps;
+  if (is_new) commands_.push_back({at, left_mps, right_mps});
+}
+
+std::optional<TimePoint> DriverWatch::commanded_until(const DrivenMessage& driven) const {
+  TimePoint until = driven.arrival.at;
+  for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
+    if (command->from > driven.arrival.at) continue;
+    if (same(command->left_mps, driven.left_mps) && same(command->right_mps, driven.right_mps))
+      return until;
+    until = command->from;
+  }
+  return std::nullopt;
+}
+
+DriverWatch::Commanded DriverWatch::commanded_at(TimePoint time) const {
+  for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
+    if (command->from <= time) return *command;
+  }
+  return commands_.empty() ? Commanded{} : commands_.front();
+}
+
+void DriverWatch::compare_changes(const DrivenMessage& driven) {
+  const bool changed =
+      last_ && last_->sender == driven.sender &&
+      !(same(last_->left_mps, driven.left_mps) && same(last_->right_mps, driven.right_mps));
+  if (!changed) return;
+  changed_ = driven.arrival.at;
+  changes_ = std::min(changes_ + 1, kMostChanges);
+  for (std::size_t i = 0; i < kDelays; ++i) {
+    const Commanded then = commanded_at(driven.arrival.at - static_cast<int>(i) * kDelayStep);
+    const bool is_it =
+        same(then.left_mps, driven.left_mps) && same(then.right_mps, driven.right_mps);
+    follows_[i] += ((is_it ? 1.0 : 0.0) - follows_[i]) / changes_;
+  }
+}
+
+/// "it is 1.00 s behind", when its changes follow those that were commanded so much better.
+std::string DriverWatch::why_behind() const {
+  constexpr double kSure = 0.9;
+  constexpr double kBetter = 0.2;
+  if (changes_ < kLeastChanges) return {};
+  const auto late = follows_.begin() + limits_.hold / kDelayStep + 1;
+  const double prompt = *std::max_element(follows_.begin(), late);
+  const auto best = std::max_element(late, follows_.end());
+  if (*best < kSure || *best - prompt < kBetter) return {};
+  const std::chrono::duration<double> delay = (best - follows_.begin()) * kDelayStep;
+  return fmt::format("{} does each change {:.2f} s after its command", driver_, delay.count());
+}
+
+void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
+  if (!spell || spell->name != name || at - spell->last > kSpell) spell = Spell{name, at, at};
+  spell->last = at;
+}
+
+void DriverWatch::hear(const DrivenMessage& driven) {
+  if (last_ && last_->sender != driven.sender && driven.arrival.at - last_->arrival.at <= kSpell)
+    other_ = last_;
+  if (!runs_) {
+    last_ = driven;
+    return;
+  }
+  if (driver_.empty() || driver_ == driven.sender) {
+    driver_ = driven.sender;
+    const auto until = commanded_until(driven);
+    const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
+    compare_changes(driven);
+    last_ = driven;
+    strange_ = until || stands ? 0 : strange_ + 1;
+    if (until) obeyed_ = std::max(obeyed_, *until);
+    return;
+  }
+  extend(second_, driven.sender, driven.arrival.at);
+}
+
+void DriverWatch::hear(const RivalMessage& rival) {
+  extend(rival_, rival.sender, rival.arrival.at);
+}
+
+void DriverWatch::set_listeners(std::vector<Listener> listeners, TimePoint now) {
+  listeners_ = std::move(listeners);
+  if (!listeners_.empty()) listened_ = now;
+  bool any_of_start = listened_at_start_.empty();
+  for (const Listener& one : listeners_) {
+    const bool was_there = contains(listened_at_start_, one.name);
+    any_of_start |= was_there;
+    if (runs_ && one.drives && !was_there && !contains(came_later_, one.name))
+      came_later_.push_back(one.name);
+  }
+  if (any_of_start) replaced_ = now;
+  for (Listener& known : lively_) {
+    const auto one = std::ranges::find(listeners_, known.name, &Listener::name);
+    if (one != listeners_.end()) known.heard = std::max(known.heard, one->heard);
+  }
+  for (const std::string& name : listened_at_start_) {
+    if (runs_ && !listens(name) && !contains(went_, name)) went_.push_back(name);
+  }
+}
+
+void DriverWatch::begin(TimePoint start) {
+  runs_ = true;
+  obeyed_ = replaced_ = start;
+  unobeyed_since_ = unobeyed_at_ = {};
+  unobeyed_ = unobeyed_before_ = {};
+  strange_ = changes_ = 0;
+  follows_ = {};
+  second_.reset();
+  rival_.reset();
+  came_later_.clear();
+  went_.clear();
+  listened_at_start_.clear();
+  lively_.clear();
+  for (const Listener& one : listeners_) {
+    listened_at_start_.push_back(one.name);
+    if (listened_ - one.heard <= limits_.give_up) lively_.push_back(one);
+  }
+  driver_.clear();
+  if (last_ && listens(last_->sender)) driver_ = last_->sender;
+}
+
+std::string DriverWatch::why_not_obeyed(TimePoint now) const {
+  if (listeners_.empty()) return driver_ + " is gone: nobody listens to the speeds of the treads";
+  if (is_quiet(now)) {
+    return second_ && now - second_->last <= kUsualSilence
+               ? second_->name + " drives the treads in place of " + driver_
+               : driver_ + " does not say what the treads do";
+  }
+  const Commanded wanted = commands_.empty() ? Commanded{} : commands_.back();
+  const std::string told = driver_ + " says that they do " +
+                           speeds(last_->left_mps, last_->right_mps) + ", and " +
+                           speeds(wanted.left_mps, wanted.right_mps) + " are commanded: ";
+  const bool stands = last_->left_mps == 0 && last_->right_mps == 0;
+  const auto until = commanded_until(*last_);
+  if (stands && (!until || now - *until > limits_.give_up)) return told + "it holds them";
+  if (until) {
+    return told + fmt::format("it is {:.2f} s behind",
+                              std::chrono::duration<double>(last_->arrival.at - *until).count());
+  }
+  if (same(last_->left_mps, wanted.left_mps)) return told + "only the left one obeys";
+  if (same(last_->right_mps, wanted.right_mps)) return told + "only the right one obeys";
+  return told + "it obeys another one";
+}
+
+std::optional<DriverWatch::Trouble> DriverWatch::trouble_of(const std::optional<Spell>& spell,
+                                                            const std::string& what,
+                                                            TimePoint now) const {
+  if (!spell || now - spell->last > kSpell) return std::nullopt;
+  const bool ends = spell->last - spell->first > limits_.give_up;
+  if (!ends && now - spell->last > limits_.hold) return std::nullopt;
+  return Trouble{spell->first, true, ends, spell->name + what};
+}
+
+/// Of drivers that do not say what they do.
+std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoint now) const {
+  const auto since = [&](TimePoint time, std::string what) {
+    return Trouble{time, now - time > limits_.hold, now - time > limits_.give_up, std::move(what)};
+  };
+  if (listeners_.empty())
+    return since(std::max(listened_, obeyed_), "nobody listens to the speeds of the treads");
+  if (replaced_ < listened_)
+    return since(replaced_, "another one came in place of the driver: " + names_of(listeners_));
+  // Of clients that say that they drive each may be the one; others may as well only listen.
+  TimePoint heard{};
+  for (const Listener& one : lively_) {
+    heard = std::max(heard, one.heard);
+    if (one.drives && now - one.heard > limits_.give_up)
+      return Trouble{one.heard, true, true, one.name + " gives no sign of life"};
+  }
+  if (lively_.empty() || now - heard <= limits_.give_up) return std::nullopt;
+  return Trouble{heard, true, true, names_of(lively_) + " gives no sign of life"};
+}
+
+std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {
+  constexpr int kStrange = 3;
+  if (auto why = why_behind(); !why.empty()) return Trouble{changed_, true, true, std::move(why)};
+  if (now - obeyed_ <= limits_.hold) return std::nullopt;
+  if (now - unobeyed_at_ > kSpell) unobeyed_ = unobeyed_before_ = {};
+  if (unobeyed_since_ != obeyed_) unobeyed_before_ += unobeyed_;
+  unobeyed_since_ = obeyed_;
+  unobeyed_at_ = now;
+  unobeyed_ = now - obeyed_;
+  const bool ends = strange_ >= kStrange || unobeyed_before_ + unobeyed_ > limits_.give_up;
+  return Trouble{obeyed_, true, ends, why_not_obeyed(now)};
+}
+
+std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
+  if (!runs_) return std::nullopt;
+  const std::string beside =
+      (is_quiet(now) ? " drives the treads in place of " : " drives the treads, too, beside ") +
+      driver_;
+  std::vector<std::optional<Trouble>> all = {trouble_of(rival_, " commands the treads, too", now),
+                                             trouble_of(second_, beside, now)};
+  if (driver_.empty()) {
+    all.push_back(trouble_of_silent_kind(now));
+  } else {
+    all.push_back(trouble_of_driver(now));
+  }
+  const auto first = [&all](bool Trouble::*what) -> std::optional<Trouble> {
+    for (const auto& one : all) {
+      if (one && (*one).*what) return one;
+    }
+    return std::nullopt;
+  };
+  if (auto end = first(&Trouble::ends)) return end;
+  return first(&Trouble::holds);
+}
+
+std::vector<std::string> DriverWatch::not_ready(TimePoint now) const {
+  std::vector<std::string> reasons;
+  if (listeners_.empty()) {
+    reasons.emplace_back("driver: nobody listens to the speeds of the treads");
+  } else if (last_ && listens(last_->sender) && now - last_->arrival.at > limits_.give_up) {
+    reasons.push_back(fmt::format("driver: {} has not said what the treads do for {:.1f} s",
+                                  last_->sender,
+                                  std::chrono::duration<double>(now - last_->arrival.at).count()));
+  }
+  if (other_ && last_ && now - other_->arrival.at <= limits_.give_up) {
+    reasons.push_back("driver: " + other_->sender + " and " + last_->sender +
+                      " both say that they drive the treads");
+  }
+  if (rival_ && now - rival_->last <= limits_.give_up)
+    reasons.push_back("driver: " + rival_->name + " commands the treads, too");
+  return reasons;
+}
+
+std::vector<std::string> DriverWatch::doubts() const {
+  std::vector<std::string> doubts;
+  if (driver_.empty()) {
+    doubts.emplace_back(
+        "no driver says what the treads do (`driven`): one that stops obeying is not noticed");
+    for (const std::string& name : went_)
+      doubts.push_back(name + " listened to the speeds of the treads, and went in the run");
+  }
+  constexpr double kFollows = 0.6;
+  const auto late = follows_.begin() + limits_.hold / kDelayStep + 1;
+  if (changes_ == kMostChanges && *std::max_element(follows_.begin(), late) < kFollows)
+    doubts.push_back(driver_ +
+                     " says changes of speed that do not follow those that are commanded");
+  for (const std::string& name : came_later_)
+    doubts.push_back(name + " came in the run and says that it drives");
+  return doubts;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,247 @@
+"""Drivers of the treads that fail in a run, over ROS and over ZeroMQ, with drivers that have no code of ours: no run in which
+the treads did not obey is VALID, the reason and the time are in the log and in the run's file, and the robot's treads are
+not told to turn half a second later."""
+import csv
+import pathlib
+import re
+import signal
+import sys
+import time
+import tomllib
+import unittest
+
+import robots
+from programs import ProgramTest
+from robots import Master, Process, ZeroMq, machine_file
+
+NO_ROS = robots.why_no_ros()
+DRIVERS = pathlib.Path(__file__).with_name("drivers.py")
+FORWARD = "--nstates 1 --s0 0 --rwm0 1"
+#: From the fault to treads that are told to stand, seconds (docs/robot-runtime.md).
+STANDS_AFTER = 0.5
+#: Drivers are told of their fault by a line, and see it when they look.
+TOLD_S = 0.05
+
+
+class Drivers(ProgramTest):
+    kind = ""
+
+    def setUp(self):
+        super().setUp()
+        self.swarm = self.way()
+        self.node = self.swarm.node(self, 1, machine_file(self, FORWARD), "--flavour", "watermelon-argos3", "--logs",
+                                    self.folder)
+        self.driver("sensors")
+
+    def driver(self, role):
+        place = self.swarm.places[0].split("=")[1] if self.kind == "zeromq" else "rvr1"
+        driver = Process(self, [sys.executable, DRIVERS, role, self.kind, place], self.swarm.variables)
+        driver.wait_for("begins")
+        return driver
+
+    def spoil(self, driver, fault):
+        driver.process.stdin.write(fault + "\n")
+        driver.process.stdin.flush()
+        return float(driver.wait_for(r"fault (\S+)\n").group(1))
+
+    def begin(self, seconds=30, role="treads"):
+        """A run with a driver that obeys, until the treads turn."""
+        treads = self.driver(role)
+        start = self.swarm.program(self, "start", "--run", "r1", "--robots", "1", "--seconds", seconds, "--in", "0.6",
+                                   "--patience", "20", "--write", self.folder / "r1.toml", key="operator")
+        treads.wait_for(r"\d 0\.3 0\.3\n")
+        return treads, start
+
+    def assert_invalid(self, start, fault_at, reason):
+        """Ends INVALID for this reason, and is told in time to stand."""
+        self.assertEqual(start.end(), 6, start.said())
+        self.assertIn("r1: INVALID", start.said())
+        with (self.folder / "r1.toml").open("rb") as file:
+            noted = tomllib.load(file)["robot"][0]
+        with (self.folder / "r1.rvr1.toml").open("rb") as file:
+            end = tomllib.load(file)["end"]
+        self.assertEqual((noted["verdict"], end["verdict"]), ("INVALID", "INVALID"))
+        self.assertRegex(end["reasons"][0], reason)
+        self.assertRegex(end["reasons"][0], r"since \d+\.\d s")
+        self.assertEqual(noted["reasons"], end["reasons"])
+        with (self.folder / "r1.rvr1.log.csv").open() as file:
+            rows = list(csv.DictReader(file))
+        self.assertRegex(rows[-1]["event"], reason)
+        moves = [float(row["clock_s"]) - (fault_at or 0) for row in rows if float(row["left_mps"]) or float(row["right_mps"])]
+        print(f"{self.id().split('.', 1)[1]}: {end['reasons'][0]}"
+              + (f"; stands {moves[-1] + 0.1:.2f} s after the fault" if fault_at else ""))
+        if fault_at is not None:
+            self.assertLess(moves[-1], STANDS_AFTER)
+
+    def assert_treads_stand(self, treads, fault_at):
+        """What the driver itself had the treads do."""
+        lines = [line.split() for line in treads.out if re.match(r"\d", line)]
+        times = [(float(at) - fault_at, float(left) or float(right)) for at, left, right in lines]
+        self.assertEqual(times[-1][1], 0, times[-3:])
+        self.assertLess(times[-1][0], STANDS_AFTER + TOLD_S)
+
+    # A test a fault.
+
+    def obeys(self):
+        _, start = self.begin(seconds=3)
+        self.assertEqual(start.end(), 0, start.said())
+        self.assertIn("r1: VALID", start.said())
+
+    def silent(self):
+        treads, start = self.begin()
+        treads.signal(signal.SIGSTOP)
+        self.assert_invalid(start, time.monotonic(), "does not say what the treads do")
+
+    def dead(self):
+        treads, start = self.begin()
+        treads.kill()
+        self.assert_invalid(start, time.monotonic(), "is gone: nobody listens to the speeds|does not say what the treads do")
+
+    def replaced(self):
+        treads, start = self.begin()
+        treads.kill()
+        fault_at = time.monotonic()
+        self.driver("treads")
+        self.assert_invalid(start, fault_at, "drives the treads in place of|does not say what the treads do")
+
+    def slow(self):
+        treads, start = self.begin()
+        self.spoil(treads, "slow")
+        # Speeds come again and again: it takes a dozen changes to tell late ones from others.
+        self.assert_invalid(start, None, r"s behind|after its command")
+
+    def half(self):
+        treads, start = self.begin()
+        fault_at = self.spoil(treads, "half")
+        self.assert_invalid(start, fault_at, "only the left one obeys")
+
+    def foreign(self):
+        treads, start = self.begin()
+        self.assert_invalid(start, self.spoil(treads, "foreign"), "it obeys another one")
+
+    def second(self):
+        treads, start = self.begin()
+        self.driver("second")
+        fault_at = time.monotonic()
+        self.assert_invalid(start, fault_at, "drives the treads, too, beside")
+        self.assert_treads_stand(treads, fault_at)
+
+
+    def quiet(self):
+        _, start = self.begin(seconds=2, role="quiet")
+        self.assertEqual(start.end(), 0, start.said())
+        self.assertIn("driver: no driver says what the treads do", start.said())
+        self.assertIn("r1: DEGRADED", start.said())
+
+    def quiet_and_hangs(self):
+        treads, start = self.begin(role="quiet")
+        treads.signal(signal.SIGSTOP)
+        self.assert_invalid(start, None, "gives no sign of life")
+
+
+@robots.by_the_clock
+class OverZeroMq(Drivers):
+    kind = "zeromq"
+
+    def way(self):
+        return ZeroMq()
+
+    def test_a_driver_that_obeys_is_valid(self):
+        self.obeys()
+
+    def test_silent(self):
+        self.silent()
+
+    def test_dead(self):
+        self.dead()
+
+    def test_replaced(self):
+        self.replaced()
+
+    def test_slow(self):
+        self.slow()
+
+    def test_half_of_the_treads(self):
+        self.half()
+
+    def test_contradicted(self):
+        self.foreign()
+
+    def test_a_second_one(self):
+        self.second()
+
+    def test_one_that_does_not_say_what_the_treads_do(self):
+        self.quiet()
+
+    def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
+        self.quiet_and_hangs()
+
+    def test_how_the_run_of_a_killed_node_ended_is_unknown(self):
+        treads, start = self.begin()
+        self.node.kill()
+        fault_at = time.monotonic()
+        self.assertEqual(start.end(), 6, start.said())
+        self.assertRegex(start.said(), r"rvr1: unknown; it was last heard \d+\.\d s ago, running after \d+ cycles")
+        self.assertNotIn("VALID\n", start.said().replace("r1: INVALID\n", ""))
+        with (self.folder / "r1.toml").open("rb") as file:
+            noted = tomllib.load(file)["robot"][0]
+        self.assertEqual((noted["verdict"], noted["reasons"]), ("INVALID", ["it did not answer after the run"]))
+        self.assert_treads_stand(treads, fault_at)
+
+    def test_one_that_says_that_it_is_an_operator(self):
+        treads, start = self.begin()
+        fault_at = self.spoil(treads, "operator")
+        self.assert_invalid(start, fault_at, "is gone|does not say what the treads do|it holds them")
+        self.assertIn("drives no more: it said `hello operator`", self.node.said())
+
+
+@unittest.skipIf(NO_ROS, NO_ROS or "")
+@robots.by_the_clock
+class OverRos(Drivers):
+    kind = "ros"
+
+    def way(self):
+        return Master(self, self.folder)
+
+    def test_a_driver_that_obeys_is_valid(self):
+        self.obeys()
+
+    def test_silent(self):
+        self.silent()
+
+    def test_dead(self):
+        self.dead()
+
+    def test_replaced(self):
+        self.replaced()
+
+    def test_slow(self):
+        self.slow()
+
+    def test_half_of_the_treads(self):
+        self.half()
+
+    def test_contradicted(self):
+        self.foreign()
+
+    def test_a_second_one(self):
+        self.second()
+
+    def test_one_that_does_not_say_what_the_treads_do(self):
+        self.quiet()
+
+    def test_one_that_does_not_say_what_the_treads_do_and_hangs(self):
+        self.quiet_and_hangs()
+
+    def test_another_one_that_sends_speeds(self):
+        treads, start = self.begin()
+        joystick = self.driver("joystick")
+        fault_at = time.monotonic()
+        self.assert_invalid(start, fault_at, r"/joystick_\d+ commands the treads, too")
+        self.assert_treads_stand(treads, fault_at)
+        joystick.kill()
+        self.node.wait_for(r"/joystick_\d+ publishes /rvr1/wheels, too|commands the treads, too|$")
+
+
+if __name__ == "__main__":
+    unittest.main()
