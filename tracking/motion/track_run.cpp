@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/robot_track.h"
+#include "tracking/motion/repeats.h"
 
 namespace swarmsmith {
 namespace {
@@ -102,7 +105,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
 using SightingsByTag = std::map<int, std::vector<std::size_t>>;
 
 SightingsByTag sightings_of(const Observations& observations,
-                            std::span<const TrackedCamera> cameras, const TrackOptions& options) {
+                            std::span<const TrackedCamera> cameras,
+                            std::span<const Repeats> repeats, const TrackOptions& options) {
   const double margin = options.limits.degraded_gap_s;
   const double end = instant_s(options.span.cycles) + margin;
   SightingsByTag found;
@@ -110,7 +114,11 @@ SightingsByTag sightings_of(const Observations& observations,
     const Sighting& seen = observations.sightings[i];
     // What is left of a damaged store may name a camera that is lost.
     if (seen.camera < 0 || seen.camera >= static_cast<int>(cameras.size())) continue;
-    const double time = seen.time_s - cameras[static_cast<std::size_t>(seen.camera)].start_s;
+    const auto camera = static_cast<std::size_t>(seen.camera);
+    const std::vector<bool>& again = repeats[camera].again;
+    const auto frame = static_cast<std::size_t>(std::max<std::int64_t>(seen.frame, 0));
+    if (frame < again.size() && again[frame]) continue;
+    const double time = seen.time_s - cameras[camera].start_s;
     if (time >= -margin && time <= end) found[seen.tag].push_back(i);
   }
   return found;
@@ -226,7 +234,10 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                                const TrackOptions& asked) {
   const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, asked.span);
   if (!cameras) return Unexpected(cameras.error());
-  FrameReport frames = frame_report(observations, *cameras, rig, asked);
+  std::vector<Repeats> repeats;
+  for (std::size_t c = 0; c < cameras->size(); ++c)
+    repeats.push_back(repeats_of(observations, static_cast<int>(c), rig.robots));
+  FrameReport frames = frame_report(observations, *cameras, repeats, rig, asked);
   const TrackOptions options = for_rate(asked, frames.frame_rate_median);
   TrackedRun run{.covered_s = frames.covered_s,
                  .frame_rate_least = frames.frame_rate_least,
@@ -235,8 +246,9 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                  .frames = frames.frames,
                  .frames_dropped = frames.dropped,
                  .frames_twice = frames.twice,
-                 .issues = frames.issues};
-  const SightingsByTag sightings = sightings_of(observations, *cameras, options);
+                 .issues = frames.issues,
+                 .checks = frames.checks};
+  const SightingsByTag sightings = sightings_of(observations, *cameras, repeats, options);
   list_unknown(sightings, rig, options, run.issues);
   std::vector<RobotTrack> tracks;
   for (const RobotSetup& setup : rig.robots) {
@@ -254,6 +266,10 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
         tracked_robot(*robot, std::move(samples), tracks.back(), frames, options, run.issues));
   }
   join(tracks, options.span.cycles, run);
+  Findings of_speeds;
+  check_speeds(run.robots, options.limits, instant_s(options.span.cycles), of_speeds);
+  std::ranges::move(of_speeds.issues, std::back_inserter(run.issues));
+  std::ranges::move(of_speeds.checks, std::back_inserter(run.checks));
   return run;
 }
 

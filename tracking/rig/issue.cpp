@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 38> kNames = {"E_VIDEO_UNREADABLE",
+constexpr std::array<std::string_view, 43> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_VIDEO_TRUNCATED",
                                                      "E_CALIB_SIZE",
                                                      "E_CALIB_QUALITY",
@@ -47,8 +47,13 @@ constexpr std::array<std::string_view, 38> kNames = {"E_VIDEO_UNREADABLE",
                                                      "W_ROBOT_DEGRADED",
                                                      "E_ROBOT_INVALID",
                                                      "W_MOTION_UNLIKE_LOG",
-                                                     "W_SYNC_DIFFERS"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::SyncDiffers) + 1);
+                                                     "W_SYNC_DIFFERS",
+                                                     "W_PICTURES_REPEATED",
+                                                     "W_CLOCK_COUNTED",
+                                                     "E_CLOCK_STEP",
+                                                     "W_FILM_SPEED",
+                                                     "E_FILM_SPEED"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::FilmTooFast) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

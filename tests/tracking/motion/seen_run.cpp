@@ -61,6 +61,7 @@ void film(SeenRun& run, const Truth& truth, const Seeing& seeing, const View& vi
   run.rig.places[place].place = view.place;
   CameraRecord record{.camera = name, .file = name + ".mp4", .sha256 = name};
   record.size = view.camera.size;
+  record.time_source = TimeSource::Sidecar;
   lay_references(run, seeing, view, run.rig.places[place], record);
   const Rng rng = Rng(seeing.seed).split("corners");
   const double end = instant_s(seeing.cycles) + seeing.past_end_s;
