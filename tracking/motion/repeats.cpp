@@ -26,7 +26,7 @@ constexpr double kMakesUpMuch = 1.5;
 constexpr double kCornerSpeed_m_s = 0.7;
 /// One that stops by itself stops anywhere between two frames: of its usual step the last one is
 /// any share. One whose picture stood made all of it.
-constexpr double kFullStep = 0.8;
+constexpr double kFullStep = 0.9;
 constexpr double kDoubtful_s = 1;
 
 class Search {
@@ -147,8 +147,8 @@ class Search {
     int moving = 0;
     int full = 0;
     for (const TagWay& tag : tags_) {
-      if (from == 0 || !both(tag, from - 1, from)) continue;
-      const double usual = speed_before(tag, from) * interval_s(from);
+      if (from < 2 || !both(tag, from - 1, from)) continue;
+      const double usual = speed_before(tag, from - 1) * interval_s(from);
       if (usual <= 2 * kMoving_px) continue;
       ++moving;
       if (step(tag, from) > kFullStep * usual) ++full;

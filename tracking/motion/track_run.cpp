@@ -140,9 +140,31 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
   issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list, {}, {}, {}});
 }
 
+/// What was noticed that may be the cause: of the film, and tags that are there twice.
+std::string causes(const Observations& observations, const Rig& rig) {
+  std::string text;
+  for (const Issue& issue : observations.issues) {
+    if (issue.code == IssueCode::FilmOdd) text += ". Note: " + issue.text;
+  }
+  for (const RobotSetup& robot : rig.robots) {
+    std::map<std::pair<int, std::int64_t>, int> frames;
+    for (const Sighting& seen : observations.sightings) {
+      if (seen.tag == robot.tag) ++frames[{seen.camera, seen.frame}];
+    }
+    const auto twice =
+        std::ranges::count_if(frames, [](const auto& frame) { return frame.second > 1; });
+    if (twice == 0 || 2 * static_cast<std::size_t>(twice) < frames.size()) continue;
+    text += fmt::format(
+        ". Note: tag {} is there twice in {} of the {} frames in which it is seen; "
+        "does another robot carry it?",
+        robot.tag, twice, frames.size());
+  }
+  return text;
+}
+
 /// Why a robot has no sample within the first seconds.
 Error missing(const TaggedRobot& robot, const RobotSamples& samples, const FrameReport& frames,
-              const std::string& spans) {
+              const std::string& spans, const std::string& causes) {
   const auto of = [&](Sample::Use use) {
     return std::ranges::count(samples.samples, use, &Sample::use);
   };
@@ -163,12 +185,22 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
                                 std::ranges::max(samples.twice)),
                     robot.setup.name);
   }
+  const auto bad = of(Sample::Use::BadFit);
+  if (2 * static_cast<std::size_t>(bad) > samples.samples.size()) {
+    return error_of(
+        IssueCode::RobotMissing,
+        fmt::format("{} was seen {} times, and in {} of them its tag is no square of {:g} m at "
+                    "{:g} m above the floor: it does not lie level, or is bent; mount it flat{}",
+                    who, samples.samples.size(), bad, robot.setup.edge_m, robot.setup.height_m,
+                    causes),
+        robot.setup.name);
+  }
   return error_of(
       IssueCode::RobotMissing,
       fmt::format("{} was not seen in the first {:.0f} s: {} sightings in all, {} bad fits, {} "
-                  "outside of the arena, {} outliers; check its number, light and start",
+                  "outside of the arena, {} outliers; check its number, light and start{}",
                   who, kFirstLook_s, samples.samples.size(), of(Sample::Use::BadFit),
-                  of(Sample::Use::Outside), of(Sample::Use::Outlier)),
+                  of(Sample::Use::Outside), of(Sample::Use::Outlier), causes),
       robot.setup.name);
 }
 
@@ -260,7 +292,8 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                    seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
                    arena, options);
     if (!is_seen_early(samples))
-      return Unexpected(missing(*robot, samples, frames, spans_text(observations, *cameras)));
+      return Unexpected(missing(*robot, samples, frames, spans_text(observations, *cameras),
+                                causes(observations, rig)));
     tracks.push_back(track_of(*robot, samples, *cameras, options));
     run.robots.push_back(
         tracked_robot(*robot, std::move(samples), tracks.back(), frames, options, run.issues));

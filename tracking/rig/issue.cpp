@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 43> kNames = {"E_VIDEO_UNREADABLE",
+constexpr std::array<std::string_view, 44> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_VIDEO_TRUNCATED",
                                                      "E_CALIB_SIZE",
                                                      "E_CALIB_QUALITY",
@@ -52,6 +52,7 @@ constexpr std::array<std::string_view, 43> kNames = {"E_VIDEO_UNREADABLE",
                                                      "W_CLOCK_COUNTED",
                                                      "E_CLOCK_STEP",
                                                      "W_FILM_SPEED",
+                                                     "W_FILM_ODD",
                                                      "E_FILM_SPEED"};
 static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::FilmTooFast) + 1);
 

@@ -56,6 +56,7 @@ enum class IssueCode {
   ClockCounted,      ///< a warning: the film's times were counted, and no other clock agrees
   ClockStep,         ///< the film's clock was set within the run
   FilmSpeed,         ///< a warning: robots are faster than they should be able to
+  FilmOdd,           ///< a warning, which degrades nothing: why tags may not be found
   FilmTooFast,       ///< the film runs at another speed than the robots' own logs say
 };
 

@@ -145,7 +145,7 @@ TEST(ClockStepTest, DroppedFramesJitterAndPausesAreNone) {
     dropped.cut(2 * i + 0.01, 2 * i + 0.35);
   EXPECT_EQ(find_issue(dropped.track().value(), IssueCode::ClockStep), nullptr);
   const SeenRun jitter =
-      with_clock(on_circle, [](double time) { return time + 0.02 * std::sin(97.0 * time); });
+      with_clock(on_circle, [](double time) { return time + 0.02 * std::sin(50.0 * time); });
   EXPECT_EQ(find_issue(jitter.track().value(), IssueCode::ClockStep), nullptr);
   const auto pause = [](int robot, double time_s) {
     return on_circle(robot, time_s < 10 ? time_s : std::max(10.0, time_s - 3));

@@ -99,7 +99,18 @@ void SeenRun::cut(double from_s, double to_s, int camera) {
   const auto is_cut = [&](double clock) { return clock - start > from_s && clock - start < to_s; };
   std::erase_if(observations.sightings,
                 [&](const Sighting& seen) { return seen.camera == camera && is_cut(seen.time_s); });
-  std::erase_if(observations.cameras.at(static_cast<std::size_t>(camera)).frame_times, is_cut);
+  // Those that are left have other numbers.
+  std::vector<double>& times =
+      observations.cameras.at(static_cast<std::size_t>(camera)).frame_times;
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t number = 0; const double time : times) {
+    numbers.push_back(number);
+    number += is_cut(time) ? 0 : 1;
+  }
+  for (Sighting& seen : observations.sightings) {
+    if (seen.camera == camera) seen.frame = numbers.at(static_cast<std::size_t>(seen.frame));
+  }
+  std::erase_if(times, is_cut);
 }
 
 Expected<TrackedRun> SeenRun::track() const {

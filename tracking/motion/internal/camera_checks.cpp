@@ -95,6 +95,9 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
 std::string short_of(const Observations& observations, std::span<const Repeats> repeats) {
   for (std::size_t c = 0; c < repeats.size(); ++c) {
     const std::vector<double>& times = observations.cameras[c].frame_times;
+    if (observations.cameras[c].damaged_frames > 0 && !times.empty() && !repeats[c].again.back())
+      return fmt::format("{} of the file's pictures are damaged; copy it again from the camera",
+                         observations.cameras[c].damaged_frames);
     if (!times.empty() && repeats[c].again.back())
       return "its recorder hung, and wrote the last picture over and over";
   }
