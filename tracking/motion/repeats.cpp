@@ -22,8 +22,6 @@ constexpr double kLong_s = 0.3;
 /// makes up for it.
 constexpr double kMakesUp = 1.3;
 constexpr double kMakesUpMuch = 1.5;
-/// Faster than any corner of a tag: treads do 0.35 m/s, and as much again while the robot turns.
-constexpr double kCornerSpeed_m_s = 0.7;
 /// One that stops by itself stops anywhere between two frames: of its usual step the last one is
 /// any share. One whose picture stood made all of it.
 constexpr double kFullStep = 0.9;

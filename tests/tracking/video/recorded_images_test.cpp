@@ -177,7 +177,7 @@ TEST(ChaptersTest, PartsOfABagKeepTheirTimes) {
     write_bytes(folder / "run" / ("run_" + std::to_string(part) + ".mcap"), bag.finished());
   }
   write_bytes(folder / "run" / "metadata.yaml", "rosbag2_bagfile_information:\n");
-  for (const std::string word :
+  for (const std::string& word :
        {(folder / "run").string(), (folder / "run").string() + ":" + kTopic}) {
     ReadVideo video = read_video(word);
     EXPECT_EQ(video.info.expected_frames, 0);

@@ -64,7 +64,6 @@ class Film {
   }
 
   bool beats_top_speed(const TagWay& tag, std::size_t i) const {
-    constexpr double kCornerSpeed_m_s = 0.7;
     return corners_moved(seen(tag, i - 1)->corners, seen(tag, i)->corners) >
            kCornerSpeed_m_s * tag.pixels_per_m * (time(i) - time(i - 1)) + kLeastStep_px;
   }

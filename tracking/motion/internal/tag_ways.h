@@ -12,6 +12,9 @@ namespace swarmsmith {
 /// Root mean square of how far the corners moved, pixels, to the thousandth that stores keep.
 double corners_moved(const TagCorners& from, const TagCorners& to);
 
+/// Faster than any corner of a tag: treads do 0.35 m/s, and as much again while the robot turns.
+inline constexpr double kCornerSpeed_m_s = 0.7;
+
 /// A robot's tag in one camera's frames.
 struct TagWay {
   std::vector<const Sighting*> seen;  ///< one a frame; null where it was not seen, or twice
