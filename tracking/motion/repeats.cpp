@@ -24,7 +24,8 @@ constexpr double kMakesUp = 1.3;
 constexpr double kMakesUpMuch = 1.5;
 /// One that stops by itself stops anywhere between two frames: of its usual step the last one is
 /// any share. One whose picture stood made all of it.
-constexpr double kFullStep = 0.9;
+constexpr double kFullStep = 0.8;
+constexpr double kLargeStep = 0.6;
 constexpr double kDoubtful_s = 1;
 
 class Search {
@@ -140,44 +141,66 @@ class Search {
 
   enum class End { Stopped, Frozen, Doubtful };
 
-  /// What became of robots that stand from a frame to the film's end.
+  /// Steps of tags that stand, medians: in pictures in which others move, so that they are none
+  /// twice, and after a frame.
+  struct Noise {
+    double before_px = 0;
+    double after_px = 0;
+  };
+
+  std::optional<Noise> noise_around(std::size_t from) const {
+    constexpr std::size_t kEnoughBefore = 60;
+    constexpr std::size_t kEnoughAfter = 20;
+    std::vector<double> before;
+    std::vector<double> after;
+    for (std::size_t frame = 1; frame < frames(); ++frame) {
+      const bool moves = std::ranges::any_of(tags_, [&](const TagWay& tag) {
+        return both(tag, frame - 1, frame) && step(tag, frame) > 2 * kStanding_px;
+      });
+      if (frame <= from && !moves) continue;
+      for (const TagWay& tag : tags_) {
+        if (!both(tag, frame - 1, frame)) continue;
+        if (frame > from) after.push_back(step(tag, frame));
+        if (frame <= from && step(tag, frame) <= kStanding_px) before.push_back(step(tag, frame));
+      }
+    }
+    if (before.size() < kEnoughBefore || after.size() < kEnoughAfter) return std::nullopt;
+    return Noise{median(before), median(after)};
+  }
+
+  static double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  }
+
+  /// What became of robots that stand from a frame to the film's end. A camera's noise moves the
+  /// corners of what stands, if the codec does not hide it; a copy has none.
   End end_of(std::size_t from) const {
+    constexpr double kSeen_px = 0.005;
+    const std::optional<Noise> noise = noise_around(from);
+    if (noise && noise->before_px > kSeen_px) {
+      if (noise->after_px < 0.2 * noise->before_px) return End::Frozen;
+      if (noise->after_px > 0.8 * noise->before_px) return End::Stopped;
+    }
     int moving = 0;
     int full = 0;
+    int large = 0;
     for (const TagWay& tag : tags_) {
       if (from < 2 || !both(tag, from - 1, from)) continue;
       const double usual = speed_before(tag, from - 1) * interval_s(from);
       if (usual <= 2 * kMoving_px) continue;
       ++moving;
       if (step(tag, from) > kFullStep * usual) ++full;
+      if (step(tag, from) > kLargeStep * usual) ++large;
     }
     if (moving >= 2 && full == moving) return End::Frozen;
-    if (moving > 0) return 2 * full > moving ? End::Doubtful : End::Stopped;
-    return without_noise(from);
-  }
-
-  /// Nothing moved before. A camera's noise moves corners of what stands; a codec may hide it.
-  End without_noise(std::size_t from) const {
-    if (times_.back() - times_[from] < kDoubtful_s) return End::Stopped;
-    for (const TagWay& tag : tags_) {
-      if (tag.way.back() > tag.way[from]) return End::Stopped;
-    }
-    constexpr int kEnough = 20;
-    int standing = 0;
-    int noisy = 0;
-    for (std::size_t frame = 1; frame <= from; ++frame) {
-      const bool moves = std::ranges::any_of(tags_, [&](const TagWay& tag) {
-        return both(tag, frame - 1, frame) && step(tag, frame) > 2 * kStanding_px;
-      });
-      if (!moves) continue;
-      for (const TagWay& tag : tags_) {
-        if (!both(tag, frame - 1, frame) || step(tag, frame) > kStanding_px) continue;
-        ++standing;
-        if (step(tag, frame) > 0) ++noisy;
-      }
-    }
-    if (standing < kEnough) return End::Doubtful;
-    return 10 * noisy >= 9 * standing ? End::Frozen : End::Stopped;
+    if (moving > 0) return large > 0 ? End::Doubtful : End::Stopped;
+    // Nothing moved before.
+    const bool is_noisy = std::ranges::any_of(
+        tags_, [&](const TagWay& tag) { return tag.way.back() > tag.way[from]; });
+    if (times_.back() - times_[from] < kDoubtful_s || is_noisy || noise) return End::Stopped;
+    return End::Doubtful;
   }
 
   void find_long() {

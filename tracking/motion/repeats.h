@@ -29,11 +29,12 @@ struct Repeats {
 /// By the corners of robots' tags, since codecs write the same picture with other bits. A picture
 /// is a repeat where robots stand that moved before and move on afterwards, and
 /// - for a few frames: all that move stand, or the only one that moves then makes up for it;
-/// - for longer: they make up for it in one step, or, at the film's end, two or more stop dead in
-///   one frame, each after a full step. One robot that does so is doubtful.
+/// - for longer: they make up for it in one step; or, at the film's end, the camera's noise is gone
+///   that moved the corners of still tags before; or, where that cannot be told, two or more stop
+///   dead in one frame, each after a full step. One robot that does so is doubtful.
 /// A film in which nothing moves before and after is no repeat: its robots are where it shows them,
-/// but at its end it is doubtful when no corner differs by a thousandth of a pixel any more, unless
-/// still tags did not differ either while others moved.
+/// but at its end it is doubtful when no corner differs by a thousandth of a pixel any more, and
+/// nothing tells whether the codec hides noise.
 Repeats repeats_of(const Observations& observations, int camera,
                    std::span<const RobotSetup> robots);
 

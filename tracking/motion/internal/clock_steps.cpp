@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace swarmsmith {
@@ -13,6 +14,8 @@ using Corners = Eigen::Matrix<double, 8, 1>;
 constexpr double kWindow_s = 0.3;
 /// Of its velocity, that a robot may change around a step.
 constexpr double kSteady = 0.3;
+/// The same with its direction: a robot in a tight bend.
+constexpr double kBend = 0.6;
 constexpr double kLeastStep_px = 1;
 
 Corners corners_of(const Sighting& seen) {
@@ -50,17 +53,25 @@ class Film {
     const auto before = velocity(tag, i - 1, -1);
     const auto after = velocity(tag, i, 1);
     if (!before || !after || !seen(tag, i) || !seen(tag, i - 1)) return std::nullopt;
-    const Corners mean = (*before + *after) / 2;
-    // The root mean square of a corner's two coordinates together.
-    const double speed = mean.norm() / 2;
-    if (speed * usual_s_ < kLeastStep_px || (*after - *before).norm() > kSteady * mean.norm())
-      return std::nullopt;
     const double interval = time(i) - time(i - 1);
     const Corners moved = corners_of(*seen(tag, i)) - corners_of(*seen(tag, i - 1));
-    const double share = moved.dot(mean) / mean.squaredNorm();
-    const double aside = (moved - share * mean).norm() / 2;
-    if (aside > kLeastStep_px + kSteady * std::fabs(share) * speed) return std::nullopt;
-    return share - interval;
+    // Root mean squares of a corner's two coordinates together.
+    const double faster = std::max(before->norm(), after->norm()) / 2;
+    const double slower = std::min(before->norm(), after->norm()) / 2;
+    const double speed = (faster + slower) / 2;
+    // Far away at once it may have turned, too.
+    if (beats_top_speed(tag, i) && faster - slower <= kSteady * speed &&
+        speed * usual_s_ >= kLeastStep_px) {
+      return moved.norm() / 2 / speed - interval;
+    }
+    const Corners mean = (*before + *after) / 2;
+    if (mean.norm() / 2 * usual_s_ < kLeastStep_px ||
+        (*after - *before).norm() > kBend * mean.norm())
+      return std::nullopt;
+    const double time_s = moved.dot(mean) / mean.squaredNorm();
+    const double aside = (moved - time_s * mean).norm() / 2;
+    if (aside > kLeastStep_px + kSteady * std::fabs(time_s) * mean.norm() / 2) return std::nullopt;
+    return time_s - interval;
   }
 
   bool beats_top_speed(const TagWay& tag, std::size_t i) const {
@@ -115,29 +126,46 @@ std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, s
   return Said{static_cast<int>(all.size()), mean};
 }
 
+/// How much stamps jitter, by the median of what is lost.
+double jitter_of(const std::map<std::size_t, double>& lost) {
+  std::vector<double> sizes;
+  for (const auto& [i, lost_s] : lost)
+    sizes.push_back(std::fabs(lost_s));
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return 1.4826 * *middle;
+}
+
 }  // namespace
 
 ClockSteps clock_steps(const FilmedCamera& film) {
   ClockSteps steps;
   const Film pictures(film);
-  double sum = 0;
+  std::map<std::size_t, double> lost;
   std::size_t within = 0;
-  std::size_t asked = 0;
   for (std::size_t i = 1; i < pictures.size(); ++i) {
     const double at_s = pictures.time(i) - film.camera.start_s;
     if (at_s < 0 || pictures.time(i - 1) - film.camera.start_s > film.duration_s) continue;
     ++within;
-    const auto said = said_of(pictures, film.tags, i);
-    if (!said) continue;
-    ++asked;
-    if (std::fabs(said->lost_s) < pictures.usual_s() / 2) continue;
-    ++steps.count;
-    sum += said->lost_s;
-    steps.most_off_s = std::max({steps.most_off_s, std::fabs(sum), std::fabs(said->lost_s)});
-    if (std::fabs(said->lost_s) > std::fabs(steps.worst.lost_s)) steps.worst = {at_s, said->lost_s};
+    if (const auto said = said_of(pictures, film.tags, i)) lost[i] = said->lost_s;
   }
-  if (20 * asked < within || asked == 0)
+  if (20 * lost.size() < within || lost.empty())
     steps.reason = "hardly ever did two robots move steadily at once";
+  const double least = std::max(pictures.usual_s() / 2, 5 * jitter_of(lost));
+  double sum = 0;
+  const auto at = [&](std::size_t i) { return lost.contains(i) ? lost.at(i) : 0; };
+  for (const auto& [i, lost_s] : lost) {
+    // A stamp that is late alone makes an interval too long and the next one too short.
+    const double with_next = lost_s + (at(i - 1) + at(i + 1)) / 2;
+    if (std::fabs(lost_s) < least || std::fabs(with_next) < least || lost_s * with_next < 0)
+      continue;
+    ++steps.count;
+    sum += lost_s;
+    steps.most_off_s = std::max({steps.most_off_s, std::fabs(sum), std::fabs(lost_s)});
+    if (std::fabs(lost_s) <= std::fabs(steps.worst.lost_s)) continue;
+    steps.worst = {pictures.time(i) - film.camera.start_s, lost_s};
+  }
   return steps;
 }
 
