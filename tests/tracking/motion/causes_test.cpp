@@ -18,8 +18,8 @@ std::string refusal(const SeenRun& seen) {
 TEST(CausesTest, OneNumberOnTwoRobots) {
   SeenRun seen = seen_run(on_circle, kFilm);
   for (Sighting& sighting : seen.observations.sightings)
-    if (sighting.tag == 3) sighting.tag = 2;
-  EXPECT_THAT(refusal(seen), HasSubstr("rvr3 (tag 3) was not seen"));
+    if (sighting.tag == 1) sighting.tag = 2;
+  EXPECT_THAT(refusal(seen), HasSubstr("rvr1 (tag 1) was not seen"));
   EXPECT_THAT(refusal(seen), HasSubstr("tag 2 is there twice in 166 of the 166 frames"));
 }
 

@@ -19,23 +19,36 @@ double edge_px(const TagCorners& corners) {
   return sum / static_cast<double>(corners.size());
 }
 
-/// Sums of steps, and the scale.
-void measure(TagWay& tag, double edge_m) {
+void measure_scale(TagWay& tag, double edge_m) {
   std::vector<double> edges;
-  const Sighting* before = nullptr;
-  for (std::size_t frame = 0; frame < tag.seen.size(); ++frame) {
-    const double way = frame == 0 ? 0 : tag.way[frame - 1];
-    const Sighting* const now = tag.seen[frame];
-    tag.way[frame] =
-        way +
-        (now == nullptr || before == nullptr ? 0 : corners_moved(before->corners, now->corners));
-    if (now == nullptr) continue;
-    before = now;
-    edges.push_back(edge_px(now->corners));
+  for (const Sighting* const seen : tag.seen) {
+    if (seen != nullptr) edges.push_back(edge_px(seen->corners));
   }
   const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
   std::ranges::nth_element(edges, middle);
   tag.pixels_per_m = *middle / edge_m;
+}
+
+/// Sums of steps. None is longer than the fastest robot goes since the tag moved last: a tag that
+/// was misread, or carried, is no speed.
+void measure_way(TagWay& tag, const std::vector<double>& times) {
+  constexpr double kStanding_px = 0.5;
+  const Sighting* before = nullptr;
+  std::size_t moved_at = 0;
+  for (std::size_t frame = 0; frame < tag.seen.size(); ++frame) {
+    tag.way[frame] = frame == 0 ? 0 : tag.way[frame - 1];
+    const Sighting* const now = tag.seen[frame];
+    if (now == nullptr) continue;
+    if (before != nullptr) {
+      const double step = corners_moved(before->corners, now->corners);
+      const double most = kCornerSpeed_m_s * tag.pixels_per_m * (times[frame] - times[moved_at]);
+      tag.way[frame] += std::min(step, most + kStanding_px);
+      if (step > kStanding_px) moved_at = frame;
+    } else {
+      moved_at = frame;
+    }
+    before = now;
+  }
 }
 
 }  // namespace
@@ -79,7 +92,8 @@ std::vector<TagWay> tag_ways(const Observations& observations, int camera,
     }
     const bool is_seen = std::ranges::any_of(ways[i].seen, [](const Sighting* s) { return s; });
     if (!is_seen) continue;
-    measure(ways[i], robots[i].edge_m);
+    measure_scale(ways[i], robots[i].edge_m);
+    measure_way(ways[i], observations.cameras[static_cast<std::size_t>(camera)].frame_times);
     kept.push_back(std::move(ways[i]));
   }
   return kept;
