@@ -61,7 +61,19 @@ struct Finds {
   std::vector<BoardView> views;
   std::vector<BoardSight> of_video;
   std::int64_t looked_at = 0;
+  bool has_smaller = false;  ///< of a chessboard squares were counted, in place of corners
 };
+
+constexpr std::int64_t kLooksForSmaller = 10;
+
+/// Whether the board has a row and a column less than was said.
+bool has_one_row_less(const GrayImage& image, const Board& board) {
+  if (board.kind != Board::Kind::Chessboard || board.columns < 4 || board.rows < 4) return false;
+  Board smaller = board;
+  --smaller.columns;
+  --smaller.rows;
+  return find_board(image, smaller).has_value();
+}
 
 std::string name_of_frame(const PictureSource& source, const FrameSource& frames) {
   const Frame& frame = frames.frame();
@@ -76,6 +88,8 @@ Expected<bool> look(const PictureSource& source, const FrameSource& frames, cons
   if (frames.frame().number % every != 0) return true;
   ++finds.looked_at;
   auto sight = find_board(frames.frame().gray, board);
+  if (!sight && !finds.has_smaller && finds.looked_at <= kLooksForSmaller)
+    finds.has_smaller = has_one_row_less(frames.frame().gray, board);
   if (!sight) return true;
   sight->view.name = name_of_frame(source, frames);
   if (source.is_video) {
@@ -174,6 +188,19 @@ ExitCode run(const Arguments& arguments, Output& output) {
       },
       output);
   if (!looked) return fail(output, exit_code_of_tracking(looked.error()), looked.error());
+  if (finds.views.empty() && finds.of_video.empty() && finds.has_smaller) {
+    Board right = *board;
+    --right.columns;
+    --right.rows;
+    return fail_all(
+        output, {error_of(IssueCode::CalibrationQuality,
+                          "the board is in none of the pictures, but one of " +
+                              std::to_string(right.columns) + " x " + std::to_string(right.rows) +
+                              " inner corners is: a chessboard's corners are counted, "
+                              "not its squares; say --board " +
+                              board_text(right),
+                          arguments.board)});
+  }
   return solve(arguments, *target, *board, finds, output);
 }
 

@@ -7,11 +7,13 @@
 #include <ctime>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "base/suggestion.h"
 #include "base/text/whole_file.h"
 #include "console/counter.h"
 #include "tracking/geometry/tag_pose.h"
+#include "tracking/motion/repeats.h"
 #include "tracking/motion/track_run.h"
 #include "tracking/observing/observe.h"
 
@@ -136,8 +138,11 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
   if (!seen) return Unexpected(seen.error());
   std::vector<TagSample> path;
   std::vector<double> scales;
+  const Observations observations{{seen->record}, seen->sightings, {}, {}};
+  const Repeats repeats = repeats_of(observations, 0, std::span(&robot, 1));
   for (const Sighting& sighting : seen->sightings) {
-    if (sighting.tag != robot.tag) continue;
+    if (sighting.tag != robot.tag || repeats.again.at(static_cast<std::size_t>(sighting.frame)))
+      continue;
     const TagPose pose = tag_pose(*view, sighting.corners, robot.edge_m, robot.height_m);
     path.push_back({sighting.time_s, pose.pose});
     scales.push_back(pose.scale);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tracking/app/run_checks.h"
@@ -64,6 +65,27 @@ void check_start(const Observations& observations, const RunLog& log, std::vecto
        {}});
 }
 
+/// Nodes cut commands that are faster than they allow.
+void know_speeds(const std::vector<RobotLog>& logs, TrackLimits& limits) {
+  constexpr double kTreadDistance_m = 0.147;
+  double most = 0;
+  for (const RobotLog& log : logs)
+    most = std::max(most, log.record.head.max_mps);
+  if (!(most > 0)) return;
+  limits.driving_speed_m_s = most;
+  limits.driving_turn_rad_s = 2 * most / kTreadDistance_m;
+  limits.knows_driving_speed = true;
+}
+
+/// The film's clock was counted, and the robots' clocks agree with it.
+void believe_clock(TrackedRun& run) {
+  std::erase_if(run.issues,
+                [](const Issue& issue) { return issue.code == IssueCode::ClockCounted; });
+  for (Check& check : run.checks) {
+    if (check.name == kClockOfTheFilm) check.outcome = Check::Outcome::Passed;
+  }
+}
+
 }  // namespace
 
 OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
@@ -83,10 +105,14 @@ OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
   options.body = log.mission.body;
   options.scored_at_the_end = is_scored_at_the_end(log.mission);
   options.takes_tags_for_centres = takes_tags_for_centres;
+  know_speeds(observations.logs, options.limits);
   auto tracked = track_run(observations, rig, log.mission.arena, options);
   if (!tracked) return refused(tracked.error());
   analysis.tracked = std::move(*tracked);
   RobotFindings robots = judge_robots(analysis.tracked, observations.logs, log);
+  analysis.tracked.checks.insert(analysis.tracked.checks.end(), robots.checks.begin(),
+                                 robots.checks.end());
+  if (robots.logs_confirm_clock) believe_clock(analysis.tracked);
   std::vector<Issue> before = observations.issues;
   std::vector<Check> asked{answered(kWhole, "", outcome_of(before, 0, IssueCode::VideoTruncated))};
   check_start(observations, log, before, asked);

@@ -108,7 +108,7 @@ std::vector<Detection> TagDetector::find(const GrayImage& image, int decimate) {
   return find(image, {0, 0, image.width, image.height}, decimate);
 }
 
-bool is_mirrored(TagDetector& detector, const GrayImage& image) {
+std::vector<int> mirrored_tags(TagDetector& detector, const GrayImage& image) {
   std::vector<std::uint8_t> mirrored;
   mirrored.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   for (int row = 0; row < image.height; ++row) {
@@ -117,10 +117,18 @@ bool is_mirrored(TagDetector& detector, const GrayImage& image) {
     mirrored.insert(mirrored.end(), std::reverse_iterator(first + image.width),
                     std::reverse_iterator(first));
   }
+  std::vector<int> tags;
+  for (const Detection& tag :
+       detector.find({mirrored.data(), image.width, image.height, image.width}, 1)) {
+    if (tag.hamming == 0) tags.push_back(tag.tag);
+  }
+  return tags;
+}
+
+bool is_mirrored(TagDetector& detector, const GrayImage& image) {
   const auto is_whole = [](const Detection& tag) { return tag.hamming == 0; };
   return std::ranges::none_of(detector.find(image, 1), is_whole) &&
-         std::ranges::any_of(
-             detector.find({mirrored.data(), image.width, image.height, image.width}, 1), is_whole);
+         !mirrored_tags(detector, image).empty();
 }
 
 }  // namespace swarmsmith

@@ -50,6 +50,8 @@ class TagDetector {
   std::unique_ptr<Library> library_;
 };
 
+/// Tags, read without an error, that are the mirror images of tags, by number.
+std::vector<int> mirrored_tags(TagDetector& detector, const GrayImage& image);
 /// Whether an image shows tags as a mirror does: then none is found in it, whatever the light.
 bool is_mirrored(TagDetector& detector, const GrayImage& image);
 /// What to do about it.

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_track.h"
 #include "tracking/motion/internal/robot_travel.h"
+#include "tracking/motion/repeats.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/lens_reach.h"
 
@@ -116,7 +119,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
 using SightingsByTag = std::map<int, std::vector<std::size_t>>;
 
 SightingsByTag sightings_of(const Observations& observations,
-                            std::span<const TrackedCamera> cameras, const TrackOptions& options) {
+                            std::span<const TrackedCamera> cameras,
+                            std::span<const Repeats> repeats, const TrackOptions& options) {
   const double margin = options.limits.degraded_gap_s;
   const double end = instant_s(options.span.cycles) + margin;
   SightingsByTag found;
@@ -124,7 +128,11 @@ SightingsByTag sightings_of(const Observations& observations,
     const Sighting& seen = observations.sightings[i];
     // What is left of a damaged store may name a camera that is lost.
     if (seen.camera < 0 || seen.camera >= static_cast<int>(cameras.size())) continue;
-    const double time = seen.time_s - cameras[static_cast<std::size_t>(seen.camera)].start_s;
+    const auto camera = static_cast<std::size_t>(seen.camera);
+    const std::vector<bool>& again = repeats[camera].again;
+    const auto frame = static_cast<std::size_t>(std::max<std::int64_t>(seen.frame, 0));
+    if (frame < again.size() && again[frame]) continue;
+    const double time = seen.time_s - cameras[camera].start_s;
     if (time >= -margin && time <= end) found[seen.tag].push_back(i);
   }
   return found;
@@ -150,9 +158,31 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
   run.issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list, {}, {}, {}});
 }
 
+/// What was noticed that may be the cause: of the film, and tags that are there twice.
+std::string causes(const Observations& observations, const Rig& rig) {
+  std::string text;
+  for (const Issue& issue : observations.issues) {
+    if (issue.code == IssueCode::FilmOdd) text += ". Note: " + issue.text;
+  }
+  for (const RobotSetup& robot : rig.robots) {
+    std::map<std::pair<int, std::int64_t>, int> frames;
+    for (const Sighting& seen : observations.sightings) {
+      if (seen.tag == robot.tag) ++frames[{seen.camera, seen.frame}];
+    }
+    const auto twice =
+        std::ranges::count_if(frames, [](const auto& frame) { return frame.second > 1; });
+    if (twice == 0 || 2 * static_cast<std::size_t>(twice) < frames.size()) continue;
+    text += fmt::format(
+        ". Note: tag {} is there twice in {} of the {} frames in which it is seen; "
+        "does another robot carry it?",
+        robot.tag, twice, frames.size());
+  }
+  return text;
+}
+
 /// Why a robot has no sample within the first seconds.
 Error missing(const TaggedRobot& robot, const RobotSamples& samples, const FrameReport& frames,
-              const std::string& spans) {
+              const std::string& spans, const std::string& causes) {
   const auto of = [&](Sample::Use use) {
     return std::ranges::count(samples.samples, use, &Sample::use);
   };
@@ -173,12 +203,22 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
                                 std::ranges::max(samples.twice)),
                     robot.setup.name);
   }
+  const auto bad = of(Sample::Use::BadFit);
+  if (2 * static_cast<std::size_t>(bad) > samples.samples.size()) {
+    return error_of(
+        IssueCode::RobotMissing,
+        fmt::format("{} was seen {} times, and in {} of them its tag is no square of {:g} m at "
+                    "{:g} m above the floor: it does not lie level, or is bent; mount it flat{}",
+                    who, samples.samples.size(), bad, robot.setup.edge_m, robot.setup.height_m,
+                    causes),
+        robot.setup.name);
+  }
   return error_of(
       IssueCode::RobotMissing,
       fmt::format("{} was not seen in the first {:.0f} s: {} sightings in all, {} bad fits, {} "
-                  "outside of the arena, {} outliers; check its number, light and start",
+                  "outside of the arena, {} outliers; check its number, light and start{}",
                   who, kFirstLook_s, samples.samples.size(), of(Sample::Use::BadFit),
-                  of(Sample::Use::Outside), of(Sample::Use::Outlier)),
+                  of(Sample::Use::Outside), of(Sample::Use::Outlier), causes),
       robot.setup.name);
 }
 
@@ -280,7 +320,10 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                                const TrackOptions& asked) {
   const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, asked.span);
   if (!cameras) return Unexpected(cameras.error());
-  FrameReport frames = frame_report(observations, *cameras, rig, asked);
+  std::vector<Repeats> repeats;
+  for (std::size_t c = 0; c < cameras->size(); ++c)
+    repeats.push_back(repeats_of(observations, static_cast<int>(c), rig.robots));
+  FrameReport frames = frame_report(observations, *cameras, repeats, rig, asked);
   const TrackOptions options = for_rate(asked, frames.frame_rate_median);
   TrackedRun run{.covered_s = frames.covered_s,
                  .frame_rate_least = frames.frame_rate_least,
@@ -291,7 +334,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                  .frames_twice = frames.twice,
                  .issues = frames.issues,
                  .checks = frames.checks};
-  const SightingsByTag sightings = sightings_of(observations, *cameras, options);
+  const SightingsByTag sightings = sightings_of(observations, *cameras, repeats, options);
   list_unknown(sightings, rig, options, run);
   std::vector<TaggedRobot> robots;
   std::vector<RobotTrack> tracks;
@@ -304,7 +347,8 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
                    seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
                    arena, options);
     if (!is_seen_early(samples)) {
-      Error error = missing(*robot, samples, frames, spans_text(observations, *cameras));
+      Error error = missing(*robot, samples, frames, spans_text(observations, *cameras),
+                            causes(observations, rig));
       error.message += tilt_clause(setup, samples.samples, observations.sightings, *cameras);
       return Unexpected(std::move(error));
     }
@@ -314,6 +358,10 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
     robots.push_back(*robot);
   }
   join(tracks, options.span.cycles, run);
+  Findings of_speeds;
+  check_speeds(run.robots, options.limits, instant_s(options.span.cycles), of_speeds);
+  std::ranges::move(of_speeds.issues, std::back_inserter(run.issues));
+  std::ranges::move(of_speeds.checks, std::back_inserter(run.checks));
   judge_lenses(rig, arena, run);
   const std::vector<TagEvidence> evidence =
       judge_tags(robots, observations, *cameras, rig, options.limits, run);

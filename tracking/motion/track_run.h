@@ -17,8 +17,7 @@ struct RunSpan {
   std::vector<double>
       starts_s;    ///< the run's start on the clock of each camera of the observations
   int cycles = 0;  ///< control cycles of 0.1 s
-  /// How long each camera ran, by another clock (RunVideo::length_s): the only check of files that
-  /// count frames instead of timing them. Empty, or one a camera.
+  /// How long each camera ran, by another clock (RunVideo::length_s). Empty, or one a camera.
   std::vector<std::optional<double>> lengths_s;
 };
 
@@ -41,6 +40,11 @@ struct TrackLimits {
   double least_frame_rate = 10;
   double dropped_share = 0.05;
   double moved_px = 1.0;  ///< of the floor tags: the camera moved
+  /// The fastest that robots drive and turn: what `swarmsmith-robot` lets treads do at most, 0.147
+  /// m apart. From the robots' logs where they are there.
+  double driving_speed_m_s = 0.35;
+  double driving_turn_rad_s = 4.8;
+  bool knows_driving_speed = false;
 };
 
 struct TrackOptions {
@@ -53,6 +57,10 @@ struct TrackOptions {
   bool takes_tags_for_centres = false;  ///< where a robot has no offset
   bool corrects_height = true;          ///< false only to show what the error would be
 };
+
+/// The name of the check that doubts times which a recorder may have counted: another clock can
+/// settle it.
+inline constexpr const char* kClockOfTheFilm = "clock of the film";
 
 /// From pixels to what the simulator would have recorded. Pure. Fails with E_ROBOT_MISSING (not
 /// seen in the first 2 s; E_DUPLICATE_ID or E_VIDEO_TRUNCATED when that is why), E_NO_OFFSET,

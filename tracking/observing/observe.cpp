@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <set>
 #include <utility>
 
+#include "tracking/geometry/tag_family.h"
 #include "tracking/observing/reference_medians.h"
 
 namespace swarmsmith {
@@ -20,6 +23,8 @@ class LastPicture {
  public:
   /// Whether the picture is the last one, bit for bit; it is the last one from now on.
   bool is_repeated_by(const GrayImage& image) {
+    width_ = image.width;
+    height_ = image.height;
     const auto width = static_cast<std::size_t>(image.width);
     const auto height = static_cast<std::size_t>(image.height);
     bool same = pixels_.size() == width * height;
@@ -34,9 +39,12 @@ class LastPicture {
     }
     return same;
   }
+  GrayImage image() const { return {pixels_.data(), width_, height_, width_}; }
 
  private:
   std::vector<std::uint8_t> pixels_;
+  int width_ = 0;
+  int height_ = 0;
 };
 
 /// Sightings and medians of one camera, as frames come.
@@ -110,6 +118,74 @@ Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& 
   return video.clock.finish(frames + seen.record.damaged_frames);
 }
 
+std::string listed(const std::vector<int>& tags) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(tags.size(), kMost); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", tags[i]);
+  return text + (tags.size() > kMost ? ", ..." : "");
+}
+
+/// Tags of other families in a picture, a sentence.
+std::optional<std::string> other_family(const std::string& own, const GrayImage& image) {
+  constexpr double kSureMargin = 40;
+  for (const TagFamily& family : known_tag_families()) {
+    if (family.name == own) continue;
+    auto detector = TagDetector::of_family(std::string(family.name));
+    if (!detector.has_value()) continue;
+    std::vector<int> tags;
+    for (const Detection& tag : detector->find(image, 1)) {
+      if (tag.hamming == 0 && tag.margin > kSureMargin) tags.push_back(tag.tag);
+    }
+    if (!tags.empty()) {
+      return fmt::format(
+          "tags of the family {} are seen ({}), and the arena file says {}; name the family that "
+          "was printed",
+          family.name, listed(tags), own);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Frames in which the first tag is looked for in other ways, when there was none yet.
+bool is_to_doubt(std::int64_t frame) {
+  return frame == 0 || frame == 20 || frame == 200 || frame == 1000;
+}
+
+/// Why no tag was found so far.
+Expected<void> doubt(const ObserveOptions& options, TagDetector& detector, const GrayImage& image,
+                     const std::string& name) {
+  if (is_mirrored(detector, image))
+    return Unexpected(error_of(IssueCode::VideoUnreadable, kMirroredAdvice, name));
+  if (const auto other = other_family(options.family, image))
+    return Unexpected(error_of(IssueCode::Config, *other, name));
+  return {};
+}
+
+/// What is odd about the film, and about tags that were never seen, by its last picture.
+void note_oddities(const SourceInfo& info, const ObserveOptions& options, const std::set<int>& ever,
+                   TagDetector& detector, const GrayImage& image, std::vector<Issue>& issues) {
+  const auto add = [&](const std::string& text) {
+    issues.push_back({IssueCode::FilmOdd, info.name + ": " + text, {}, {}, {}});
+  };
+  for (const std::string& text : info.oddities)
+    add(text);
+  std::vector<int> missing;
+  std::ranges::set_difference(options.search.expected, ever, std::back_inserter(missing));
+  if (missing.empty() || image.pixels == nullptr) return;
+  std::vector<int> mirrored;
+  for (const int tag : mirrored_tags(detector, image)) {
+    if (std::ranges::find(missing, tag) != missing.end()) mirrored.push_back(tag);
+  }
+  if (!mirrored.empty()) {
+    add(
+        fmt::format("what is seen of tag {} is its mirror image: it was printed mirrored; print it "
+                    "again",
+                    listed(mirrored)));
+  }
+  if (const auto other = other_family(options.family, image)) add(*other);
+}
+
 }  // namespace
 
 double exposed_at(const CameraSetup& camera, double stamp_s, double v, int rows) {
@@ -142,6 +218,7 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
   Recorder recorder(video.camera, options, info.size.height);
   LastPicture last;
   std::vector<Detection> seen;
+  std::set<int> ever;
   std::optional<Error> broken;
   while (true) {
     const auto more = video.source.next();
@@ -151,8 +228,11 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
     const auto time_s = video.clock.time_of(frame);
     if (!time_s.has_value()) return Unexpected(time_s.error());
     if (!last.is_repeated_by(frame.gray)) seen = search.find(frame.gray, *time_s);
-    if (record.frames == 0 && seen.empty() && is_mirrored(*second, frame.gray)) {
-      return Unexpected(error_of(IssueCode::VideoUnreadable, kMirroredAdvice, info.name));
+    for (const Detection& tag : seen)
+      ever.insert(tag.tag);
+    if (ever.empty() && is_to_doubt(record.frames)) {
+      if (auto why = doubt(options, *second, frame.gray, info.name); !why)
+        return Unexpected(why.error());
     }
     recorder.add(record.frames, *time_s, seen);
     record.frame_times.push_back(*time_s);
@@ -164,6 +244,7 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
   result.sightings = recorder.take_sightings();
   if (const auto ended = note_end(video, broken, result); !ended.has_value())
     return Unexpected(ended.error());
+  note_oddities(info, options, ever, *second, last.image(), result.issues);
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 43> kNames = {"E_VIDEO_UNREADABLE",
+constexpr std::array<std::string_view, 49> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_VIDEO_TRUNCATED",
                                                      "E_CALIB_SIZE",
                                                      "E_CALIB_QUALITY",
@@ -52,8 +52,14 @@ constexpr std::array<std::string_view, 43> kNames = {"E_VIDEO_UNREADABLE",
                                                      "W_HEADING_OFF",
                                                      "E_PUSHED",
                                                      "W_TAG_SIZE",
-                                                     "W_TILTED"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::Tilted) + 1);
+                                                     "W_TILTED",
+                                                     "W_PICTURES_REPEATED",
+                                                     "W_CLOCK_COUNTED",
+                                                     "E_CLOCK_STEP",
+                                                     "W_FILM_SPEED",
+                                                     "W_FILM_ODD",
+                                                     "E_FILM_SPEED"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::FilmTooFast) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

@@ -57,6 +57,12 @@ enum class IssueCode {
   Pushed,           ///< a robot went where treads cannot take it
   TagSizeDoubtful,  ///< a warning: a tag's size and height do not quite fit together
   Tilted,           ///< a warning: a tag or its robot is not level
+  PicturesRepeated,  ///< a warning: pictures that show the one before once more
+  ClockCounted,      ///< a warning: the film's times were counted, and no other clock agrees
+  ClockStep,         ///< the film's clock was set within the run
+  FilmSpeed,         ///< a warning: robots are faster than they should be able to
+  FilmOdd,           ///< a warning, which degrades nothing: why tags may not be found
+  FilmTooFast,       ///< the film runs at another speed than the robots' own logs say
 };
 
 /// "E_GAP".

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/robots/film_rate.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -35,6 +37,36 @@ class Judge {
     judge_length(known);
     judge_clock(known);
     findings_.latencies.emplace_back(judge_motion(known));
+  }
+
+  /// Once all robots were judged: all of them see the same film.
+  void judge_film() {
+    constexpr double kTolerance_s = 0.2;
+    Check check{.name = "film beside the robots' logs",
+                .limit = kTolerance_s,
+                .unit = "s",
+                .catches = "a film that plays too fast or too slowly"};
+    const FilmRate found = film_rate(told_);
+    if (told_.empty() || !found.rate) {
+      check.outcome = Check::Outcome::NotRun;
+      check.reason = told_.empty() ? "there is no log of a robot" : found.reason;
+    } else {
+      check.value = found.off_s;
+      findings_.logs_confirm_clock = found.off_s <= kTolerance_s;
+      if (!findings_.logs_confirm_clock) {
+        check.outcome = Check::Outcome::Failed;
+        findings_.issues.push_back(
+            {IssueCode::FilmTooFast,
+             fmt::format("the film plays {:.3g} times as fast as robots move by their own logs, "
+                         "and is {:.1f} s off at the end of the run (limit {:.1f} s); give the "
+                         "camera's times as a sidecar, or mend the rate of the file",
+                         *found.rate, found.off_s, kTolerance_s),
+             {},
+             {},
+             {}});
+      }
+    }
+    findings_.checks.push_back(std::move(check));
   }
 
  private:
@@ -119,6 +151,7 @@ class Judge {
     for (const LogRow& row : record.rows)
       commands.push_back({row.clock_s - begin_s, row.command.left_mps, row.command.right_mps});
     Latency latency = latency_of(commands, known.robot.samples);
+    told_.push_back({std::move(commands), known.robot.samples});
     const bool is_unlike = latency.agreement && *latency.agreement < kLeastAgreement;
     if (is_unlike) {
       add(IssueCode::MotionUnlikeLog, known,
@@ -135,6 +168,7 @@ class Judge {
 
   const RunLog& run_;
   RobotFindings& findings_;
+  std::vector<ToldAndSeen> told_;
 };
 
 Issue foreign_issue(const RobotLog& log, const std::string& what) {
@@ -192,6 +226,7 @@ RobotFindings judge_robots(const TrackedRun& run, const std::vector<RobotLog>& l
     judge.judge(
         {robot, own == logs.end() ? nullptr : &*own, note == log.notes.end() ? nullptr : &*note});
   }
+  judge.judge_film();
   return findings;
 }
 

@@ -38,11 +38,14 @@ inline constexpr double kInvalidShare = 0.05;
 struct RobotFindings {
   std::vector<std::optional<Latency>> latencies;  ///< as the tracked robots; none without a log
   std::vector<Issue> issues;
+  std::vector<Check> checks;
+  bool logs_confirm_clock = false;  ///< the film plays as fast as the robots' logs say
 };
 
 /// E_ROBOT_INVALID and W_ROBOT_DEGRADED by the nodes' own verdicts; of a node that has none, since
 /// it was killed, by the cycles that its log lacks. E_LOG_SHORT, W_CLOCK_OFFSET, and
-/// W_MOTION_UNLIKE_LOG for a robot that did something else than it commanded.
+/// W_MOTION_UNLIKE_LOG for a robot that did something else than it commanded. E_FILM_SPEED when the
+/// film's clock runs at another speed than theirs.
 RobotFindings judge_robots(const TrackedRun& run, const std::vector<RobotLog>& logs,
                            const RunLog& log);
 

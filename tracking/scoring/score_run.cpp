@@ -76,7 +76,8 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
 
 /// Warnings that are only to be known; the others make a score less certain.
 bool degrades(IssueCode code) {
-  return code != IssueCode::Outliers && code != IssueCode::UnknownTags;
+  return code != IssueCode::Outliers && code != IssueCode::UnknownTags &&
+         code != IssueCode::FilmOdd;
 }
 
 void judge(ScoredRun& scored) {

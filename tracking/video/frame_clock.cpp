@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "base/text/csv.h"
 #include "tracking/rig/issue.h"
+#include "tracking/video/internal/iso_time.h"
 
 namespace swarmsmith {
 namespace {
@@ -62,21 +65,35 @@ struct Columns {
   double unit_s = 1;  ///< of the times
 };
 
+/// A column of times, by its name, and the unit.
+struct TimeColumn {
+  std::string_view name;
+  double unit_s = 1;
+};
+constexpr std::array kTimeColumns = {TimeColumn{"time_s", 1}, TimeColumn{"time_ms", 1e-3},
+                                     TimeColumn{"time_us", 1e-6}, TimeColumn{"time_ns", 1e-9},
+                                     TimeColumn{"time", 0}};
+
+const TimeColumn* time_column(std::string_view name) {
+  const auto* const found = std::ranges::find(kTimeColumns, name, &TimeColumn::name);
+  return found == kTimeColumns.end() ? nullptr : found;
+}
+
 Expected<Columns> columns_of(const std::vector<std::string>& names, std::string_view header) {
   std::optional<std::size_t> frame;
   std::optional<std::size_t> time;
   for (std::size_t i = 0; i < names.size(); ++i) {
     auto& column = names[i] == "frame" ? frame : time;
-    if (names[i] != "frame" && names[i] != "time_s" && names[i] != "time_ms") continue;
+    if (names[i] != "frame" && time_column(names[i]) == nullptr) continue;
     if (column) return bad_times("column " + quoted(names[i]) + " is there twice", "line 1");
     column = i;
   }
   if (frame && time) {
-    return Columns{*frame, *time, names.size(), names[*time] == "time_ms" ? 1e-3 : 1};
+    return Columns{*frame, *time, names.size(), time_column(names[*time])->unit_s};
   }
   return bad_times(
-      "a file of frame times begins with the columns `frame,time_s` (or `time_ms`), "
-      "this one with " +
+      "a file of frame times begins with the columns `frame,time_s` (or `time_ms`, "
+      "`time_us`, `time_ns`, or `time` with dates like 2026-11-18T11:06:40.250), this one with " +
           quoted(header),
       "line 1");
 }
@@ -117,9 +134,19 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
           where);
     }
     auto time = number_of<double>(cells[columns->time]);
+    if (time && columns->unit_s == 0) {
+      return bad_times(quoted(cells[columns->time]) +
+                           " has no unit; name the column `time_s`, `time_ms`, `time_us` or "
+                           "`time_ns`",
+                       where);
+    }
     if (time) *time *= columns->unit_s;
+    if (!time) time = iso_time(cells[columns->time]);
     if (!time || !std::isfinite(*time)) {
-      return bad_times(quoted(cells[columns->time]) + " is not a time in seconds", where);
+      return bad_times(quoted(cells[columns->time]) +
+                           " is not a time: neither a number nor a date like "
+                           "2026-11-18T11:06:40.250",
+                       where);
     }
     if (!times.empty() && *time <= times.back()) {
       return bad_times(fmt::format("frame {} at {} s is not later than the frame before, at {} s",
@@ -128,7 +155,8 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
     }
     if (!times.empty() && *time - times.back() > kMostPause_s) {
       return bad_times(fmt::format("frame {} at {} s is more than an hour later than the frame "
-                                   "before, at {} s",
+                                   "before, at {} s; if they are milli-, micro- or nanoseconds, "
+                                   "name the column `time_ms`, `time_us` or `time_ns`",
                                    times.size(), *time, times.back()),
                        where);
     }

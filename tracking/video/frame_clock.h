@@ -13,8 +13,8 @@
 namespace swarmsmith {
 
 /// Times of frames that a camera's program wrote beside the video: CSV with the columns `frame`
-/// (from 0, without gaps) and `time_s`, or `time_ms` in milliseconds (increasing, the camera's
-/// clock).
+/// (from 0, without gaps) and `time_s`, `time_ms`, `time_us` or `time_ns`, or `time` with dates as
+/// ISO 8601 writes them (increasing, the camera's clock).
 Expected<std::vector<double>> parse_frame_times(std::string_view text);
 
 /// When each frame was taken: by the sidecar, else by the container, else by counting at the

@@ -45,13 +45,14 @@ struct SourceInfo {
   bool has_count = false;     ///< constant rate, and as many frames as the file says it should have
   bool is_truncated = false;  ///< a file that ends before its own header says
   bool is_live = false;
+  std::vector<std::string> oddities;  ///< that explain it when tags are not found, a sentence each
 };
 
 /// Where frames come from: a video file, a folder of images, a bag of ROS, a camera.
 class FrameSource {
  public:
-  /// `word`: a video file, a picture, a folder of images (in the order of their names), a bag
-  /// (`run.bag`, `run.bag:/topic`), `camera:0` or another word that OpenCV opens (`rtsp://...`).
+  /// `word`: a video file, a picture, a folder of images or of chapters (in the order of their
+  /// names), a bag (`run.bag`, `run.mcap:/topic`), `camera:0` or another word that OpenCV opens (`rtsp://...`).
   /// E_VIDEO_UNREADABLE with the decoder's own words.
   static Expected<std::unique_ptr<FrameSource>> open(const std::string& word);
   virtual ~FrameSource() = default;

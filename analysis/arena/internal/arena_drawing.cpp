@@ -120,16 +120,16 @@ void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, st
     --first;
   const auto tail = simplified(std::span(track).subspan(first), kTolerance);
   if (tail.size() > 1) svg.line(tail, stroked(contrast_of(color), 0.25));
-  constexpr double kDot = 0.55;
+  constexpr double kSecondsDot = 0.55;
   std::optional<PagePoint> before;
   const auto every = static_cast<std::size_t>(picture.cycles_a_mark);
   for (std::size_t cycle = every; cycle < track.size(); cycle += every) {
     const PagePoint& at = track[cycle];
     // Who stands has one dot.
-    if (before && apart(*before, at) < 4 * kDot) continue;
+    if (before && apart(*before, at) < 4 * kSecondsDot) continue;
     before = at;
-    svg.circle(at, kDot, {.fill = "#ffffff", .stroke = color, .width = 0.3, .dashes = {}});
-    svg.text({at.x + 1.5 * kDot, at.y - kDot}, std::to_string(cycle / kCyclesASecond),
+    svg.circle(at, kSecondsDot, {.fill = "#ffffff", .stroke = color, .width = 0.3, .dashes = {}});
+    svg.text({at.x + 1.5 * kSecondsDot, at.y - kSecondsDot}, std::to_string(cycle / kCyclesASecond),
              {.size = 0.75 * kTextSize, .bold = true, .fill = std::string(kInk)});
   }
 }

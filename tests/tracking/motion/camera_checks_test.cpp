@@ -76,7 +76,7 @@ TEST(FrameRateTest, TheSamePictureAgainIsCounted) {
   EXPECT_EQ(seen.track()->frames_twice, 7);
 }
 
-TEST(LengthTest, AFileWithoutTimesIsCheckedAgainstTheLog) {
+TEST(LengthTest, EachFileIsCheckedAgainstTheLog) {
   SeenRun seen = seen_run(on_circle, {.cycles = 200});
   const double length = 21.0 + 1.0 / 30;
   CameraRecord& record = seen.observations.cameras[0];
@@ -89,8 +89,9 @@ TEST(LengthTest, AFileWithoutTimesIsCheckedAgainstTheLog) {
   EXPECT_FALSE(complains(TimeSource::FrameRate, "a.avi", length + 0.19));
   EXPECT_TRUE(complains(TimeSource::FrameRate, "a.avi", length + 0.21));
   EXPECT_TRUE(complains(TimeSource::Container, "a.avi", length + 0.21));
-  EXPECT_FALSE(complains(TimeSource::Sidecar, "a.avi", length + 0.21));
-  EXPECT_FALSE(complains(TimeSource::Container, "a.mp4", length + 0.21));
+  EXPECT_TRUE(complains(TimeSource::Sidecar, "a.avi", length + 0.21));
+  EXPECT_TRUE(complains(TimeSource::Container, "a.mp4", length - 0.21));
+  EXPECT_FALSE(complains(TimeSource::Container, "a.mp4", length - 0.19));
 }
 
 /// From `from_s` on all floor tags are seen elsewhere. One was kicked, and one is covered half of

@@ -62,6 +62,7 @@ void film(SeenRun& run, const Truth& truth, const Seeing& seeing, const View& vi
   run.rig.places[place].coverage = 0.7;
   CameraRecord record{.camera = name, .file = name + ".mp4", .sha256 = name};
   record.size = view.camera.size;
+  record.time_source = TimeSource::Sidecar;
   lay_references(run, seeing, view, run.rig.places[place], record);
   const Rng rng = Rng(seeing.seed).split("corners");
   const double end = instant_s(seeing.cycles) + seeing.past_end_s;
@@ -99,7 +100,18 @@ void SeenRun::cut(double from_s, double to_s, int camera) {
   const auto is_cut = [&](double clock) { return clock - start > from_s && clock - start < to_s; };
   std::erase_if(observations.sightings,
                 [&](const Sighting& seen) { return seen.camera == camera && is_cut(seen.time_s); });
-  std::erase_if(observations.cameras.at(static_cast<std::size_t>(camera)).frame_times, is_cut);
+  // Those that are left have other numbers.
+  std::vector<double>& times =
+      observations.cameras.at(static_cast<std::size_t>(camera)).frame_times;
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t number = 0; const double time : times) {
+    numbers.push_back(number);
+    number += is_cut(time) ? 0 : 1;
+  }
+  for (Sighting& seen : observations.sightings) {
+    if (seen.camera == camera) seen.frame = numbers.at(static_cast<std::size_t>(seen.frame));
+  }
+  std::erase_if(times, is_cut);
 }
 
 Expected<TrackedRun> SeenRun::track() const {

@@ -2,10 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/tracking/detection/painted_tags.h"
 
 namespace swarmsmith {
 namespace {
+
+using testing::HasSubstr;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
@@ -120,6 +124,37 @@ TEST(ObserveTest, SaysThatPicturesAreMirrored) {
   const auto seen = observed(source);
   ASSERT_FALSE(seen.has_value());
   EXPECT_THAT(seen.error().message, HasSubstr("E_VIDEO_UNREADABLE: the pictures are mirrored"));
+}
+
+TEST(ObserveTest, NamesTheFamilyThatWasPrinted) {
+  MemorySource source(std::vector<MemorySource::Shot>{
+      {painted(kWidth, kHeight, "tag25h9", {robot_at(100, 100)}), 12.0}});
+  const auto seen = observed(source);
+  ASSERT_FALSE(seen);
+  EXPECT_THAT(
+      seen.error().message,
+      HasSubstr("E_CONFIG: tags of the family tag25h9 are seen (1), and the arena file says"));
+}
+
+TEST(ObserveTest, NamesATagThatWasPrintedMirrored) {
+  std::vector<MemorySource::Shot> shots;
+  for (int i = 0; i < 3; ++i) {
+    PaintedPicture picture = painted(kWidth, kHeight, "tag36h11", {robot_at(100, 100)});
+    for (int row = 0; row < kHeight; ++row)
+      std::reverse(picture.pixels.begin() + row * kWidth,
+                   picture.pixels.begin() + (row + 1) * kWidth);
+    const PaintedPicture floor =
+        painted(kWidth, kHeight, "tag36h11", {{100, square_corners(80, 180, 48, 0)}});
+    std::copy(floor.pixels.begin() + 150 * kWidth, floor.pixels.end(),
+              picture.pixels.begin() + 150 * kWidth);
+    shots.push_back({picture, 12 + 0.1 * i});
+  }
+  MemorySource source(std::move(shots));
+  const auto seen = observed(source);
+  ASSERT_TRUE(seen) << to_string(seen.error());
+  ASSERT_EQ(seen->issues.size(), 1U);
+  EXPECT_EQ(seen->issues[0].code, IssueCode::FilmOdd);
+  EXPECT_THAT(seen->issues[0].text, HasSubstr("tag 1 is its mirror image"));
 }
 
 TEST(ObserveTest, TimesAreTheMiddleOfTheExposureOfTheTagsRows) {

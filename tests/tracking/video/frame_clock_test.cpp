@@ -26,7 +26,8 @@ TEST(FrameTimes, ReadsColumnsInAnyOrder) {
 
 TEST(FrameTimes, NamesTheLineThatIsWrong) {
   EXPECT_THAT(refusal(""), HasSubstr("empty"));
-  EXPECT_THAT(refusal("frame,time\n0,1\n"), HasSubstr("line 1: E_TIMESTAMPS"));
+  EXPECT_THAT(refusal("frame,clock\n0,1\n"), HasSubstr("line 1: E_TIMESTAMPS"));
+  EXPECT_THAT(refusal("frame,time\n0,1\n"), HasSubstr("line 2: E_TIMESTAMPS: `1` has no unit"));
   EXPECT_THAT(refusal("frame,frame,time_s\n"), HasSubstr("twice"));
   EXPECT_THAT(refusal("frame,time_s\n"), HasSubstr("no frame"));
   EXPECT_THAT(refusal("frame,time_s\n0,1\n2,2\n"), HasSubstr("line 3: E_TIMESTAMPS: frame 1"));
@@ -44,6 +45,25 @@ TEST(FrameTimes, MayBeMillisecondsOrOfTheEpoch) {
               ElementsAre(1732391823.25, 1732391823.5));
   EXPECT_THAT(refusal("frame,time_s\n0,1\n1,1e308\n"),
               HasSubstr("line 3: E_TIMESTAMPS: frame 1 at 1e+308 s is more than an hour later"));
+}
+
+TEST(FrameTimes, MayBeMicrosecondsNanosecondsOrDates) {
+  EXPECT_THAT(*parse_frame_times("frame,time_us\n0,500000\n1,533250\n"), ElementsAre(0.5, 0.53325));
+  EXPECT_THAT(*parse_frame_times("frame,time_ns\n0,500000000\n1,750000000\n"),
+              ElementsAre(0.5, 0.75));
+  EXPECT_THAT(refusal("frame,time_s\n0,1732391823250000\n1,1732391823283000\n"),
+              HasSubstr("`time_us`"));
+  for (const char* column : {"time", "time_s"}) {
+    const auto times = parse_frame_times(std::string("frame,") + column +
+                                         "\n0,2026-11-18T11:06:40.250Z\n"
+                                         "1,2026-11-18 12:06:40.5+01:00\n"
+                                         "2,2026-11-18T11-06-40-750\n3,2026-11-18T11:06:41\n");
+    ASSERT_TRUE(times) << to_string(times.error());
+    EXPECT_THAT(*times, ElementsAre(1795000000.25, 1795000000.5, 1795000000.75, 1795000001.0));
+  }
+  for (const char* none : {"2026-13-18T11:06:40", "2026-11-18", "2026-11-18T11:06", "11:06:40.25",
+                           "2026-11-18T11:06:40.25x", "2026-02-30T11:06:40"})
+    EXPECT_THAT(refusal(std::string("frame,time\n0,") + none + "\n"), HasSubstr("is not a time"));
 }
 
 TEST(FrameClock, SeesMillisecondsThatAreCalledSeconds) {

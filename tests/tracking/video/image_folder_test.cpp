@@ -38,6 +38,9 @@ TEST(ImageFolder, NamesMayBeTimesSince1970) {
   EXPECT_EQ(time_in_name("1732391823250000000.png"), 1732391823.25);
   EXPECT_EQ(time_in_name("cam2/1732391823-250000000.png"), 1732391823.25);
   EXPECT_EQ(time_in_name("1732391823_12.png"), 1732391823.0) << "a number of something else";
+  EXPECT_EQ(time_in_name("cam-2026-11-18T11-06-40-250.png"), 1795000000.25);
+  EXPECT_EQ(time_in_name("2026-11-18_11-06-40.25_left.png"), 1795000000.25);
+  EXPECT_EQ(time_in_name("2026-11-18T11-06-40_0012.png"), 1795000000.0) << "a counter";
   for (const char* none : {"shot12.png", "0000000012.png", "20241123.png", "a.png", "1.5.png"})
     EXPECT_EQ(time_in_name(none), std::nullopt) << none;
 }

@@ -144,7 +144,7 @@ TEST(VideoFile, RefusesWhatIsNoVideo) {
   make_video(folder / "a.mp4", even_times(9, 10), {});
   const std::string bytes = bytes_of(folder / "a.mp4");
   write_bytes(folder / "cut.mp4", bytes.substr(0, bytes.size() / 2));
-  EXPECT_THAT(error_of(read_video(folder / "cut.mp4")), HasSubstr("moov atom not found"));
+  EXPECT_THAT(error_of(read_video(folder / "cut.mp4")), HasSubstr("its index is missing (moov)"));
 }
 
 /// The bytes with a code of four letters replaced wherever it is.

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "tracking/motion/internal/camera_moved.h"
+#include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
@@ -16,7 +16,6 @@ namespace {
 constexpr Question kCoverage{"film covers the run", "s", "a start or an end that no camera filmed"};
 constexpr Question kRate{"frame rate", "frames/s", "turns and gaps between two frames"};
 constexpr Question kDropped{"dropped frames", "%", "a recorder that cannot keep up"};
-constexpr Question kLength{"length of the film", "s", "a film that plays too fast or too slowly"};
 
 double duration_of(const TrackOptions& options) {
   return instant_s(options.span.cycles);
@@ -32,16 +31,18 @@ double median(std::vector<double>& values) {
 
 /// One camera's frames on the clock of the run.
 struct FramesOfRun {
-  std::vector<double> times;      ///< all
+  std::vector<double> times;      ///< of all that are no repeats
   std::vector<double> intervals;  ///< between those within the run
   std::int64_t within = 0;
   double usual_s = 0;  ///< median of the intervals
 };
 
-FramesOfRun frames_of(const CameraRecord& record, double start_s, double duration_s) {
+FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double start_s,
+                      double duration_s) {
   FramesOfRun frames;
-  for (const double time : record.frame_times)
-    frames.times.push_back(time - start_s);
+  for (std::size_t i = 0; i < record.frame_times.size(); ++i) {
+    if (!repeats.again[i]) frames.times.push_back(record.frame_times[i] - start_s);
+  }
   const auto is_within = [&](double t) {
     return t >= -kSameInstant_s && t <= duration_s + kSameInstant_s;
   };
@@ -105,70 +106,37 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
   }
 }
 
-/// Files that count frames instead of timing them play too fast when frames were dropped; only
-/// their length shows it (tracking facts, section 7).
-void check_length(const CameraRecord& record, const FramesOfRun& frames, const std::string& camera,
-                  const std::optional<double>& said_s, FrameReport& report) {
-  const bool is_avi = record.file.ends_with(".avi") || record.file.ends_with(".AVI");
-  const bool counts = record.time_source == TimeSource::FrameRate ||
-                      (is_avi && record.time_source != TimeSource::Sidecar);
-  if (!said_s || !counts || frames.times.empty()) {
-    report.checks.push_back(
-        not_asked(kLength, camera,
-                  !said_s ? "the run log gives no `length`" : "the file has times of its own"));
-    return;
+/// Why it covers less than the run.
+std::string short_of(const Observations& observations, std::span<const Repeats> repeats) {
+  for (std::size_t c = 0; c < repeats.size(); ++c) {
+    const std::vector<double>& times = observations.cameras[c].frame_times;
+    if (observations.cameras[c].damaged_frames > 0 && !times.empty() && !repeats[c].again.back())
+      return fmt::format("{} of the file's pictures are damaged; copy it again from the camera",
+                         observations.cameras[c].damaged_frames);
+    if (!times.empty() && repeats[c].again.back())
+      return "its recorder hung, and wrote the last picture over and over";
   }
-  constexpr double kTolerance_s = 0.2;
-  const double length = frames.times.back() - frames.times.front() + frames.usual_s;
-  const double off_s = std::fabs(length - *said_s);
-  const auto outcome = off_s <= kTolerance_s ? Check::Outcome::Passed : Check::Outcome::Failed;
-  report.checks.push_back(answered(kLength, camera, outcome, off_s, kTolerance_s));
-  if (outcome == Check::Outcome::Passed) return;
-  report.issues.push_back(
-      {IssueCode::Duration,
-       fmt::format("{} lasts {:.2f} s and the run log says {:.2f} s (limit {:.1f} s): "
-                   "frames were dropped and the file has no times; record a sidecar",
-                   record.file, length, *said_s, kTolerance_s),
-       {},
-       {},
-       {}});
+  const bool is_cut = std::ranges::any_of(observations.issues, [](const Issue& issue) {
+    return issue.code == IssueCode::VideoTruncated;
+  });
+  if (is_cut) return "the file is damaged or cut off; copy it again from the camera";
+  return "let the camera run from before the start until after the end";
 }
 
-/// Frames whose tags all stand on the same bits as in the frame before: the same picture again.
-std::int64_t frames_twice(const Observations& observations, int camera) {
-  std::map<std::int64_t, std::vector<std::array<double, 3>>> frames;
-  for (const Sighting& seen : observations.sightings) {
-    if (seen.camera != camera) continue;
-    for (const ImagePoint& corner : seen.corners)
-      frames[seen.frame].push_back({static_cast<double>(seen.tag), corner.u, corner.v});
-  }
-  std::int64_t twice = 0;
-  const std::vector<std::array<double, 3>>* before = nullptr;
-  std::int64_t number = 0;
-  for (auto& [frame, tags] : frames) {
-    std::ranges::sort(tags);
-    if (before != nullptr && frame == number + 1 && tags == *before) ++twice;
-    before = &tags;
-    number = frame;
-  }
-  return twice;
-}
-
-void check_coverage(FrameReport& report, double slack_s, const TrackOptions& options) {
+void check_coverage(FrameReport& report, double slack_s, const std::string& why,
+                    const TrackOptions& options) {
   const double duration = duration_of(options);
   const double slack_at_end = options.scored_at_the_end ? kSameInstant_s : slack_s;
   if (report.from_s <= slack_s && report.to_s >= duration - slack_at_end &&
       report.covered_s >= duration - 2 * slack_s) {
     return;
   }
-  report.issues.push_back(
-      {IssueCode::VideoTruncated,
-       fmt::format("covered {:.2f} of {:.0f} s (from {:.2f} s to {:.2f} s): let the camera run "
-                   "from before the start until after the end",
-                   report.covered_s, duration, report.from_s, report.to_s),
-       {},
-       report.from_s,
-       report.to_s});
+  report.issues.push_back({IssueCode::VideoTruncated,
+                           fmt::format("covered {:.2f} of {:.0f} s (from {:.2f} s to {:.2f} s): {}",
+                                       report.covered_s, duration, report.from_s, report.to_s, why),
+                           {},
+                           report.from_s,
+                           report.to_s});
 }
 
 /// From first to last frame of each camera, put together.
@@ -190,32 +158,38 @@ void measure_coverage(FrameReport& report, std::vector<std::pair<double, double>
 }  // namespace
 
 FrameReport frame_report(const Observations& observations, std::span<const TrackedCamera> cameras,
-                         const Rig& rig, const TrackOptions& options) {
+                         std::span<const Repeats> repeats, const Rig& rig,
+                         const TrackOptions& options) {
   FrameReport report;
+  Findings of_clocks;
   const double duration = duration_of(options);
   std::vector<double> intervals;
   std::vector<std::pair<double, double>> spans;
   double slack = 0;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const CameraRecord& record = observations.cameras[c];
-    const FramesOfRun frames = frames_of(record, cameras[c].start_s, duration);
+    const FramesOfRun frames = frames_of(record, repeats[c], cameras[c].start_s, duration);
     report.times.insert(report.times.end(), frames.times.begin(), frames.times.end());
     if (!frames.times.empty()) spans.emplace_back(frames.times.front(), frames.times.back());
     intervals.insert(intervals.end(), frames.intervals.begin(), frames.intervals.end());
     const std::int64_t dropped = dropped_in(frames);
     report.frames += frames.within;
     report.dropped += dropped;
-    report.twice += frames_twice(observations, static_cast<int>(c));
+    report.twice += static_cast<std::int64_t>(repeats[c].count);
     slack = std::max(slack, 1.5 * frames.usual_s);
     check_rate(frames, dropped, cameras[c].name, options.limits, report);
-    check_length(record, frames, cameras[c].name,
-                 options.span.lengths_s.empty() ? std::nullopt : options.span.lengths_s[c], report);
+    check_clock(
+        {record, cameras[c], repeats[c], tag_ways(observations, static_cast<int>(c), rig.robots),
+         options.span.lengths_s.empty() ? std::nullopt : options.span.lengths_s[c], duration},
+        of_clocks);
     check_camera(record, cameras[c], rig, options, report.issues, report.checks);
   }
+  report.issues.insert(report.issues.begin(), of_clocks.issues.begin(), of_clocks.issues.end());
+  report.checks.insert(report.checks.end(), of_clocks.checks.begin(), of_clocks.checks.end());
   std::ranges::sort(report.times);
   measure_coverage(report, std::move(spans), duration);
   const std::size_t first = report.issues.size();
-  check_coverage(report, slack, options);
+  check_coverage(report, slack, short_of(observations, repeats), options);
   report.checks.insert(report.checks.begin(),
                        answered(kCoverage, "", outcome_of(report.issues, first), report.covered_s,
                                 duration - 2 * slack));

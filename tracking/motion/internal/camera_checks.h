@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tracking/motion/internal/robot_samples.h"
+#include "tracking/motion/repeats.h"
 
 namespace swarmsmith {
 
@@ -24,9 +25,10 @@ struct FrameReport {
   std::vector<Check> checks;
 };
 
-/// Coverage, frame rate, dropped and repeated frames, the length of files that cannot say their
-/// times, and whether a camera was moved.
+/// Coverage, frame rate, dropped and repeated frames, what speaks against the film's clock, and
+/// whether a camera was moved. `repeats`, one a camera, count as frames that are not there.
 FrameReport frame_report(const Observations& observations, std::span<const TrackedCamera> cameras,
-                         const Rig& rig, const TrackOptions& options);
+                         std::span<const Repeats> repeats, const Rig& rig,
+                         const TrackOptions& options);
 
 }  // namespace swarmsmith

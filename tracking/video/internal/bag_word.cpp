@@ -9,28 +9,42 @@
 namespace swarmsmith {
 namespace {
 
-bool is_bag(const std::string& file) {
-  if (file.ends_with(".bag")) return true;
+struct Form {
+  BagWord::Kind kind;
+  std::string_view ending;
+  std::string_view mark;
+};
+constexpr std::array kForms = {Form{BagWord::Kind::Ros1, ".bag", "#ROSBAG"},
+                               Form{BagWord::Kind::Mcap, ".mcap", "\x89MCAP0\r\n"},
+                               Form{BagWord::Kind::Sqlite, ".db3", "SQLite format 3"}};
+
+std::optional<BagWord::Kind> kind_of(const std::string& file) {
   // Of a pipe nothing must be taken.
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return false;
-  constexpr std::string_view kMark = "#ROSBAG";
-  std::array<char, kMark.size()> begin{};
-  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
-  return std::string_view(begin.data(), begin.size()) == kMark;
+  const bool is_there = std::filesystem::is_regular_file(file, ignored);
+  std::array<char, 16> begin{};
+  if (is_there) std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  for (const Form& form : kForms) {
+    if (std::string_view(begin.data(), form.mark.size()) == form.mark) return form.kind;
+  }
+  for (const Form& form : kForms) {
+    if (file.ends_with(form.ending)) return form.kind;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<BagWord> bag_word(const std::string& word) {
   std::error_code ignored;
-  if (is_bag(word)) return BagWord{word, {}};
+  if (const auto kind = kind_of(word)) return BagWord{word, {}, *kind};
   // Names of topics have no colon.
   const std::size_t colon = word.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(word, ignored)) return std::nullopt;
   const std::string file = word.substr(0, colon);
-  if (!is_bag(file)) return std::nullopt;
-  return BagWord{file, word.substr(colon + 1)};
+  const auto kind = kind_of(file);
+  if (!kind) return std::nullopt;
+  return BagWord{file, word.substr(colon + 1), *kind};
 }
 
 }  // namespace swarmsmith

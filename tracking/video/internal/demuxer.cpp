@@ -99,8 +99,16 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
   // On failure the library frees the context.
   const int code = avformat_open_input(&opened, nullptr, nullptr, nullptr);
   if (code < 0) {
-    return unreadable("is not a readable video: " + reason(code) + "; .mp4, .mkv, .avi and .ts are",
-                      name);
+    const std::string words = reason(code);
+    // Of .mp4 and .mov: written last, when the recording is ended.
+    if (words.find("moov atom not found") != std::string::npos) {
+      return unreadable(
+          "its index is missing (moov): the recording was not ended properly, or the file is not "
+          "whole. Copy it again from the camera, which may repair it when it is switched on; "
+          "record .mkv, which can be read without its end",
+          name);
+    }
+    return unreadable("is not a readable video: " + words + "; .mp4, .mkv, .avi and .ts are", name);
   }
   Format format(opened);
   const int found = find_streams(format.get());
@@ -111,6 +119,31 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
   Demuxer demuxer(std::move(bytes), std::move(format), stream);
   demuxer.broke_off_ = cut;
   return demuxer;
+}
+
+namespace {
+
+bool is_film(const AVStream& stream) {
+  return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
+         (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
+}
+
+}  // namespace
+
+int Demuxer::other_videos() const {
+  int count = 0;
+  for (unsigned i = 0; i < format_->nb_streams; ++i) {
+    if (static_cast<int>(i) != stream_ && is_film(*format_->streams[i])) ++count;
+  }
+  return count;
+}
+
+int Demuxer::number_of_video() const {
+  int number = 0;
+  for (int i = 0; i < stream_; ++i) {
+    if (is_film(*format_->streams[i])) ++number;
+  }
+  return number;
 }
 
 AVPacket* Demuxer::next() {

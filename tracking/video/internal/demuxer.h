@@ -24,6 +24,10 @@ class Demuxer {
 
   const AVFormatContext& format() const { return *format_; }
   const AVStream& stream() const { return *format_->streams[stream_]; }
+  /// Video tracks that are not read, pictures of a cover left aside; and the number of the one that
+  /// is, among all of them.
+  int other_videos() const;
+  int number_of_video() const;
   /// Audio Video Interleave: constant rate, no times.
   bool is_avi() const { return std::string_view(format_->iformat->name) == "avi"; }
 

@@ -12,6 +12,7 @@
 
 #include "tracking/rig/issue.h"
 #include "tracking/video/internal/byte_stream.h"
+#include "tracking/video/internal/iso_time.h"
 #include "tracking/video/internal/natural_order.h"
 #include "tracking/video/internal/picture.h"
 #include "tracking/video/internal/still_picture.h"
@@ -111,8 +112,12 @@ Expected<std::unique_ptr<FrameSource>> open_files(const std::string& path,
   SourceInfo info;
   info.name = path;
   info.expected_frames = static_cast<std::int64_t>(files.size());
-  info.has_times = std::ranges::all_of(
-      files, [](const std::string& file) { return time_in_name(file).has_value(); });
+  // A date that all of them have is none of theirs.
+  std::vector<std::optional<double>> times;
+  for (const std::string& file : files)
+    times.push_back(time_in_name(file));
+  info.has_times = std::ranges::all_of(times, [](const auto& time) { return time.has_value(); }) &&
+                   std::ranges::adjacent_find(times) == times.end();
   // The first one that can be read says how large they are.
   std::optional<Error> first_error;
   for (const std::string& file : files) {
@@ -130,6 +135,7 @@ Expected<std::unique_ptr<FrameSource>> open_files(const std::string& path,
 
 std::optional<double> time_in_name(const std::string& file) {
   const std::string stem = fs::path(file).stem().string();
+  if (const auto time = iso_time_in(stem)) return time;
   constexpr const char* kDigits = "0123456789";
   for (std::size_t begin = stem.find_first_of(kDigits); begin != std::string::npos;) {
     const std::size_t end = std::min(stem.find_first_not_of(kDigits, begin), stem.size());

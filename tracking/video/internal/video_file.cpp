@@ -162,6 +162,19 @@ SourceInfo info_of(const av::Demuxer& demuxer, const av::PacketTable& table,
   info.has_times = table.has_times;
   info.has_count = table.has_count;
   info.is_truncated = table.is_truncated;
+  const AVFieldOrder fields = stream.codecpar->field_order;
+  if (fields != AV_FIELD_UNKNOWN && fields != AV_FIELD_PROGRESSIVE) {
+    info.oddities.emplace_back(
+        "it says that it is interlaced: each picture is two, taken one after the other, and what "
+        "moves is torn in lines; film progressively, or separate them first (`ffmpeg -i IN -vf "
+        "yadif=1 OUT`)");
+  }
+  if (const int others = demuxer.other_videos(); others > 0) {
+    info.oddities.push_back(
+        fmt::format("it has {} video tracks, and number {} is read ({} x {} pixels); another one "
+                    "is made a file by `ffmpeg -i IN -map 0:v:NUMBER -c copy OUT`",
+                    others + 1, demuxer.number_of_video(), info.size.width, info.size.height));
+  }
   return info;
 }
 

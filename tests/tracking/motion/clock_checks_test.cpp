@@ -1,0 +1,184 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/tracking/motion/seen_run.h"
+#include "tracking/motion/internal/clock_checks.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Seeing kFilm{.cycles = 300, .frame_rate = 15, .noise_px = 0.05};
+
+/// The camera's clock says another time than the true one.
+template <class Clock>
+SeenRun with_clock(const Truth& truth, const Clock& clock, const Seeing& seeing = kFilm) {
+  SeenRun seen = seen_run(truth, seeing);
+  const auto said = [&](double time_s) { return clock(time_s - seeing.clock_s) + seeing.clock_s; };
+  CameraRecord& record = seen.observations.cameras[0];
+  for (double& time : record.frame_times)
+    time = said(time);
+  for (Sighting& sighting : seen.observations.sightings)
+    sighting.time_s = said(sighting.time_s);
+  for (ReferenceLook& look : record.references)
+    look.time_s = said(look.time_s);
+  return seen;
+}
+
+std::vector<double> times_of(double rate, int frames, double grain) {
+  std::vector<double> times;
+  for (int i = 0; i < frames; ++i)
+    times.push_back(grain > 0 ? std::round(i / rate / grain) * grain : i / rate);
+  return times;
+}
+
+TEST(CountedTest, MultiplesOfAPeriodWereCounted) {
+  for (const double rate : {10.0, 11.0, 15.0, 24000.0 / 1001, 25.0, 29.97, 30.0, 59.94}) {
+    for (const double grain : {0.0, 1e-3, 1.0 / 90000}) {
+      const auto period = counted_period_s(times_of(rate, 2000, grain));
+      ASSERT_TRUE(period) << rate << ", " << grain;
+      EXPECT_NEAR(1 / *period, rate, 0.001 * rate);
+    }
+  }
+}
+
+TEST(CountedTest, WithHolesTheyWereCountedToo) {
+  std::vector<double> times = times_of(30, 2000, 1e-3);
+  std::erase_if(times, [](double time) { return std::fmod(time, 1.7) < 0.08 && time > 0; });
+  EXPECT_TRUE(counted_period_s(times));
+}
+
+TEST(CountedTest, AClockHasItsOwnTimes) {
+  std::vector<double> times = times_of(30, 2000, 0);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    times[i] += 0.002 * std::sin(1.3 * static_cast<double>(i));
+  EXPECT_FALSE(counted_period_s(times));
+  for (double& time : times)
+    time = std::round(time * 1000) / 1000;
+  EXPECT_FALSE(counted_period_s(times));
+  // Since 1970: of a bag.
+  times = times_of(30, 2000, 0);
+  for (double& time : times)
+    time += 1.7e9;
+  EXPECT_FALSE(counted_period_s(times));
+  EXPECT_FALSE(counted_period_s(times_of(30, 10, 0)));
+}
+
+TEST(CountedTest, IsDegradedUntilALengthAgrees) {
+  SeenRun seen = seen_run(on_circle, kFilm);
+  seen.observations.cameras[0].time_source = TimeSource::Container;
+  const Issue* issue = nullptr;
+  TrackedRun run = seen.track().value();
+  ASSERT_NE(issue = find_issue(run, IssueCode::ClockCounted), nullptr);
+  EXPECT_THAT(issue->text, HasSubstr("`length`"));
+  seen.options.span.lengths_s = {31.0 + 1.0 / 15};
+  run = seen.track().value();
+  EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
+  seen.options.span.lengths_s = {46.6};
+  run = seen.track().value();
+  EXPECT_THAT(find_issue(run, IssueCode::Duration)->text, HasSubstr("1.5 times as fast"));
+}
+
+TEST(ClockStepTest, AStepIsSeenByAllRobotsAndNamed) {
+  for (const double step : {0.3, 0.7, 1.5, 30.0}) {
+    const SeenRun seen = with_clock(
+        on_circle, [&](double time) { return time > 12 ? time + step : time; }, kFilm);
+    const TrackedRun run = seen.track().value();
+    const Issue* issue = find_issue(run, IssueCode::ClockStep);
+    ASSERT_NE(issue, nullptr) << step;
+    EXPECT_THAT(issue->text, HasSubstr("jumped ahead by")) << step;
+    EXPECT_NEAR(issue->from.value(), 12 + step, 0.1);
+  }
+}
+
+TEST(ClockStepTest, TimeThatIsLostIsNamed) {
+  // Set back, so that frames between cannot be ordered and were left out.
+  for (const double step : {0.3, 0.7, 1.5}) {
+    SeenRun seen = seen_run(on_circle, kFilm);
+    seen.cut(12.01, 12.01 + step);
+    for (double& time : seen.observations.cameras[0].frame_times)
+      if (time > 24.5) time -= step;
+    for (Sighting& sighting : seen.observations.sightings)
+      if (sighting.time_s > 24.5) sighting.time_s -= step;
+    const TrackedRun run = seen.track().value();
+    const Issue* issue = find_issue(run, IssueCode::ClockStep);
+    ASSERT_NE(issue, nullptr) << step;
+    EXPECT_THAT(issue->text, HasSubstr("lost")) << step;
+  }
+}
+
+TEST(ClockStepTest, FramesThatAreLostWhileCountingAddUp) {
+  const SeenRun whole = seen_run(on_circle, {.cycles = 300, .frame_rate = 15, .noise_px = 0.05});
+  SeenRun seen = whole;
+  double lost = 0;
+  std::vector<double> said;
+  CameraRecord& record = seen.observations.cameras[0];
+  std::vector<bool> gone(record.frame_times.size(), false);
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    gone[i] = i > 0 && i % 25 == 0;
+    if (gone[i]) lost += 1.0 / 15;
+    said.push_back(record.frame_times[i] - lost);
+  }
+  std::erase_if(seen.observations.sightings,
+                [&](const Sighting& s) { return gone[static_cast<std::size_t>(s.frame)]; });
+  record.frame_times.clear();
+  std::vector<std::int64_t> number;
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    number.push_back(static_cast<std::int64_t>(record.frame_times.size()));
+    if (!gone[i]) record.frame_times.push_back(said[i]);
+  }
+  for (Sighting& sighting : seen.observations.sightings) {
+    const auto frame = static_cast<std::size_t>(sighting.frame);
+    sighting.time_s = said[frame];
+    sighting.frame = number[frame];
+  }
+  const TrackedRun run = seen.track().value();
+  ASSERT_NE(find_issue(run, IssueCode::ClockStep), nullptr);
+  EXPECT_THAT(find_issue(run, IssueCode::ClockStep)->text, HasSubstr("lost"));
+}
+
+TEST(ClockStepTest, DroppedFramesJitterAndPausesAreNone) {
+  SeenRun dropped = seen_run(on_circle, kFilm);
+  for (int i = 1; i < 12; ++i)
+    dropped.cut(2 * i + 0.01, 2 * i + 0.35);
+  EXPECT_EQ(find_issue(dropped.track().value(), IssueCode::ClockStep), nullptr);
+  const SeenRun jitter =
+      with_clock(on_circle, [](double time) { return time + 0.02 * std::sin(50.0 * time); });
+  EXPECT_EQ(find_issue(jitter.track().value(), IssueCode::ClockStep), nullptr);
+  const auto pause = [](int robot, double time_s) {
+    return on_circle(robot, time_s < 10 ? time_s : std::max(10.0, time_s - 3));
+  };
+  EXPECT_EQ(find_issue(seen_run(pause, kFilm).track().value(), IssueCode::ClockStep), nullptr);
+}
+
+TEST(FilmSpeedTest, NothingDrivesFasterThanItCan) {
+  const auto at_speed = [](double share) {
+    return [=](int robot, double time_s) { return on_circle(robot, share * time_s); };
+  };
+  for (const double share : {0.67, 1.0, 1.2}) {
+    const TrackedRun run = seen_run(at_speed(share), kFilm).track().value();
+    EXPECT_TRUE(run.issues.empty()) << share << run.issues.front().text;
+  }
+  for (const double share : {1.4, 1.5, 2.0}) {
+    SeenRun seen = seen_run(at_speed(share), kFilm);
+    EXPECT_NE(find_issue(seen.track().value(), IssueCode::FilmSpeed), nullptr) << share;
+    seen.options.limits.knows_driving_speed = true;
+    EXPECT_NE(find_issue(seen.track().value(), IssueCode::FilmTooFast), nullptr) << share;
+  }
+}
+
+TEST(ChecksTest, EachQuestionIsThereWhetherItPassesOrNot) {
+  const TrackedRun run = seen_run(on_circle, kFilm).track().value();
+  for (const char* name : {"repeated pictures", "length of the film", "clock of the film",
+                           "steps of the clock", "speed of the robots"}) {
+    const auto found = std::ranges::find(run.checks, name, &Check::name);
+    ASSERT_NE(found, run.checks.end()) << name;
+    const bool passed = found->outcome == Check::Outcome::Passed;
+    EXPECT_EQ(passed, std::string(name) != "length of the film") << name << found->reason;
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

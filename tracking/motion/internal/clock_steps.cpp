@@ -1,0 +1,172 @@
+#include "tracking/motion/internal/clock_steps.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace swarmsmith {
+namespace {
+
+using Corners = Eigen::Matrix<double, 8, 1>;
+
+constexpr double kWindow_s = 0.3;
+/// Of its velocity, that a robot may change around a step.
+constexpr double kSteady = 0.3;
+/// The same with its direction: a robot in a tight bend.
+constexpr double kBend = 0.6;
+constexpr double kLeastStep_px = 1;
+
+Corners corners_of(const Sighting& seen) {
+  Corners all;
+  for (std::size_t i = 0; i < seen.corners.size(); ++i) {
+    all(static_cast<Eigen::Index>(2 * i)) = seen.corners.at(i).u;
+    all(static_cast<Eigen::Index>(2 * i + 1)) = seen.corners.at(i).v;
+  }
+  return all;
+}
+
+/// The true pictures of a film.
+class Film {
+ public:
+  explicit Film(const FilmedCamera& film) : film_(film) {
+    for (std::size_t i = 0; i < film.record.frame_times.size(); ++i) {
+      if (!film.repeats.again[i]) frames_.push_back(i);
+    }
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < frames_.size(); ++i)
+      intervals.push_back(time(i) - time(i - 1));
+    if (intervals.empty()) return;
+    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+    std::ranges::nth_element(intervals, middle);
+    usual_s_ = *middle;
+  }
+
+  std::size_t size() const { return frames_.size(); }
+  double time(std::size_t i) const { return film_.record.frame_times[frames_[i]]; }
+  double usual_s() const { return usual_s_; }
+
+  /// By how much the time between a picture and the one before is longer than the clock says, in
+  /// the eyes of one robot; nothing when it does not move steadily.
+  std::optional<double> lost_s(const TagWay& tag, std::size_t i) const {
+    const auto before = velocity(tag, i - 1, -1);
+    const auto after = velocity(tag, i, 1);
+    if (!before || !after || !seen(tag, i) || !seen(tag, i - 1)) return std::nullopt;
+    const double interval = time(i) - time(i - 1);
+    const Corners moved = corners_of(*seen(tag, i)) - corners_of(*seen(tag, i - 1));
+    // Root mean squares of a corner's two coordinates together.
+    const double faster = std::max(before->norm(), after->norm()) / 2;
+    const double slower = std::min(before->norm(), after->norm()) / 2;
+    const double speed = (faster + slower) / 2;
+    // Far away at once it may have turned, too.
+    if (beats_top_speed(tag, i) && faster - slower <= kSteady * speed &&
+        speed * usual_s_ >= kLeastStep_px) {
+      return moved.norm() / 2 / speed - interval;
+    }
+    const Corners mean = (*before + *after) / 2;
+    if (mean.norm() / 2 * usual_s_ < kLeastStep_px ||
+        (*after - *before).norm() > kBend * mean.norm())
+      return std::nullopt;
+    const double time_s = moved.dot(mean) / mean.squaredNorm();
+    const double aside = (moved - time_s * mean).norm() / 2;
+    if (aside > kLeastStep_px + kSteady * std::fabs(time_s) * mean.norm() / 2) return std::nullopt;
+    return time_s - interval;
+  }
+
+  bool beats_top_speed(const TagWay& tag, std::size_t i) const {
+    return corners_moved(seen(tag, i - 1)->corners, seen(tag, i)->corners) >
+           kCornerSpeed_m_s * tag.pixels_per_m * (time(i) - time(i - 1)) + kLeastStep_px;
+  }
+
+ private:
+  const Sighting* seen(const TagWay& tag, std::size_t i) const { return tag.seen[frames_[i]]; }
+
+  /// Over at least two intervals on one side.
+  std::optional<Corners> velocity(const TagWay& tag, std::size_t i, int side) const {
+    std::size_t far = i;
+    while (std::fabs(time(far) - time(i)) < kWindow_s) {
+      if ((side < 0 && far == 0) || (side > 0 && far + 1 == size())) break;
+      const std::size_t next = side < 0 ? far - 1 : far + 1;
+      if (std::fabs(time(next) - time(i)) > 2 * kWindow_s) break;
+      far = next;
+    }
+    const std::size_t apart = far > i ? far - i : i - far;
+    if (apart < 2 || !seen(tag, i) || !seen(tag, far)) return std::nullopt;
+    return (corners_of(*seen(tag, far)) - corners_of(*seen(tag, i))) / (time(far) - time(i));
+  }
+
+  const FilmedCamera& film_;
+  std::vector<std::size_t> frames_;
+  double usual_s_ = 0;
+};
+
+/// What the robots that move agree on.
+struct Said {
+  int robots = 0;
+  double lost_s = 0;
+};
+
+std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, std::size_t i) {
+  std::vector<double> all;
+  bool is_too_fast = false;
+  for (const TagWay& tag : tags) {
+    const auto lost = film.lost_s(tag, i);
+    if (!lost) continue;
+    all.push_back(*lost);
+    is_too_fast = is_too_fast || film.beats_top_speed(tag, i);
+  }
+  if (all.empty() || (all.size() == 1 && !is_too_fast)) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(all);
+  double sum = 0;
+  for (const double one : all)
+    sum += one;
+  const double mean = sum / static_cast<double>(all.size());
+  if (most - least > std::max(kSteady * std::fabs(mean), film.usual_s() / 4)) return std::nullopt;
+  return Said{static_cast<int>(all.size()), mean};
+}
+
+/// How much stamps jitter, by the median of what is lost.
+double jitter_of(const std::map<std::size_t, double>& lost) {
+  std::vector<double> sizes;
+  for (const auto& [i, lost_s] : lost)
+    sizes.push_back(std::fabs(lost_s));
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return 1.4826 * *middle;
+}
+
+}  // namespace
+
+ClockSteps clock_steps(const FilmedCamera& film) {
+  ClockSteps steps;
+  const Film pictures(film);
+  std::map<std::size_t, double> lost;
+  std::size_t within = 0;
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    const double at_s = pictures.time(i) - film.camera.start_s;
+    if (at_s < 0 || pictures.time(i - 1) - film.camera.start_s > film.duration_s) continue;
+    ++within;
+    if (const auto said = said_of(pictures, film.tags, i)) lost[i] = said->lost_s;
+  }
+  if (20 * lost.size() < within || lost.empty())
+    steps.reason = "hardly ever did two robots move steadily at once";
+  const double least = std::max(pictures.usual_s() / 2, 5 * jitter_of(lost));
+  double sum = 0;
+  const auto at = [&](std::size_t i) { return lost.contains(i) ? lost.at(i) : 0; };
+  for (const auto& [i, lost_s] : lost) {
+    // A stamp that is late alone makes an interval too long and the next one too short.
+    const double with_next = lost_s + (at(i - 1) + at(i + 1)) / 2;
+    if (std::fabs(lost_s) < least || std::fabs(with_next) < least || lost_s * with_next < 0)
+      continue;
+    ++steps.count;
+    sum += lost_s;
+    steps.most_off_s = std::max({steps.most_off_s, std::fabs(sum), std::fabs(lost_s)});
+    if (std::fabs(lost_s) <= std::fabs(steps.worst.lost_s)) continue;
+    steps.worst = {pictures.time(i) - film.camera.start_s, lost_s};
+  }
+  return steps;
+}
+
+}  // namespace swarmsmith

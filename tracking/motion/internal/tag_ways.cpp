@@ -1,0 +1,112 @@
+#include "tracking/motion/internal/tag_ways.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarmsmith {
+namespace {
+
+double as_stored(double pixels) {
+  return std::round(pixels * 1000) / 1000;
+}
+
+double edge_px(const TagCorners& corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ImagePoint& next = corners.at((i + 1) % corners.size());
+    sum += std::hypot(next.u - corners.at(i).u, next.v - corners.at(i).v);
+  }
+  return sum / static_cast<double>(corners.size());
+}
+
+void measure_scale(TagWay& tag, double edge_m) {
+  std::vector<double> edges;
+  for (const Sighting* const seen : tag.seen) {
+    if (seen != nullptr) edges.push_back(edge_px(seen->corners));
+  }
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::ranges::nth_element(edges, middle);
+  tag.pixels_per_m = *middle / edge_m;
+}
+
+/// Sums of steps. None is longer than the fastest robot goes since the tag moved last: a tag that
+/// was misread, or carried, is no speed.
+void measure_way(TagWay& tag, const std::vector<double>& times) {
+  constexpr double kStandingTag_px = 0.5;
+  const Sighting* before = nullptr;
+  std::size_t moved_at = 0;
+  for (std::size_t frame = 0; frame < tag.seen.size(); ++frame) {
+    tag.way[frame] = frame == 0 ? 0 : tag.way[frame - 1];
+    const Sighting* const now = tag.seen[frame];
+    if (now == nullptr) continue;
+    if (before != nullptr) {
+      const double step = corners_moved(before->corners, now->corners);
+      const double most = kCornerSpeed_m_s * tag.pixels_per_m * (times[frame] - times[moved_at]);
+      tag.way[frame] += std::min(step, most + kStandingTag_px);
+      if (step > kStandingTag_px) moved_at = frame;
+    } else {
+      moved_at = frame;
+    }
+    before = now;
+  }
+}
+
+}  // namespace
+
+double corners_moved(const TagCorners& from, const TagCorners& to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double u = as_stored(to.at(i).u) - as_stored(from.at(i).u);
+    const double v = as_stored(to.at(i).v) - as_stored(from.at(i).v);
+    sum += u * u + v * v;
+  }
+  return std::sqrt(sum / static_cast<double>(from.size()));
+}
+
+std::vector<TagWay> tag_ways(const Observations& observations, int camera,
+                             std::span<const RobotSetup> robots) {
+  const std::size_t frames =
+      observations.cameras.at(static_cast<std::size_t>(camera)).frame_times.size();
+  std::vector<TagWay> ways(robots.size());
+  std::vector<std::vector<bool>> twice(robots.size(), std::vector<bool>(frames, false));
+  for (TagWay& tag : ways) {
+    tag.seen.assign(frames, nullptr);
+    tag.way.assign(frames, 0);
+  }
+  for (const Sighting& seen : observations.sightings) {
+    // What is left of a damaged store may name a frame that is lost.
+    if (seen.camera != camera || seen.frame < 0 || static_cast<std::size_t>(seen.frame) >= frames) {
+      continue;
+    }
+    const auto robot = std::ranges::find(robots, seen.tag, &RobotSetup::tag);
+    if (robot == robots.end()) continue;
+    const auto number = static_cast<std::size_t>(robot - robots.begin());
+    const auto frame = static_cast<std::size_t>(seen.frame);
+    if (ways[number].seen[frame] != nullptr) twice[number][frame] = true;
+    ways[number].seen[frame] = &seen;
+  }
+  std::vector<TagWay> kept;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+      if (twice[i][frame]) ways[i].seen[frame] = nullptr;
+    }
+    const bool is_seen = std::ranges::any_of(ways[i].seen, [](const Sighting* s) { return s; });
+    if (!is_seen) continue;
+    measure_scale(ways[i], robots[i].edge_m);
+    measure_way(ways[i], observations.cameras[static_cast<std::size_t>(camera)].frame_times);
+    kept.push_back(std::move(ways[i]));
+  }
+  return kept;
+}
+
+std::size_t frame_before(const std::vector<double>& times, std::size_t frame, double span_s) {
+  const auto first = std::ranges::lower_bound(times, times[frame] - span_s);
+  return std::min(static_cast<std::size_t>(first - times.begin()), frame);
+}
+
+std::size_t frame_after(const std::vector<double>& times, std::size_t frame, double span_s) {
+  const auto last = std::ranges::upper_bound(times, times[frame] + span_s);
+  return std::max(static_cast<std::size_t>(last - times.begin()), frame + 1) - 1;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tracking/robots/latency.h"
+
+namespace swarmsmith {
+
+/// What a robot was told, and where the camera saw it, both from the start of the run on.
+struct ToldAndSeen {
+  std::vector<TimedCommand> commands;
+  std::span<const Sample> seen;
+};
+
+/// How fast a film plays, by the robots' clocks.
+struct FilmRate {
+  /// Seconds of the robots in one second of the film: below 1 where the film is too long. None when
+  /// it cannot be told.
+  std::optional<double> rate;
+  double off_s = 0;    ///< of the film's clock, at the end of the commands
+  std::string reason;  ///< why it cannot be told
+};
+
+/// The film's clock is stretched, from half to twice as fast, and shifted as latencies may be,
+/// until the robots' turns and ways agree best with what their treads were told. It is told when
+/// the best stretch is far likelier than one that is a hundredth more or less.
+FilmRate film_rate(std::span<const ToldAndSeen> robots);
+
+}  // namespace swarmsmith

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "tracking/video/frame_source.h"
+#include "tracking/video/internal/bag_word.h"
+
+namespace swarmsmith {
+
+/// The images of a topic of a bag of ROS 2 that is an SQLite file (`run_0.db3`), in the order in
+/// which they were recorded.
+Expected<std::unique_ptr<FrameSource>> open_rosbag2(const BagWord& word);
+
+}  // namespace swarmsmith
