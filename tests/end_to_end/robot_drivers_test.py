@@ -102,7 +102,7 @@ class Drivers(ProgramTest):
         treads.kill()
         fault_at = time.monotonic()
         self.driver("treads")
-        self.assert_invalid(start, fault_at, "drives the treads in place of|does not say what the treads do")
+        self.assert_invalid(start, fault_at, "drives the treads in place of|is gone: nobody listens|does not say what the treads do")
 
     def slow(self):
         treads, start = self.begin()

@@ -175,7 +175,7 @@ TEST(RunStarter, StopsAllWhenOneFails) {
   EXPECT_TRUE(bench.all_stand());
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
   EXPECT_THAT(bench.starter->complaints(),
-              ElementsAre(HasSubstr("rvr3: failed: sensors were silent in 3 of 50 cycles")));
+              ElementsAre(HasSubstr("rvr3: failed: the treads stood in 3 of 50 cycles")));
 }
 
 TEST(RunStarter, StopsAllWhenOneDoesNotTakeTheStart) {
