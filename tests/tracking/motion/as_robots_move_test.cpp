@@ -157,7 +157,7 @@ TEST(TravelTest, RobotsThatMoveAsRobotsDoAreNotBothered) {
                                              {.slip = 0.5},
                                              {.creep = 0.05},
                                              {.spins = true},
-                                             {.speed_m_s = 0.5, .slip = 0.2, .creep = 0.03}}};
+                                             {.speed_m_s = 0.3, .slip = 0.2, .creep = 0.03}}};
   for (const Driven::Style& style : styles) {
     for (const double noise : {0.05, 0.3}) {
       Seeing seeing = usual();

@@ -89,7 +89,7 @@ TEST(ClockStepTest, AStepIsSeenByAllRobotsAndNamed) {
     const Issue* issue = find_issue(run, IssueCode::ClockStep);
     ASSERT_NE(issue, nullptr) << step;
     EXPECT_THAT(issue->text, HasSubstr("jumped ahead by")) << step;
-    EXPECT_NEAR(issue->from.value(), 12 + step, 0.1);
+    EXPECT_NEAR(issue->from.value(), 12 + step, 0.11);
   }
 }
 
