@@ -8,6 +8,7 @@
 
 #include "base/math.h"
 #include "tracking/motion/internal/clock_steps.h"
+#include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
 namespace {
@@ -63,8 +64,8 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
                                  film.camera.name, span.from_s - start, span.to_s - start),
                      span.from_s - start, span.to_s - start);
   }
-  const double doubtful = repeats.doubtful_from_s.value_or(start + film.duration_s) - start;
-  if (!issue && doubtful < film.duration_s) {
+  const double doubtful = repeats.doubtful_from_s.value_or(start) - start;
+  if (!issue && repeats.doubtful_from_s && doubtful < film.duration_s - kSameInstant_s) {
     issue = issue_of(IssueCode::PicturesRepeated,
                      fmt::format("camera {} shows nothing that moves from {:.2f} s to the film's "
                                  "end, as if its recorder hung; look at the film, and record more "
