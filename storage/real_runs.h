@@ -226,7 +226,7 @@ struct RealRunRows {
   std::vector<RealPatchRow> patches;         ///< of the log, or measured; none where there are none
   std::vector<RealCycleRow> cycles;          ///< by cycle, robot
   std::vector<RealIssueRow> issues;
-  std::vector<RealCheckRow> checks;  ///< none: a program before schema 13 scored it
+  std::vector<RealCheckRow> checks;         ///< none: a program before schema 13 scored it
   std::vector<RealLogRow> logs;             ///< by robot; those that have one
   std::vector<RealLogCycleRow> log_cycles;  ///< by cycle, robot
   RealScoreRow score;

@@ -252,8 +252,8 @@ Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
 
 /// What is derived is right: candidates and pairs of other values give way to it. Where candidates
 /// themselves cannot be relied on, those that the races do not reach go, with their scores: the
-/// races make them again. After a lie, whatever was scored under the number of another machine goes,
-/// too: a lie may have turned the race.
+/// races make them again. After a lie, whatever was scored under the number of another machine
+/// goes, too: a lie may have turned the race.
 std::int64_t SqliteRecovery::remove_others(const StoredCampaign& campaign,
                                            const DerivedRows& derived, const Shift& shift) {
   const Bounds bounds(campaign);
@@ -322,8 +322,9 @@ std::int64_t SqliteRecovery::remove_others(const StoredCampaign& campaign,
   return is_trusted_again_ ? taken : 0;
 }
 
-std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
-                                     const std::string& source) {
+std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign,
+                                             const DerivedRows& derived,
+                                             const std::string& source) {
   const Bounds bounds(campaign);
   sqlite::Transaction transaction(connection_);
   const auto run = [&](const char* statement, std::int64_t first, std::int64_t last) {
@@ -402,9 +403,8 @@ std::string SqliteRecovery::doubt() {
     connection_.execute("UPDATE campaign SET state = 'distrusted'");
     return "its rows are not those that were committed, and which ones cannot be told: " + tables;
   }
-  const bool was_doubted = std::ranges::any_of(campaigns(), [](const StoredCampaign& campaign) {
-    return campaign.state == "distrusted";
-  });
+  const bool was_doubted = std::ranges::any_of(
+      campaigns(), [](const StoredCampaign& campaign) { return campaign.state == "distrusted"; });
   return was_doubted ? "the damaged store says so of itself (its events say why)" : "";
 }
 

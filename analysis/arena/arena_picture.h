@@ -29,7 +29,7 @@ struct ArenaPicture {
   /// Dots with their time on the trails, so many cycles apart, and trails over the robots at their
   /// ends; 0: none. Of a large swarm none either.
   int cycles_a_mark = 0;
-  double width_mm = 84;                    ///< a column of a paper; the height follows
+  double width_mm = 84;  ///< a column of a paper; the height follows
 };
 
 /// The narrowest and widest pictures that are drawn, mm.

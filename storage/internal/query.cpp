@@ -160,9 +160,10 @@ Unexpected not_readable(const sqlite::Connection& connection, int code,
         fmt::format("the store has a value of more than {} MB", kMostValueBytes >> 20U), file);
   }
   if (code == SQLITE_AUTH) {
-    return bad_input("its views are not those of its schema; `swarmsmith backup` makes a copy with "
-                     "ours",
-                     file);
+    return bad_input(
+        "its views are not those of its schema; `swarmsmith backup` makes a copy with "
+        "ours",
+        file);
   }
   return bad_input(sqlite3_errmsg(connection.handle()), file);
 }

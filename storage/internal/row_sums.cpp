@@ -151,17 +151,19 @@ std::string RowSums::differences(const RowSums& found) const {
 }
 
 bool RowSums::has_other_values(Table table, const RowSums& found) const {
-  return static_cast<std::size_t>(table) < known_ && of(table).rows == found.of(table).rows && of(table).sum != found.of(table).sum;
+  return static_cast<std::size_t>(table) < known_ && of(table).rows == found.of(table).rows &&
+         of(table).sum != found.of(table).sum;
 }
 
 std::int64_t remove_changed_evaluations(sqlite::Connection& connection) {
   using Key = std::array<std::int64_t, 3>;
   std::vector<Key> changed;
-  Statement row(connection,
-                fmt::format("SELECT (candidate - 1) % {}, purpose, pair, status, score, state_digest,"
-                            " wall_us, attempt, time, bound, row_check, candidate FROM evaluation"
-                            " WHERE row_check IS NOT NULL",
-                            kCandidatesPerDesign));
+  Statement row(
+      connection,
+      fmt::format("SELECT (candidate - 1) % {}, purpose, pair, status, score, state_digest,"
+                  " wall_us, attempt, time, bound, row_check, candidate FROM evaluation"
+                  " WHERE row_check IS NOT NULL",
+                  kCandidatesPerDesign));
   while (row.step()) {
     const int last = sqlite3_column_count(row.handle()) - 1;
     if (half(hash_of(row, last - 1)) != row.integer(last - 1))

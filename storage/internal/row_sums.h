@@ -128,7 +128,7 @@ inline std::int64_t half(std::uint64_t hash) {
 }
 
 /// An evaluation's column `row_check`: half of a hash of what was scored, with which result. Not of
-/// the numbers that merging changes. 
+/// the numbers that merging changes.
 template <class... Cells>
 std::int64_t row_check(std::int64_t candidate, const Cells&... cells) {
   return half(RowHash::of((candidate - 1) % kCandidatesPerDesign, cells...));

@@ -174,12 +174,12 @@ void RowWriter::put(const EvaluationRow& row) {
   const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
   const std::int64_t source = source_id(row.source);
   const auto iteration = unless_zero(row.iteration);
-  evaluation_.run(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
-                  source, row.wall_us, row.worker, row.attempt, unless_zero(row.time),
-                  unless_zero(row.bound), iteration,
-                  row_check(candidate, purpose, row.key.pair, number(row.status), score,
-                            row.state_digest, row.wall_us, row.attempt, unless_zero(row.time),
-                            unless_zero(row.bound)));
+  evaluation_.run(
+      candidate, purpose, row.key.pair, number(row.status), score, row.state_digest, source,
+      row.wall_us, row.worker, row.attempt, unless_zero(row.time), unless_zero(row.bound),
+      iteration,
+      row_check(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
+                row.wall_us, row.attempt, unless_zero(row.time), unless_zero(row.bound)));
   const bool is_new = connection_.changes() > 0;
   if (!is_new && iteration) {
     used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score,

@@ -319,9 +319,10 @@ TEST_F(OfOthers, ChangedRealRunsAreFoundAndNamed) {
 
 TEST_F(OfOthers, SumsOfAnEarlierProgramSayNothingOfLaterTables) {
   make_store();
-  change(path,
-         "UPDATE meta SET value = substr(value, 1, length(value) - 3 * length(' 0 0123456789abcdef'))"
-         " WHERE key = 'row_sums'");
+  change(
+      path,
+      "UPDATE meta SET value = substr(value, 1, length(value) - 3 * length(' 0 0123456789abcdef'))"
+      " WHERE key = 'row_sums'");
   EXPECT_TRUE(check_rows(path));
   change(path, "DELETE FROM elite WHERE rank = 1");
   EXPECT_FALSE(check_rows(path));

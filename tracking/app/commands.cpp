@@ -72,7 +72,8 @@ constexpr std::string_view kCalibrateCameraDetails =
     "and zoom before, and never touch them again. From a video it picks sharp views that differ.\n"
     "\n"
     "Refused with E_CALIB_QUALITY, and no file written: under 10 views, RMS over 1/2000 of the\n"
-    "focal length, corners' hull under 30 % of the frame, fx and fy over 2 % apart, principal point over 10 % off the\n"
+    "focal length, corners' hull under 30 % of the frame, fx and fy over 2 % apart, principal "
+    "point over 10 % off the\n"
     "middle, a lens model that folds.";
 constexpr std::string_view kCalibrateArenaDetails =
     "Examples:\n"

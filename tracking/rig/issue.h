@@ -33,30 +33,30 @@ enum class IssueCode {
   SidecarMismatch,
   LayoutMissing,
   Config,
-  OutsideArena,     ///< a robot left the arena
-  Outliers,         ///< a warning: samples were dropped
-  Interpolated,     ///< a warning: cycles were bridged
-  TooCloseToCall,   ///< a warning: a robot stands on a border as far as can be told
-  UnknownTags,      ///< a warning: ids that nobody has declared
-  CamerasDisagree,  ///< a warning
-  TagAsCentre,      ///< a warning: the score is biased
-  Duration,         ///< the video's length is not the log's
-  CameraUnchecked,  ///< a warning: too few floor tags were seen to tell whether a camera moved
-  SurveyChanged,    ///< a warning: floor tags were surveyed anew since a place was found
-  ByHand,           ///< a warning: a person said where a robot was
-  LogUnreadable,    ///< a warning: a robot's log is not there, or is none
-  LogForeign,       ///< a robot's log is of another run, robot or machine
-  LogShort,         ///< a robot's log ends before the run does
-  ClockOffset,      ///< a warning: a robot's clock was off
-  RobotDegraded,    ///< a warning: a robot's node says that it did not run as it should
-  RobotInvalid,     ///< the same, beyond what counts
-  MotionUnlikeLog,  ///< a warning: a robot did not move as its log commands
-  SyncDiffers,      ///< a warning: the log's start is not when the sync tag says
-  TagTurned,        ///< a robot's tag does not sit as it was calibrated, by how the robot moves
-  HeadingOff,       ///< a warning: the same, and no position is wrong by it
-  Pushed,           ///< a robot went where treads cannot take it
-  TagSizeDoubtful,  ///< a warning: a tag's size and height do not quite fit together
-  Tilted,           ///< a warning: a tag or its robot is not level
+  OutsideArena,      ///< a robot left the arena
+  Outliers,          ///< a warning: samples were dropped
+  Interpolated,      ///< a warning: cycles were bridged
+  TooCloseToCall,    ///< a warning: a robot stands on a border as far as can be told
+  UnknownTags,       ///< a warning: ids that nobody has declared
+  CamerasDisagree,   ///< a warning
+  TagAsCentre,       ///< a warning: the score is biased
+  Duration,          ///< the video's length is not the log's
+  CameraUnchecked,   ///< a warning: too few floor tags were seen to tell whether a camera moved
+  SurveyChanged,     ///< a warning: floor tags were surveyed anew since a place was found
+  ByHand,            ///< a warning: a person said where a robot was
+  LogUnreadable,     ///< a warning: a robot's log is not there, or is none
+  LogForeign,        ///< a robot's log is of another run, robot or machine
+  LogShort,          ///< a robot's log ends before the run does
+  ClockOffset,       ///< a warning: a robot's clock was off
+  RobotDegraded,     ///< a warning: a robot's node says that it did not run as it should
+  RobotInvalid,      ///< the same, beyond what counts
+  MotionUnlikeLog,   ///< a warning: a robot did not move as its log commands
+  SyncDiffers,       ///< a warning: the log's start is not when the sync tag says
+  TagTurned,         ///< a robot's tag does not sit as it was calibrated, by how the robot moves
+  HeadingOff,        ///< a warning: the same, and no position is wrong by it
+  Pushed,            ///< a robot went where treads cannot take it
+  TagSizeDoubtful,   ///< a warning: a tag's size and height do not quite fit together
+  Tilted,            ///< a warning: a tag or its robot is not level
   PicturesRepeated,  ///< a warning: pictures that show the one before once more
   ClockCounted,      ///< a warning: the film's times were counted, and no other clock agrees
   ClockStep,         ///< the film's clock was set within the run

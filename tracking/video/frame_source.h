@@ -52,8 +52,8 @@ struct SourceInfo {
 class FrameSource {
  public:
   /// `word`: a video file, a picture, a folder of images or of chapters (in the order of their
-  /// names), a bag (`run.bag`, `run.mcap:/topic`), `camera:0` or another word that OpenCV opens (`rtsp://...`).
-  /// E_VIDEO_UNREADABLE with the decoder's own words.
+  /// names), a bag (`run.bag`, `run.mcap:/topic`), `camera:0` or another word that OpenCV opens
+  /// (`rtsp://...`). E_VIDEO_UNREADABLE with the decoder's own words.
   static Expected<std::unique_ptr<FrameSource>> open(const std::string& word);
   virtual ~FrameSource() = default;
 

@@ -281,9 +281,8 @@ TEST_F(RealRunRowsTest, SayWhenATagWasTakenForTheCentre) {
 }
 
 TEST(Verdicts, OfAStoreAreThoseOfARun) {
-  EXPECT_THAT(kVerdicts,
-              testing::ElementsAre(name_of(Verdict::Valid), name_of(Verdict::Degraded),
-                                   name_of(Verdict::Invalid)));
+  EXPECT_THAT(kVerdicts, testing::ElementsAre(name_of(Verdict::Valid), name_of(Verdict::Degraded),
+                                              name_of(Verdict::Invalid)));
 }
 
 }  // namespace

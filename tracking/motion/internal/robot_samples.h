@@ -12,8 +12,8 @@ namespace swarmsmith {
 struct TrackedCamera {
   std::string name;
   View view;
-  double start_s = 0;        ///< of the run, on the camera's clock
-  double place_error_m = 0;  ///< on the floor, one sigma, from its calibration
+  double start_s = 0;         ///< of the run, on the camera's clock
+  double place_error_m = 0;   ///< on the floor, one sigma, from its calibration
   double lens_error_rad = 0;  ///< of a ray, one sigma, from its lens calibration
   double time_error_s = 0;    ///< of its stamps, one sigma
 };

@@ -18,8 +18,8 @@ inline constexpr double kCornerSpeed_m_s = 0.7;
 /// A robot's tag in one camera's frames.
 struct TagWay {
   std::vector<const Sighting*> seen;  ///< one a frame; null where it was not seen, or twice
-  std::vector<double> way;            ///< pixels that its corners went until a frame, as far as robots can
-  double pixels_per_m = 0;            ///< median over the frames
+  std::vector<double> way;  ///< pixels that its corners went until a frame, as far as robots can
+  double pixels_per_m = 0;  ///< median over the frames
 
   bool is_seen(std::size_t frame) const { return seen[frame] != nullptr; }
 };
