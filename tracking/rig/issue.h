@@ -63,6 +63,8 @@ enum class IssueCode {
   FilmSpeed,         ///< a warning: robots are faster than they should be able to
   FilmOdd,           ///< a warning, which degrades nothing: why tags may not be found
   FilmTooFast,       ///< the film runs at another speed than the robots' own logs say
+  TagPlaceDoubtful,  ///< a warning: a tag may sit a little otherwise than calibrated
+  PushedDoubtful,    ///< a warning: a robot may have been pushed
 };
 
 /// "E_GAP".
