@@ -54,7 +54,7 @@ class Import(unittest.TestCase):
         started = time.monotonic()
         done = call(TRACK, *words_for(cls.whole_store))
         cls.seconds = time.monotonic() - started
-        assert done.returncode == 0, done.stderr
+        assert done.returncode == 0, done.stdout + done.stderr
         cls.whole, _ = parts_of(cls.whole_store)
 
     def assert_all_or_nothing(self, store):

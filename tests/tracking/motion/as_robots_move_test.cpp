@@ -256,7 +256,7 @@ TEST(TravelTest, ATagThatWasMovedAlongItsRobotIsNamed) {
   file.offset.x_m += 0.03 * std::cos(file.offset.yaw_rad);
   file.offset.y_m -= 0.03 * std::sin(file.offset.yaw_rad);
   const TrackedRun run = seen.track().value();
-  ASSERT_NE(find_issue(run, IssueCode::TagTurned), nullptr);
+  ASSERT_NE(find_issue(run, IssueCode::TagPlaceDoubtful), nullptr);
   EXPECT_NEAR(*find_check(run, "tag against the treads", "rvr1")->value, 30, 3);
 }
 
