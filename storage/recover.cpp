@@ -383,7 +383,7 @@ std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign,
   return taken;
 }
 
-/// Which values of which tables are not those that were committed, and are not derived anew.
+/// Names the tables that another program changed and that no race derives anew.
 std::string SqliteRecovery::doubt() {
   const bool all_derived = std::ranges::all_of(campaigns(), [&](const StoredCampaign& campaign) {
     return derived_campaigns_.contains(campaign.id);

@@ -6,10 +6,10 @@
 
 namespace swarmsmith {
 
-/// Corrupt when the rows of a store are not those of one commit, since another program changed
-/// them, or since it is a copy of which some parts are older than others, or when codes of
+/// Corrupt when the rows of a store are not those of one commit: another program changed them, or
+/// the store is a copy, and some of its parts are older than others. Corrupt, too, when codes of
 /// candidates make more text than a store's. Reads all rows, unless the file is as its last writer
-/// closed it. For those who make numbers of them. The errors of StoreReader::open are left to it.
+/// closed it. StoreReader::open has the other errors.
 Expected<void> check_rows(const std::filesystem::path& store);
 
 }  // namespace swarmsmith

@@ -46,7 +46,7 @@ class DesignWorlds {
   struct File {
     std::string text;  ///< empty for an imported campaign
     int engine_version = 0;
-    /// Read once, whatever the number of its designs; the error is told to those who ask for one.
+    /// Read once for all designs; `of` returns the error.
     std::optional<Expected<Campaign>> campaign{};
     std::optional<Expected<ImportedWorld>> imported{};
   };

@@ -245,9 +245,9 @@ void Trust::strike(Principal& principal, WorkerNumber worker, TimePoint now) {
   if (often) quarantine(principal, worker, "fails at evaluations that succeed elsewhere", now);
 }
 
-/// By campaign: what the convicted one said and was not made again. Without a key whoever is not
-/// here may have been the same program under another id; the others that are here answer for
-/// themselves.
+/// By campaign: evaluations of the convicted worker that were not made again. Without a key, a
+/// worker that has left may have been the same program under another id; workers that are here
+/// answer for themselves.
 std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,
                                                   WorkerNumber worker) const {
   std::set<WorkerNumber> others;

@@ -176,7 +176,7 @@ void DriverWatch::begin(TimePoint start) {
 }
 
 std::string DriverWatch::why_not_obeyed(TimePoint now) const {
-  if (listeners_.empty()) return driver_ + " is gone: nobody listens to the speeds of the treads";
+  if (listeners_.empty()) return driver_ + " is gone: no driver listens to the speeds of the treads";
   if (is_quiet(now)) {
     return second_ && now - second_->last <= kUsualSilence
                ? second_->name + " drives the treads in place of " + driver_
@@ -213,7 +213,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
     return Trouble{time, now - time > limits_.hold, now - time > limits_.give_up, std::move(what)};
   };
   if (listeners_.empty())
-    return since(std::max(listened_, obeyed_), "nobody listens to the speeds of the treads");
+    return since(std::max(listened_, obeyed_), "no driver listens to the speeds of the treads");
   if (replaced_ < listened_)
     return since(replaced_, "another one came in place of the driver: " + names_of(listeners_));
   // Of clients that say that they drive each may be the one; others may as well only listen.
@@ -265,7 +265,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
 std::vector<std::string> DriverWatch::not_ready(TimePoint now) const {
   std::vector<std::string> reasons;
   if (listeners_.empty()) {
-    reasons.emplace_back("driver: nobody listens to the speeds of the treads");
+    reasons.emplace_back("driver: no driver listens to the speeds of the treads");
   } else if (last_ && listens(last_->sender) && now - last_->arrival.at > limits_.give_up) {
     reasons.push_back(fmt::format("driver: {} has not said what the treads do for {:.1f} s",
                                   last_->sender,

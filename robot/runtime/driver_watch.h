@@ -83,7 +83,7 @@ class DriverWatch {
   Limits limits_;
   std::deque<Commanded> commands_;
   std::vector<Listener> listeners_;
-  TimePoint listened_{};                ///< when somebody did
+  TimePoint listened_{};                ///< when a driver last listened
   std::optional<DrivenMessage> last_;   ///< of the driver; outside of runs of anybody
   std::optional<DrivenMessage> other_;  ///< the last of another one than `last_`
   std::optional<Spell> rival_;
@@ -112,7 +112,7 @@ class DriverWatch {
   std::vector<Listener> lively_;  ///< of these, who gave signs of life then
   std::vector<std::string> came_later_;
   std::vector<std::string> went_;
-  TimePoint replaced_{};  ///< since when nobody of those is there
+  TimePoint replaced_{};  ///< when one of those last listened
 };
 
 }  // namespace swarmsmith

@@ -157,7 +157,7 @@ void RobotNode::hear_alive(const Order& order, const Now& now) {
   if (ahead_s > 0) operator_clock_ = {now.clock, order.sent_unix_s};
 }
 
-/// The run goes by the steady clock; that the other one was stepped is told.
+/// The run goes by the steady clock. The log names a step of the other one.
 void RobotNode::look_at_clock(const Now& now) {
   constexpr double kStep_s = 0.1;
   const double ahead_s = now.unix_s - clock_s(now.clock);

@@ -95,14 +95,14 @@ class Drivers(ProgramTest):
     def dead(self):
         treads, start = self.begin()
         treads.kill()
-        self.assert_invalid(start, time.monotonic(), "is gone: nobody listens to the speeds|does not say what the treads do")
+        self.assert_invalid(start, time.monotonic(), "is gone: no driver listens to the speeds|does not say what the treads do")
 
     def replaced(self):
         treads, start = self.begin()
         treads.kill()
         fault_at = time.monotonic()
         self.driver("treads")
-        self.assert_invalid(start, fault_at, "drives the treads in place of|is gone: nobody listens|does not say what the treads do")
+        self.assert_invalid(start, fault_at, "drives the treads in place of|is gone: no driver listens|does not say what the treads do")
 
     def slow(self):
         treads, start = self.begin()

@@ -118,7 +118,7 @@ TEST(DriverWatch, ASilentDriverEndsTheRun) {
 TEST(DriverWatch, ADeadDriverEndsTheRun) {
   DrivenRobot robot;
   robot.run_with([](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; });
-  expect_invalid(robot, "driver is gone: nobody listens to the speeds of the treads");
+  expect_invalid(robot, "driver is gone: no driver listens to the speeds of the treads");
 }
 
 TEST(DriverWatch, AReplacedDriverEndsTheRun) {
@@ -248,7 +248,7 @@ TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {
   DrivenRobot dead;
   dead.run_with([](DrivenRobot& of) { of.listeners = [] { return std::vector<Listener>(); }; },
                 nothing);
-  expect_invalid(dead, "nobody listens to the speeds of the treads");
+  expect_invalid(dead, "no driver listens to the speeds of the treads");
   DrivenRobot hung;
   hung.run_with(
       [](DrivenRobot& of) {
@@ -268,7 +268,7 @@ TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {
 TEST(DriverWatch, SaysBeforeARunWhatIsWrong) {
   const TimePoint now{std::chrono::seconds(100)};
   DriverWatch watch({});
-  EXPECT_THAT(watch.not_ready(now), ElementsAre(HasSubstr("nobody listens")));
+  EXPECT_THAT(watch.not_ready(now), ElementsAre(HasSubstr("no driver listens")));
   watch.set_listeners({{"driver", now}}, now);
   EXPECT_THAT(watch.not_ready(now), IsEmpty()) << "one that says nothing may drive";
   watch.hear(DrivenMessage{{now, 0}, 0, 0, "driver"});
