@@ -176,7 +176,8 @@ void DriverWatch::begin(TimePoint start) {
 }
 
 std::string DriverWatch::why_not_obeyed(TimePoint now) const {
-  if (listeners_.empty()) return driver_ + " is gone: no driver listens to the speeds of the treads";
+  if (listeners_.empty())
+    return driver_ + " is gone: no driver listens to the speeds of the treads";
   if (is_quiet(now)) {
     return second_ && now - second_->last <= kUsualSilence
                ? second_->name + " drives the treads in place of " + driver_
