@@ -7,6 +7,7 @@
 #include "analysis/report/html.h"
 #include "sim/control/reference_model.h"
 #include "tracking/report/internal/findings.h"
+#include "tracking/report/internal/reality_table.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/timeline.h"
 #include "tracking/robots/robot_logs.h"
@@ -210,6 +211,7 @@ void write_logs(HtmlPage& page, const ReportedRun& run) {
   if (logs.rows.empty()) return;
   page.heading(2, "Robots' logs");
   page.table(logs);
+  if (const HtmlTable table = reality_table(run); !table.rows.empty()) page.table(table);
 }
 
 void write_frames(HtmlPage& page, const ReportedRun& run) {

@@ -8,6 +8,7 @@
 #include "tracking/observing/observations.h"
 #include "tracking/rig/run_log.h"
 #include "tracking/robots/latency.h"
+#include "tracking/robots/reality.h"
 
 namespace swarmsmith {
 
@@ -29,6 +30,7 @@ std::optional<Issue> other_machine(const RobotLog& log, const RobotLog& first);
 /// What follows from the robots' logs and from what `start` noted of their nodes.
 struct RobotFindings {
   std::vector<std::optional<Latency>> latencies;  ///< as the tracked robots; none without a log
+  std::vector<std::optional<Reality>> reality;    ///< likewise
   std::vector<Issue> issues;
 };
 
