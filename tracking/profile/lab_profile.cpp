@@ -15,6 +15,8 @@ namespace {
 
 /// Delays of a profile are multiples of it.
 constexpr double kStep_ms = 10;
+/// The simulator steers at the ends of its steps: half of one is in each delay already.
+constexpr double kHalfStep_ms = kStep_ms / 2;
 /// A control period that is nearer to 100 ms than this is 100 ms.
 constexpr double kNominal_ms = 100;
 constexpr double kLeastPeriodOff_ms = 0.5;
@@ -220,12 +222,14 @@ class Writer {
     if (const std::string text = varying_latency(); !text.empty()) return text;
     const Pooled all = pooled(told.estimates);
     figures_.push_back({"latency", all, "ms", ""});
-    const double mean_ms = std::max(0.0, 1000 * all.mean);
+    const double mean_ms = std::max(0.0, 1000 * all.mean - kHalfStep_ms);
     const double before_ms = kStep_ms * std::floor(mean_ms / kStep_ms);
     const double share = rounded((mean_ms - before_ms) / kStep_ms, 100);
     std::string text = comment("latency", all, told, 1000, "ms");
-    text += "# From command to treads; two multiples of 10 ms that have this mean.\n";
-    if (mean_ms < kStep_ms / 2 && all.low <= 0) {
+    text +=
+        "# From command to treads; two multiples of 10 ms that have this mean, less the\n# 5 ms "
+        "that the simulator takes itself.\n";
+    if (mean_ms < kStep_ms / 2 && 1000 * all.low <= kHalfStep_ms) {
       return text + "# It cannot be told from none.\ndelays = []\n";
     }
     std::string list;

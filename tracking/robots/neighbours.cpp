@@ -100,7 +100,7 @@ class Count {
     result.there = static_cast<std::int64_t>(there);
     result.seen = static_cast<std::int64_t>(seen);
     result.phantoms = phantoms_;
-    if (phantoms_ > kMostPhantoms * static_cast<double>(heard_)) {
+    if (static_cast<double>(phantoms_) > kMostPhantoms * static_cast<double>(heard_)) {
       return {.reason = fmt::format(
                   "{} of the {} neighbours in its log are where no robot was; is its heading "
                   "calibrated (`calibrate robot --straight`)?",

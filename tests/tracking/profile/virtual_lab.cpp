@@ -77,7 +77,8 @@ std::vector<MeasuredRobot> VirtualLab::run(std::int64_t seed) const {
   std::vector<MeasuredRobot> robots;
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     const Latency latency =
-        latency_of(commands_of(run.logs[i].record), run.tracked.robots[i].samples);
+        tells_latency ? latency_of(commands_of(run.logs[i].record), run.tracked.robots[i].samples)
+                      : Latency{.reason = "not asked"};
     robots.push_back({"run" + std::to_string(seed), run.logs[i].robot,
                       reality_of({run.tracked, built_in, i, run.logs[i]}, latency)});
   }

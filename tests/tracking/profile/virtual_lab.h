@@ -19,6 +19,7 @@ struct VirtualLab {
   double noise_m = 0.0005;
   double noise_rad = 0.003;
   double heading_off_rad = 0;
+  bool tells_latency = true;  ///< it takes most of the time; all else can do without
 
   /// A run's robots, measured.
   std::vector<MeasuredRobot> run(std::int64_t seed) const;
