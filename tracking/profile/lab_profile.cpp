@@ -22,8 +22,13 @@ constexpr double kNominal_ms = 100;
 constexpr double kLeastPeriodOff_ms = 0.5;
 /// One in so many robots' figures is missing its reason in the file; the first is an example.
 constexpr std::size_t kReasons = 3;
-/// Delays of single commands are a law of their own when so many of them scatter by more.
-constexpr std::size_t kLeastDelays = 30;
+/// Delays of single commands tell the latency when there are so many, of all robots and of one; and
+/// its law, when there are more, and they scatter by so much.
+constexpr std::size_t kLeastDelays = 10;
+constexpr std::size_t kLeastOfOne = 3;
+constexpr std::size_t kLeastOfLaw = 30;
+/// Three of them may agree by chance.
+constexpr double kLeastError_s = 0.001;
 constexpr double kLeastScatter_s = 0.015;
 
 /// Rounded for people; the profile loses nothing by it, since errors are larger.
@@ -150,39 +155,42 @@ class Writer {
            "\nweak_miss_rate = " + rate(groups.weak) + "\n";
   }
 
-  /// Empty for one that does not vary from command to command, as far as anybody can tell.
-  std::string varying_latency() {
+  /// By single commands that changed the turning; empty where too few of them did.
+  std::string latency_of_changes() {
     std::vector<double> delays_s;
-    Told told;
-    for (const MeasuredRobot& robot : source_.robots) {
-      const std::vector<double>& own = robot.reality.delays_s;
-      delays_s.insert(delays_s.end(), own.begin(), own.end());
-      const auto [mean, error] = mean_of(own);
-      told.add(robot, own.size() < 2 ? std::nullopt : std::optional(Estimate{mean, error}), "");
-    }
-    if (delays_s.size() < kLeastDelays || told.estimates.empty()) return {};
-    // Within robots and runs, since robots may differ, too.
     double squares = 0;
-    for (const MeasuredRobot& robot : source_.robots) {
-      const double mean = mean_of(robot.reality.delays_s).value;
-      for (const double one : robot.reality.delays_s)
-        squares += (one - mean) * (one - mean);
-    }
-    if (std::sqrt(squares / static_cast<double>(delays_s.size())) < kLeastScatter_s) return {};
-    const std::vector<DrawnDelay> drawn = drawn_delays(delays_s, kNominal_ms / 1000);
-    double mean_s = 0;
-    for (const DrawnDelay& delay : drawn)
-      mean_s += delay.seconds * delay.probability;
+    const Told told = collect([&](const MeasuredRobot& of, Told& into) {
+      const std::vector<double>& own = of.reality.delays_s;
+      const Estimate mean = mean_of(own);
+      for (const double one : own)
+        squares += (one - mean.value) * (one - mean.value);  // robots may differ, too
+      delays_s.insert(delays_s.end(), own.begin(), own.end());
+      into.add(of, own.size() < kLeastOfOne ? std::nullopt : std::optional(mean),
+               "too few of its commands changed the turning");
+    });
+    if (delays_s.size() < kLeastDelays || told.estimates.empty()) return {};
+    const double scatter_s = std::sqrt(squares / static_cast<double>(delays_s.size()));
     Pooled all = pooled(told.estimates);
-    const double earlier_s = all.mean - mean_s;
-    for (double* value : {&all.mean, &all.low, &all.high})
-      *value -= earlier_s;
+    std::vector<DrawnDelay> drawn;
+    if (scatter_s >= kLeastScatter_s) {
+      drawn = drawn_delays(delays_s, kNominal_ms / 1000);
+      double mean_s = 0;
+      for (const DrawnDelay& delay : drawn)
+        mean_s += delay.seconds * delay.probability;
+      // Late commands delay those after them.
+      const double later_s = all.mean - mean_s;
+      for (double* value : {&all.mean, &all.low, &all.high})
+        *value -= later_s;
+    }
     figures_.push_back({"latency", all, "ms", ""});
     std::string text = comment("latency", all, told, 1000, "ms");
     text += fmt::format(
-        "# From command to treads, by {} changes of the turning; it varies from command to "
-        "command.\n# Late commands delay those after them, which is taken out here.\ndelays = [\n",
-        delays_s.size());
+        "# From command to treads, by {} changes of the turning, which scatter by {:.1f} ms "
+        "within\n"
+        "# robots. What the simulator's own treads take is left out.\n",
+        delays_s.size(), 1000 * scatter_s);
+    if (drawn.empty() || delays_s.size() < kLeastOfLaw) return text + delays_of_mean(all, 0);
+    text += "# Late commands delay those after them, which is taken out here.\ndelays = [\n";
     double left = 1;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const bool is_last = i + 1 == drawn.size();
@@ -202,7 +210,8 @@ class Writer {
     double squares = 0;
     for (const double value : values)
       squares += (value - sum / count) * (value - sum / count);
-    return {sum / count, std::sqrt(squares / std::max(count - 1, 1.0) / count)};
+    const double error = std::sqrt(squares / std::max(count - 1, 1.0) / count);
+    return {sum / count, std::max(error, kLeastError_s)};
   }
 
   static std::string delay_text(double time_ms, double probability) {
@@ -210,7 +219,21 @@ class Writer {
                        number_text(probability));
   }
 
+  /// As two multiples of 10 ms, less what the simulator takes itself.
+  static std::string delays_of_mean(const Pooled& all, double own_ms) {
+    const double mean_ms = std::max(0.0, 1000 * all.mean - own_ms);
+    const double before_ms = kStep_ms * std::floor(mean_ms / kStep_ms);
+    const double share = rounded((mean_ms - before_ms) / kStep_ms, 100);
+    if (mean_ms < kStep_ms / 2 && 1000 * all.low <= own_ms)
+      return "# It cannot be told from none.\ndelays = []\n";
+    std::string list;
+    if (share < 1) list = delay_text(before_ms, rounded(1 - share, 100));
+    if (share > 0) list += (list.empty() ? "" : ", ") + delay_text(before_ms + kStep_ms, share);
+    return "delays = [ " + list + " ]\n";
+  }
+
   std::string latency() {
+    if (const std::string text = latency_of_changes(); !text.empty()) return text;
     const Told told = collect([](const MeasuredRobot& of, Told& into) {
       const Latency& latency = of.reality.latency;
       into.add(of,
@@ -219,23 +242,13 @@ class Writer {
                latency.reason);
     });
     if (told.estimates.empty()) return left("latency", told, "ms");
-    if (const std::string text = varying_latency(); !text.empty()) return text;
     const Pooled all = pooled(told.estimates);
     figures_.push_back({"latency", all, "ms", ""});
-    const double mean_ms = std::max(0.0, 1000 * all.mean - kHalfStep_ms);
-    const double before_ms = kStep_ms * std::floor(mean_ms / kStep_ms);
-    const double share = rounded((mean_ms - before_ms) / kStep_ms, 100);
-    std::string text = comment("latency", all, told, 1000, "ms");
-    text +=
-        "# From command to treads; two multiples of 10 ms that have this mean, less the\n# 5 ms "
-        "that the simulator takes itself.\n";
-    if (mean_ms < kStep_ms / 2 && 1000 * all.low <= kHalfStep_ms) {
-      return text + "# It cannot be told from none.\ndelays = []\n";
-    }
-    std::string list;
-    if (share < 1) list = delay_text(before_ms, rounded(1 - share, 100));
-    if (share > 0) list += (list.empty() ? "" : ", ") + delay_text(before_ms + kStep_ms, share);
-    return text + "delays = [ " + list + " ]\n";
+    return comment("latency", all, told, 1000, "ms") +
+           "# From command to treads, by the motion of whole runs, less the 5 ms that the "
+           "simulator "
+           "takes itself.\n" +
+           delays_of_mean(all, kHalfStep_ms);
   }
 
   std::string timing() {
