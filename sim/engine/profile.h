@@ -97,6 +97,13 @@ struct ControlTiming {
 /// What the treads take.
 struct Treads {
   double step_mps = 0;  ///< commanded speeds are rounded to multiples of it; 0: not at all
+  /// Treads slip: a robot goes, and turns, so much of what its treads are told. Drawn for the run
+  /// from N(way, way_sd) and N(turn, turn_sd), not below 0. What it senses of its own motion is
+  /// that of treads that do not slip.
+  double way = 1;
+  double way_sd = 0;
+  double turn = 1;
+  double turn_sd = 0;
 
   friend bool operator==(const Treads&, const Treads&) = default;
 };

@@ -20,6 +20,8 @@ struct FieldLimits {
 };
 
 inline constexpr FieldLimits kRate{0, 1};
+/// How far a robot goes of what it is told.
+inline constexpr FieldLimits kGrip{0, 2};
 /// Delays of commands and beats of devices are whole sub-steps of 10 ms, up to ten seconds.
 inline constexpr int kLongestDelay = 1000;
 /// Of the control period, as a factor on 0.1 s.
@@ -89,6 +91,13 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.later(profile.treads.step_mps == 0, [&] {
     visitor.number("step", profile.treads.step_mps, FieldLimits{0, kMaxWheelSpeed_mps});
   });
+  visitor.later(profile.treads.way == 1, [&] { visitor.number("way", profile.treads.way, kGrip); });
+  visitor.later(profile.treads.way_sd == 0,
+                [&] { visitor.number("way_sd", profile.treads.way_sd, kRate); });
+  visitor.later(profile.treads.turn == 1,
+                [&] { visitor.number("turn", profile.treads.turn, kGrip); });
+  visitor.later(profile.treads.turn_sd == 0,
+                [&] { visitor.number("turn_sd", profile.treads.turn_sd, kRate); });
 
   visitor.device("tracking");
   visitor.point("tag", profile.tracking.tag, FieldLimits{-1, 1});

@@ -35,6 +35,33 @@ void renew_treads(Command& to, const Command& from) {
   to.right_mps = from.right_mps;
 }
 
+/// How far a robot goes and turns of what its treads are told.
+struct Grip {
+  double way = 1;
+  double turn = 1;
+
+  /// The speeds of treads without slip that move it as these do.
+  Command of(const Command& command) const {
+    const double ahead_mps = way * (command.left_mps + command.right_mps) / 2;
+    const double turning_mps = turn * (command.right_mps - command.left_mps) / 2;
+    Command gripped;
+    gripped.left_mps = ahead_mps - turning_mps;
+    gripped.right_mps = ahead_mps + turning_mps;
+    return gripped;
+  }
+};
+
+bool slips(const Treads& treads) {
+  return treads.way != 1 || treads.turn != 1 || treads.way_sd > 0 || treads.turn_sd > 0;
+}
+
+Grip grip_of_run(const Treads& treads, const Rng& run, int robot) {
+  Rng way = run.split("way", static_cast<std::uint64_t>(robot));
+  Rng turn = run.split("turn", static_cast<std::uint64_t>(robot));
+  return {.way = std::max(0.0, way.normal(treads.way, treads.way_sd)),
+          .turn = std::max(0.0, turn.normal(treads.turn, treads.turn_sd))};
+}
+
 /// In place of a controller where a decider decides.
 const Controller& idle() {
   static const Controller kIdle = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
@@ -69,6 +96,7 @@ class Run {
         stops_more_(decider != nullptr || setup.profile.timing.driver_sub_steps > 0 ||
                     setup.profile.neighbours.every_sub_steps > 0),
         distorts_commands_(setup.profile.float32_wire || setup.profile.treads.step_mps > 0),
+        slips_(slips(setup.profile.treads)),
         arena_(arena_of(setup.mission, setup.instance)),
         world_(arena_, setup.mission.body, setup.instance.starts, setup.profile.contacts),
         scorer_(setup.mission.rule, arena_),
@@ -82,6 +110,7 @@ class Run {
                                                     setup.flavour, control_stream(setup.seed, i)),
                          .clock = RobotClock(setup.profile.timing, run, i)});
       next_events_.push_back(agents_.back().next_event());
+      if (slips_) grips_.push_back(grip_of_run(setup.profile.treads, run, i));
     }
   }
 
@@ -147,7 +176,7 @@ class Run {
       arrived = true;
     }
     // Also an old command is renewed: its direction follows the heading, cycle by cycle.
-    if (acts || arrived) world_.command(robot, agent.acting);
+    if (acts || arrived) drive(robot, agent.acting);
     next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
   }
 
@@ -252,8 +281,16 @@ class Run {
   /// The treads turn by the command that acts.
   void follow(int robot) {
     const Agent& agent = agents_[static_cast<std::size_t>(robot)];
-    world_.command(robot, agent.acting);
+    drive(robot, agent.acting);
     next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
+  }
+
+  void drive(int robot, const Command& acting) {
+    if (slips_) [[unlikely]] {
+      world_.command(robot, grips_[static_cast<std::size_t>(robot)].of(acting));
+    } else {
+      world_.command(robot, acting);
+    }
   }
 
   void ask(int robot, std::int64_t now) {
@@ -336,11 +373,13 @@ class Run {
   bool every_step_;   ///< the decider wants to look at each
   bool stops_more_;   ///< there is something to attend to
   bool distorts_commands_;
+  bool slips_;
   Arena arena_;
   World world_;
   Scorer scorer_;
   std::vector<Agent> agents_;
   std::vector<std::int64_t> next_events_;  ///< of the agents
+  std::vector<Grip> grips_;                ///< of the robots; empty where none slips
   std::vector<Point> positions_;
   std::vector<Point> object_positions_;
   std::vector<int> due_;  ///< robots, for a decider

@@ -30,6 +30,17 @@ constexpr std::string_view kTrackReportDetails =
     "\n"
     "Verdict and reasons, the run from above, how each robot was measured, cameras, floor tags,\n"
     "files. --json prints the same numbers as one object (docs/tracking.md lists its keys).";
+constexpr std::string_view kTrackProfileDetails =
+    "Examples:\n"
+    "  swarmsmith track profile r1 r2 r3 --store lab.db -o lab.toml\n"
+    "  swarmsmith track profile run07.toml --arena arena.toml -o lab.toml\n"
+    "\n"
+    "Latency, slip of the treads, missed neighbours and control periods, from the robots' logs "
+    "beside\n"
+    "the film, with 95 % intervals and the spread between robots. What the runs do not tell stays "
+    "as\n"
+    "in the base, and the file says why. INVALID runs are left out. Design with it:\n"
+    "[simulator] profile = \"lab.toml\".";
 constexpr std::string_view kPrintSurveyDetails =
     "Example:\n"
     "  swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf\n"
@@ -144,6 +155,8 @@ constexpr std::array kCommands = {
             kPrintSurveyDetails, declare_print_survey},
     Command{"report", "Write the quality report of a stored run, a page of HTML",
             kTrackReportDetails, declare_track_report},
+    Command{"profile", "Make a simulator profile of what scored runs tell of your robots",
+            kTrackProfileDetails, declare_track_profile},
     Command{"record", "Record a camera with the time of each frame",
             "A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any\n"
             "other word that OpenCV opens (`opencv:WORD`). FILE.times.csv, beside FILE.mkv, has "

@@ -23,6 +23,7 @@ Run declare_print_tags(Options& options);
 Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
 Run declare_track_report(Options& options);
+Run declare_track_profile(Options& options);
 Run declare_record(Options& options);
 Run declare_overlay(Options& options);
 Run declare_live(Options& options);

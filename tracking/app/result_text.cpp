@@ -9,6 +9,7 @@
 #include "console/output.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tracking/rig/calibration_limits.h"
+#include "tracking/robots/reality_text.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -25,6 +26,7 @@ struct RobotLine {
   std::optional<double> border_m;
   bool too_close = false;
   std::optional<Latency> latency;  ///< of robots with a log
+  std::optional<Reality> reality;  ///< likewise
 };
 
 struct Result {
@@ -62,6 +64,7 @@ Result result_of(const RunLog& log, const RunAnalysis& analysis) {
       line.too_close = scored.borders[i]->too_close;
     }
     if (i < scored.latencies.size()) line.latency = scored.latencies[i];
+    if (i < scored.reality.size()) line.reality = scored.reality[i];
     result.robots.push_back(line);
   }
   for (const Issue& issue : scored.issues)
@@ -88,6 +91,9 @@ std::string robot_text(const RobotLine& robot, std::size_t width) {
   text += "\n";
   if (robot.latency) {
     text += fmt::format("  {:<{}}  ", "", width) + latency_text(*robot.latency) + "\n";
+  }
+  if (robot.reality) {
+    text += fmt::format("  {:<{}}  ", "", width) + reality_text(*robot.reality) + "\n";
   }
   return text;
 }
@@ -192,7 +198,8 @@ void add_to(JsonObject& object, const Result& result) {
         .add("latency_s", latency.seconds)
         .add("latency_error_s", error_s)
         .add("latency_reason", latency.reason)
-        .add("agreement", latency.agreement);
+        .add("agreement", latency.agreement)
+        .add("reality", robot.reality ? std::optional(reality_json(*robot.reality)) : std::nullopt);
   };
   const auto issue_json = [](const std::pair<std::string, std::string>& issue) {
     return JsonObject().add("code", issue.first).add("text", issue.second);

@@ -123,6 +123,7 @@ OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
   if (!scored) return refused(scored.error());
   analysis.scored = std::move(*scored);
   analysis.scored.latencies = std::move(robots.latencies);
+  analysis.scored.reality = std::move(robots.reality);
   return analysis;
 }
 

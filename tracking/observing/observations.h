@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "robot/runtime/run_record.h"
 #include "tracking/geometry/tag_pose.h"
+#include "tracking/observing/neighbours_seen.h"
 #include "tracking/rig/issue.h"
 #include "tracking/rig/time_source.h"
 
@@ -61,6 +63,8 @@ struct RobotLog {
   std::string robot;  ///< as in the rig
   std::string file;
   RunRecord record;
+  /// Of a log from a store: what followed from the readings when they were at hand.
+  std::optional<NeighboursSeen> neighbours = {};
 };
 
 struct Observations {

@@ -8,6 +8,7 @@
 #include "analysis/report/html.h"
 #include "sim/control/reference_model.h"
 #include "tracking/report/internal/findings.h"
+#include "tracking/report/internal/reality_table.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/timeline.h"
 #include "tracking/robots/robot_logs.h"
@@ -217,6 +218,7 @@ void write_logs(HtmlPage& page, const ReportedRun& run) {
   if (logs.rows.empty()) return;
   page.heading(2, "Robots' logs");
   page.table(logs);
+  if (const HtmlTable table = reality_table(run); !table.rows.empty()) page.table(table);
 }
 
 void write_frames(HtmlPage& page, const ReportedRun& run) {

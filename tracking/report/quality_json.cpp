@@ -3,6 +3,7 @@
 #include "sim/control/reference_model.h"
 #include "tracking/report/internal/findings.h"
 #include "tracking/report/quality.h"
+#include "tracking/robots/reality_text.h"
 #include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
@@ -130,6 +131,11 @@ Json latency_json(const ReportedRun& run, std::size_t robot) {
           {"reason", latency.reason}};
 }
 
+Json reality_of(const ReportedRun& run, std::size_t robot) {
+  if (robot >= run.scored.reality.size() || !run.scored.reality[robot]) return nullptr;
+  return Json::parse(reality_json(*run.scored.reality[robot]).text());
+}
+
 Json robot_json(const ReportedRun& run, std::size_t number) {
   const TrackedRobot& robot = run.tracked.robots[number];
   const CycleCounts cycles = cycle_counts(robot);
@@ -157,7 +163,8 @@ Json robot_json(const ReportedRun& run, std::size_t number) {
           {"offset", offset_json(run, number)},
           {"border", border_json(run, number)},
           {"log", log_json(run, number)},
-          {"latency", latency_json(run, number)}};
+          {"latency", latency_json(run, number)},
+          {"reality", reality_of(run, number)}};
 }
 
 Json issues_json(const ReportedRun& run) {

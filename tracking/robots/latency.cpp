@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "tracking/robots/intervals.h"
 
 namespace swarmsmith {
 namespace {
@@ -28,8 +29,6 @@ constexpr std::array kTurnLimits{3.0, 6.0, 12.0, 25.0, 50.0, 100.0, 250.0, 1e5};
 
 /// A command holds that long where no other follows.
 constexpr double kPeriod_s = 0.1;
-/// Samples of one camera further apart say nothing of when something happened between them.
-constexpr double kLongestGap_s = 0.25;
 constexpr double kBlock_s = 2;
 constexpr std::size_t kLeastIntervals = 50;
 constexpr double kLargestError_s = 0.02;
@@ -40,34 +39,6 @@ constexpr double kLeastTurn_rad = 0.5;
 constexpr double kTreadDistance_m = 0.147;
 /// Sums of squares of a motion without noise are not less.
 constexpr double kLeastSquares = 1e-12;
-
-/// What the camera saw between two of its frames.
-struct Interval {
-  double from_s = 0;
-  double to_s = 0;
-  double ahead_m = 0;  ///< along the heading in the middle
-  double aside_m = 0;
-  double turn_rad = 0;
-};
-
-std::vector<Interval> intervals_of(std::span<const Sample> seen, double until_s) {
-  std::vector<Interval> intervals;
-  std::map<int, const Sample*> last;
-  for (const Sample& sample : seen) {
-    if (sample.use != Sample::Use::Used || sample.time_s > until_s) continue;
-    const Sample* before = std::exchange(last[sample.camera], &sample);
-    if (before == nullptr) continue;
-    const double gap_s = sample.time_s - before->time_s;
-    if (gap_s <= 0 || gap_s > kLongestGap_s) continue;
-    const double turn = wrap_angle(sample.pose.theta - before->pose.theta);
-    const SinCos heading = sin_cos(before->pose.theta + turn / 2);
-    const double x = sample.pose.x - before->pose.x;
-    const double y = sample.pose.y - before->pose.y;
-    intervals.push_back({before->time_s, sample.time_s, x * heading.cos + y * heading.sin,
-                         y * heading.cos - x * heading.sin, turn});
-  }
-  return intervals;
-}
 
 /// What treads do that follow their commands with a limited acceleration: how far they came until a
 /// time. `values` are the commanded speeds; before the first one the treads stand.
@@ -135,11 +106,11 @@ struct Fit {
 /// What the camera saw, of one kind: the ways ahead and aside, or the turns.
 class Seen {
  public:
-  Seen(const std::vector<Interval>& intervals, bool is_turn)
+  Seen(const std::vector<SeenInterval>& intervals, bool is_turn)
       : intervals_(intervals), is_turn_(is_turn) {}
 
   std::array<double, 2> of(std::size_t i) const {
-    const Interval& seen = intervals_[i];
+    const SeenInterval& seen = intervals_[i];
     if (is_turn_) return {seen.turn_rad, 0};
     return {seen.ahead_m, seen.aside_m};
   }
@@ -175,7 +146,7 @@ class Seen {
   double surprise(const Fit& fit) const { return count() / 2 * std::log(fit.left / count()); }
 
  private:
-  const std::vector<Interval>& intervals_;
+  const std::vector<SeenInterval>& intervals_;
   bool is_turn_;
 };
 
@@ -264,7 +235,7 @@ class Followed {
 
 /// Adds to each block of time what one kind of motion makes of a shift: the surprise with gain,
 /// variance and acceleration of the best one.
-void add_blocks(const Followed& motion, const std::vector<Interval>& intervals, double shift_s,
+void add_blocks(const Followed& motion, const std::vector<SeenInterval>& intervals, double shift_s,
                 double by_s, std::map<std::int64_t, double>& blocks) {
   const Response response = motion.response_of(motion.best_limit(shift_s));
   const Fit best = motion.seen().fit(response, shift_s);
@@ -282,7 +253,7 @@ void add_blocks(const Followed& motion, const std::vector<Interval>& intervals, 
 /// The sum over blocks of their squared slopes, divided by the squared curvature: the variance when
 /// the errors of a block belong together. At least that of errors that do not.
 double sandwich_variance(const Followed& way, const Followed& turn,
-                         const std::vector<Interval>& intervals, double shift_s) {
+                         const std::vector<SeenInterval>& intervals, double shift_s) {
   using Blocks = std::map<std::int64_t, double>;
   std::array<Blocks, 3> at;
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -372,7 +343,7 @@ Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
 
 Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sample> seen) {
   if (commands.empty()) return not_told("its log has no commands");
-  const std::vector<Interval> intervals =
+  const std::vector<SeenInterval> intervals =
       intervals_of(seen, commands.back().time_s + kPeriod_s + kLeast_s);
   if (intervals.size() < kLeastIntervals) {
     return not_told(fmt::format(

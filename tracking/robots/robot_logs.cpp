@@ -26,17 +26,23 @@ struct Known {
 
 class Judge {
  public:
-  Judge(const RunLog& run, RobotFindings& findings) : run_(run), findings_(findings) {}
+  Judge(const RunLog& run, const TrackedRun& tracked, RobotFindings& findings)
+      : run_(run), tracked_(tracked), findings_(findings) {}
 
   void judge(const Known& known) {
     judge_node(known);
     if (known.log == nullptr) {
       findings_.latencies.emplace_back(std::nullopt);
+      findings_.reality.emplace_back(std::nullopt);
       return;
     }
     judge_length(known);
     judge_clock(known);
-    findings_.latencies.emplace_back(judge_motion(known));
+    const Latency latency = judge_motion(known);
+    const auto number = static_cast<std::size_t>(&known.robot - tracked_.robots.data());
+    findings_.latencies.emplace_back(latency);
+    findings_.reality.emplace_back(
+        reality_of({tracked_, run_.mission, number, *known.log}, latency));
   }
 
   /// Once all robots were judged: all of them see the same film.
@@ -144,13 +150,8 @@ class Judge {
   }
 
   Latency judge_motion(const Known& known) {
-    const RunRecord& record = known.log->record;
-    // Robots begin when their own clock says so.
-    const double begin_s = record.head.start_clock_s + record.head.clock_offset_s.value_or(0);
-    std::vector<TimedCommand> commands;
-    for (const LogRow& row : record.rows)
-      commands.push_back({row.clock_s - begin_s, row.command.left_mps, row.command.right_mps});
-    Latency latency = latency_of(commands, known.robot.samples);
+    std::vector<TimedCommand> commands = commands_of(known.log->record);
+    const Latency latency = latency_of(commands, known.robot.samples);
     told_.push_back({std::move(commands), known.robot.samples});
     const bool is_unlike = latency.agreement && *latency.agreement < kLeastAgreement;
     if (is_unlike) {
@@ -167,6 +168,7 @@ class Judge {
   }
 
   const RunLog& run_;
+  const TrackedRun& tracked_;
   RobotFindings& findings_;
   std::vector<ToldAndSeen> told_;
 };
@@ -219,7 +221,7 @@ std::optional<Issue> other_machine(const RobotLog& log, const RobotLog& first) {
 RobotFindings judge_robots(const TrackedRun& run, const std::vector<RobotLog>& logs,
                            const RunLog& log) {
   RobotFindings findings;
-  Judge judge(log, findings);
+  Judge judge(log, run, findings);
   for (const TrackedRobot& robot : run.robots) {
     const auto own = std::ranges::find(logs, robot.name, &RobotLog::robot);
     const auto note = std::ranges::find(log.notes, robot.name, &RobotNote::robot);

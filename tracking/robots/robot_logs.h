@@ -8,6 +8,7 @@
 #include "tracking/observing/observations.h"
 #include "tracking/rig/run_log.h"
 #include "tracking/robots/latency.h"
+#include "tracking/robots/reality.h"
 
 namespace swarmsmith {
 
@@ -37,6 +38,7 @@ inline constexpr double kInvalidShare = 0.05;
 /// What follows from the robots' logs and from what `start` noted of their nodes.
 struct RobotFindings {
   std::vector<std::optional<Latency>> latencies;  ///< as the tracked robots; none without a log
+  std::vector<std::optional<Reality>> reality;    ///< likewise
   std::vector<Issue> issues;
   std::vector<Check> checks;
   bool logs_confirm_clock = false;  ///< the film plays as fast as the robots' logs say

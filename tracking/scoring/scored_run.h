@@ -8,6 +8,7 @@
 #include "tracking/motion/tracked_run.h"
 #include "tracking/rig/issue.h"
 #include "tracking/robots/latency.h"
+#include "tracking/robots/reality.h"
 
 namespace swarmsmith {
 
@@ -28,6 +29,8 @@ struct ScoredRun {
   std::vector<std::optional<BorderDistance>> borders;  ///< a robot; for scores of the last instant
   /// Of each robot's motion behind its commands; none where it has no log. Empty: nobody looked.
   std::vector<std::optional<Latency>> latencies;
+  /// What each robot's log and the camera tell of the world as it is; as `latencies`.
+  std::vector<std::optional<Reality>> reality;
   std::vector<Issue> issues;  ///< all: of files, times, tracking, scoring
   std::vector<Check> checks;  ///< the same: all that was asked, and what could not be
 };

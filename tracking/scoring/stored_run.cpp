@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "robot/log/log_text.h"
+#include "tracking/robots/reality_text.h"
 #include "tracking/scoring/real_run_rows.h"
 
 namespace swarmsmith {
@@ -77,6 +78,7 @@ OrComplaints<std::vector<RobotLog>> logs_of(const RealRunRows& rows) {
     auto head = parse_log_head(row.head, row.file);
     if (!head) return tl::unexpected(std::move(head.error()));
     RobotLog log{robot_of(rows, row.robot), row.file, {std::move(*head), {}}};
+    log.neighbours = neighbours_in_report(rows.score.report, log.robot);
     for (const RealLogCycleRow& cycle : rows.log_cycles) {
       if (cycle.robot != row.robot) continue;
       LogRow& kept = log.record.rows.emplace_back();

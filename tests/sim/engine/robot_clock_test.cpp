@@ -211,6 +211,74 @@ TEST(Treads, StepsNeverLeadBeyondTheWheelsRange) {
             (std::set<double>{-1.55, 1.55}));
 }
 
+/// Where one robot ends up that follows steady commands from the middle of the arena for 2 s.
+Pose driven(const Treads& treads, double left_mps, double right_mps, int robot_seed = 1) {
+  class Steady final : public Decider {
+   public:
+    Steady(double left_mps, double right_mps) {
+      answer_.command.left_mps = left_mps;
+      answer_.command.right_mps = right_mps;
+    }
+    void ask(const Question&) override {}
+    std::optional<Answer> answer(int) override { return answer_; }
+
+   private:
+    Answer answer_;
+  };
+  ReferenceRuns runs("aggregation");
+  Mission mission = runs.mission;
+  mission.cycles = 20;
+  Instance instance = runs.instances[0];
+  instance.starts = {{0, 0, 0}};
+  runs.profile.treads = treads;
+  const Controller machine = machine_of("--nstates 1 --s0 1");
+  Steady decider(left_mps, right_mps);
+  Pose last;
+  simulate({machine, *runs.flavour, runs.profile, mission, instance, robot_seed},
+           Recorder([&](const Snapshot& now) { last = now.robots[0].pose; }), &decider);
+  return last;
+}
+
+TEST(Treads, ThatSlipGoAndTurnSoMuchOfWhatTheyAreTold) {
+  // As a robot without slip that is told less: to the bit where the products are exact.
+  EXPECT_EQ(driven({.way = 0.5}, 0.25, 0.25), driven({}, 0.125, 0.125));
+  EXPECT_EQ(driven({.turn = 0.5}, -0.0625, 0.0625), driven({}, -0.03125, 0.03125));
+  EXPECT_EQ(driven({.way = 0.5}, -0.0625, 0.0625), driven({}, -0.0625, 0.0625));
+  EXPECT_EQ(driven({.turn = 0.5}, 0.25, 0.25), driven({}, 0.25, 0.25));
+  const Pose curve = driven({.way = 0.75, .turn = 0.5}, 0.125, 0.25);
+  const Pose told = driven({}, 0.75 * 0.1875 - 0.5 * 0.0625, 0.75 * 0.1875 + 0.5 * 0.0625);
+  EXPECT_NEAR(curve.x, told.x, 1e-12);
+  EXPECT_NEAR(curve.theta, told.theta, 1e-12);
+}
+
+TEST(Treads, SlipIsDrawnForEachRobotAndRun) {
+  std::vector<double> ways;
+  for (int seed = 1; seed <= 200; ++seed)
+    ways.push_back(driven({.way = 0.9, .way_sd = 0.05}, 0.3, 0.3, seed).x);
+  // It comes to its speed at 0.75 m/s^2 from 0.1 s on.
+  const auto way_of = [](double mps) { return mps * (1.9 - mps / 0.75 / 2); };
+  double sum = 0;
+  double squares = 0;
+  for (const double way : ways) {
+    sum += way;
+    squares += way * way;
+  }
+  const double mean = sum / 200;
+  const double unit = way_of(0.3 * 1.0) - way_of(0.3 * 0.9);
+  EXPECT_NEAR(mean, way_of(0.27), 3 * 0.5 * unit / std::sqrt(200.0) + 0.002);
+  EXPECT_NEAR(std::sqrt(squares / 200 - mean * mean), 0.5 * unit, 0.1 * unit);
+}
+
+TEST(Treads, WithoutSlipNoBitChanges) {
+  ReferenceRuns runs("aggregation");
+  const Machine explores = machine_of("--nstates 1 --s0 0 --rwm0 5");
+  const auto before = runs.run(explores, 3, 0);
+  runs.profile.treads = {.step_mps = 0, .way = 1, .way_sd = 0, .turn = 1, .turn_sd = 0};
+  EXPECT_EQ(runs.run(explores, 3, 0).state_digest, before.state_digest);
+  runs.profile.treads.turn = 0.9;
+  EXPECT_NE(runs.run(explores, 3, 0).state_digest, before.state_digest);
+}
+
 TEST(TrackedPoint, AScoreCanSeeTheTagInsteadOfTheCentre) {
   ReferenceRuns runs("aggregation");
   runs.mission.robots = 1;

@@ -99,6 +99,8 @@ void write_robot_log(const RecordedRun& run, std::size_t robot, const std::strin
     row.state = decided.state;
     row.command = decided.command;
     row.age_ms[0] = 12.5;
+    row.sensed.neighbours = run.neighbours[robot][i];
+    row.age_ms[index_of(Feed::Neighbours)] = 0;
     rows += log_line(row);
   }
   write_text(files.rows, rows);

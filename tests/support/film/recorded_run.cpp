@@ -96,16 +96,20 @@ Expected<RecordedRun> record_run(const RunWish& wish, const std::string& designs
   const auto robots = static_cast<std::size_t>(run.mission.robots);
   run.poses.resize(robots);
   run.decided.resize(robots);
+  run.neighbours.resize(robots);
   run.trajectory.robots = run.mission.robots;
-  const Recorder recorder([&](const Snapshot& now) {
-    for (std::size_t i = 0; i < robots; ++i) {
-      run.poses[i].push_back(now.robots[i].pose);
-      if (now.cycle >= 1 && now.cycle <= run.mission.cycles)
-        run.decided[i].push_back(now.robots[i]);
-      if (now.cycle >= 1 && now.cycle <= run.mission.cycles)
-        run.trajectory.poses.push_back(now.robots[i].pose);
-    }
-  });
+  const Recorder recorder(
+      [&](const Snapshot& now) {
+        for (std::size_t i = 0; i < robots; ++i) {
+          run.poses[i].push_back(now.robots[i].pose);
+          if (now.cycle < 1 || now.cycle > run.mission.cycles) continue;
+          run.decided[i].push_back(now.robots[i]);
+          run.decided[i].back().readings = nullptr;  // good for now alone
+          run.neighbours[i].push_back(now.robots[i].readings->neighbours);
+          run.trajectory.poses.push_back(now.robots[i].pose);
+        }
+      },
+      Sensors(Sensor::Neighbours));
   simulate({*machine, **flavour, *profile, longer, run.instance, wish.seed}, recorder);
   run.score = score_of(run.mission, run.instance, run.trajectory);
   return run;

@@ -27,6 +27,8 @@ struct RecordedRun {
   std::optional<double> latency_s;  ///< from command to treads; none when it varies
   /// A robot's commands and states, decided at cycle 1, 2, ...; none of a recorded run.
   std::vector<std::vector<RobotRecord>> decided;
+  /// The neighbours that they saw in those cycles.
+  std::vector<std::vector<std::vector<Neighbour>>> neighbours;
 };
 
 struct RunWish {

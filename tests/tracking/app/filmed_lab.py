@@ -70,12 +70,12 @@ class FilmedLab:
     def close(self):
         self.temporary.cleanup()
 
-    def film(self, name, *wishes, mission="aggregation", seconds=3, seed=3):
+    def film(self, name, *wishes, mission="aggregation", machine="tA1", seconds=3, seed=3):
         """The path of the run log of a clip."""
         log = self.folder / "runs" / f"{name}.toml"
         if not log.exists():
             must(FILM, "run", self.folder / "runs" / name, "--lab", self.lab, "--mission", mission,
-                 "--machine", "tA1", "--seed", seed, "--seconds", seconds, *wishes)
+                 "--machine", machine, "--seed", seed, "--seconds", seconds, *wishes)
         return log
 
     def copy_of_lab(self, name, **changes):

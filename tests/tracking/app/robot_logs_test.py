@@ -3,9 +3,10 @@ import json
 import re
 import shutil
 import sqlite3
+import tomllib
 import unittest
 
-from filmed_lab import TRACK, FilmedLab, call
+from filmed_lab import TRACK, FilmedLab, call, must
 
 LAB = None
 LATENCY_S = 0.12
@@ -101,10 +102,39 @@ class RobotLogs(unittest.TestCase):
         self.assertEqual([robot["latency"]["seconds"] for robot in report["robots"]],
                          [robot["latency_s"] for robot in result["robots"]])
         self.assertEqual(report["robots"][0]["log"]["stepped"], 120)
+        # What the store does not keep, the readings, was counted while they were there.
+        neighbours = [robot["reality"]["neighbours"] for robot in report["robots"]]
+        self.assertEqual(neighbours, [robot["reality"]["neighbours"] for robot in result["robots"]])
+        self.assertTrue(all(robot["there"] == robot["seen"] for robot in neighbours), neighbours)
+        self.check_profile()
         text = call(TRACK, "rescore", "r1", "--store", self.store).stdout
         self.assertRegex(text, r"latency \d+ ms \+- \d+\.\d ms: its motion behind its commands")
         page = call(TRACK, "report", "r1", "--store", self.store, "-o", "-").stdout
         self.assertIn("What the robots wrote down themselves", page)
+
+    def check_profile(self):
+        """A profile of this run: its latency, and the base's values for what 12 s do not tell."""
+        lab = self.folder / "lab.toml"
+        made = self.track("profile", "r1", "--store", self.store, "-o", lab)
+        self.assertEqual(made["profile"], lab.read_text())
+        told = tomllib.loads(lab.read_text())
+        self.assertEqual(told["base"], "rvr")
+        mean_s = sum(float(delay["time"].removesuffix(" ms")) * delay["probability"]
+                     for delay in told["timing"]["delays"]) / 1000
+        self.assertLess(abs(mean_s - LATENCY_S), 0.02)
+        unknown = [figure["name"] for figure in made["figures"] if figure["mean"] is None]
+        for name in unknown:
+            self.assertIn(f"# {name}: left as in `rvr`", lab.read_text())
+        for words, said in ((("r1", "-o", lab), "is there already"),
+                            (("r1", "-o", self.folder / "rvr.toml"), "is built in"),
+                            (("r7",), "r7"), (("r1", "--base", "mars"), "mars")):
+            done = call(TRACK, "profile", *words, "--store", self.store)
+            self.assertNotEqual(done.returncode, 0, done.stdout)
+            self.assertIn(said, done.stderr)
+        must(TRACK, "override", "r1", "--store", self.store, "--verdict", "invalid", "--who", "A", "--reason", "seen")
+        done = call(TRACK, "profile", "r1", "--store", self.store)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("r1 run is INVALID", done.stderr)
 
     def test_verdicts_of_nodes_enter_that_of_the_run(self):
         self.change("run.rvr1.toml", r'verdict = "VALID"\nreasons = \[\]',

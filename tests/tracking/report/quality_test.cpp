@@ -6,6 +6,7 @@
 
 #include "tests/support/xml_check.h"
 #include "tests/tracking/report/reported_run.h"
+#include "tracking/robots/reality_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -71,6 +72,35 @@ TEST(QualityTest, SaysWhatRobotsWroteDownAndHowLateTheyMoved) {
   for (const char* said : {"62 +- 0.5", "cannot be told: its commands did not move it", "1.5, 2.5",
                            "-3.5", "none: it was killed", "SCHED_FIFO 20"})
     EXPECT_THAT(page, HasSubstr(said));
+}
+
+TEST(QualityTest, TellsWhatLogsAndFilmSayOfTheRobotsWorld) {
+  MadeUpRun run;
+  EXPECT_THAT(quality_html(run.reported()), Not(HasSubstr("Way of that told")));
+  Reality reality;
+  reality.slip.way = {.gain = 0.875, .error = 0.0125, .seconds = 40, .reason = ""};
+  reality.slip.turn.reason = "it would be known to 9.0 %, and 5 % are allowed";
+  reality.neighbours = {.there = 400, .seen = 300, .phantoms = 2, .error = 0.03, .reason = ""};
+  reality.period_s = 0.1;
+  reality.states_s = {{0, 42.5}, {1, 17.5}};
+  run.scored.reality = {reality, std::nullopt, std::nullopt};
+  const std::string page = quality_html(run.reported());
+  EXPECT_EQ(xml_trouble(page), "");
+  for (const char* said : {"Way of that told", "87.5 +- 1.2", "25.0 +- 3.0 of 400",
+                           "9.0 %, and 5 %", "0: 42.5, 1: 17.5"})
+    EXPECT_THAT(page, HasSubstr(said));
+  const Json report = Json::parse(quality_json(run.reported()));
+  EXPECT_TRUE(report["robots"][1]["reality"].is_null());
+  const Json& told = report["robots"][0]["reality"];
+  EXPECT_EQ(told["way"]["gain"], 0.875);
+  EXPECT_TRUE(told["turn"]["gain"].is_null());
+  EXPECT_EQ(told["neighbours"]["miss_rate"], 0.25);
+  EXPECT_EQ(told["states"][1]["seconds"], 17.5);
+  // A store keeps no readings: what followed from them comes from the report.
+  const std::string first = report["robots"][0]["robot"];
+  EXPECT_EQ(neighbours_in_report(report.dump(), first), reality.neighbours);
+  for (const std::string& other : {std::string("{}"), std::string("no json"), std::string()})
+    EXPECT_THAT(neighbours_in_report(other, first).reason, HasSubstr("`rescore` it with --run"));
 }
 
 TEST(QualityTest, ARunWithoutLogsSpeaksOfNone) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/engine/profile.h"
+#include "tracking/profile/lab_profile.h"
+
+namespace swarmsmith {
+
+/// A laboratory of which the truth is known: the simulator with a profile, and a camera that sees
+/// its robots ten times a second with the noise of a good one.
+struct VirtualLab {
+  Profile truth;
+  /// Explores, and turns where something is ahead.
+  std::string machine = "--nstates 1 --s0 0 --rwm0 30";
+  std::string mission = "aggregation";
+  double noise_m = 0.0005;
+  double noise_rad = 0.003;
+  double heading_off_rad = 0;
+  bool tells_latency = true;  ///< it takes most of the time; all else can do without
+
+  /// A run's robots, measured.
+  std::vector<MeasuredRobot> run(std::int64_t seed) const;
+  /// Those of several runs.
+  std::vector<MeasuredRobot> runs(int count, std::int64_t first_seed = 1) const;
+};
+
+/// `rvr`, to be changed.
+Profile rvr_profile();
+
+}  // namespace swarmsmith

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "base/id.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
+#include "sim/files/profile_file.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/run_analysis.h"
+#include "tracking/app/run_checks.h"
+#include "tracking/app/run_plan.h"
+#include "tracking/app/run_store.h"
+#include "tracking/app/score_arguments.h"
+#include "tracking/app/watch_run.h"
+#include "tracking/profile/lab_profile.h"
+#include "tracking/scoring/real_run_rows.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct ProfileArguments {
+  std::vector<std::string> runs;
+  std::string store;
+  std::string arena;
+  std::string base = "rvr";
+  std::string file;
+};
+
+/// The runs that were used, and why others were not.
+struct Collected {
+  std::vector<MeasuredRobot> robots;
+  std::vector<std::string> left_out;
+};
+
+/// A run as it is known now.
+struct KnownRun {
+  std::string name;
+  std::string verdict;
+  RunAnalysis analysis;
+};
+
+bool is_of_store(const std::string& word) {
+  return id_from_text<RealRunTag>(word).has_value();
+}
+
+/// What counts: a person's word above that of the program.
+OrRefusal<std::string> verdict_that_counts(StoreReader& store, const std::string& run,
+                                           std::string measured) {
+  const auto end = store.query(
+      "SELECT verdict FROM v_real_overrides WHERE id = " + sql_text(run) + " ORDER BY number", {},
+      [](const std::vector<std::string>&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) { measured = cells[0].text; });
+  if (!end) return refused(ExitCode::Store, end.error());
+  return measured;
+}
+
+/// All is done again from the stored sightings and logs.
+OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::string& word) {
+  const std::string name = store_word(arguments.store);
+  if (name.empty()) {
+    return refused(ExitCode::Usage, {ErrorKind::BadInput,
+                                     "no store given for run " + word +
+                                         "; name its file with --store, or set "
+                                         "SWARMSMITH_STORE",
+                                     ""});
+  }
+  const auto store = read_store(name);
+  if (!store) return tl::unexpected(store.error());
+  const auto rows = find_run(**store, word);
+  if (!rows) return tl::unexpected(rows.error());
+  auto stored = stored_run(*rows);
+  if (!stored) return refused(std::move(stored.error()));
+  if (auto errors = settle_names(stored->log, stored->rig); !errors.empty())
+    return refused(std::move(errors));
+  auto analysis = analyse(stored->observations, rig_of_run(stored->rig, stored->log), stored->rig,
+                          stored->log, rows->score.biased);
+  if (!analysis) return tl::unexpected(std::move(analysis.error()));
+  auto verdict = verdict_that_counts(**store, word, std::string(name_of(analysis->scored.verdict)));
+  if (!verdict) return tl::unexpected(std::move(verdict.error()));
+  return KnownRun{word + " " + rows->name, std::move(*verdict), std::move(*analysis)};
+}
+
+/// A run log: its film is watched, as `track score` does.
+OrRefusal<KnownRun> run_of_log(const ProfileArguments& arguments, const std::string& word,
+                               Output& output) {
+  ScoreArguments score;
+  score.run = word;
+  score.arena = arguments.arena;
+  auto plan = plan_run(score);
+  if (!plan) return tl::unexpected(std::move(plan.error()));
+  const auto observations = watch_run(*plan, output);
+  if (!observations) return tl::unexpected(observations.error());
+  auto analysis =
+      analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
+  if (!analysis) return tl::unexpected(std::move(analysis.error()));
+  std::string verdict(name_of(analysis->scored.verdict));
+  return KnownRun{plan->log.name, std::move(verdict), std::move(*analysis)};
+}
+
+void add_run(const KnownRun& run, Collected& collected) {
+  if (run.verdict == name_of(Verdict::Invalid)) {
+    collected.left_out.push_back(run.name + " is INVALID");
+    return;
+  }
+  bool has_log = false;
+  for (std::size_t i = 0; i < run.analysis.scored.reality.size(); ++i) {
+    const auto& reality = run.analysis.scored.reality[i];
+    if (!reality) continue;
+    has_log = true;
+    collected.robots.push_back({run.name, run.analysis.tracked.robots[i].name, *reality});
+  }
+  if (!has_log) collected.left_out.push_back(run.name + " has no robot's log");
+}
+
+void print_figures(const LabProfile& profile, const Collected& collected, Output& output) {
+  const auto factor = [](const LabFigure& figure) { return figure.unit == "ms" ? 1000.0 : 100.0; };
+  if (output.json) {
+    output.out << JsonObject()
+                      .add("figures",
+                           json_list(profile.figures,
+                                     [](const LabFigure& figure) {
+                                       const auto of = [&](double Pooled::*part) {
+                                         return figure.value ? std::optional((*figure.value).*part)
+                                                             : std::nullopt;
+                                       };
+                                       return JsonObject()
+                                           .add("name", figure.name)
+                                           .add("mean", of(&Pooled::mean))
+                                           .add("low", of(&Pooled::low))
+                                           .add("high", of(&Pooled::high))
+                                           .add("spread", of(&Pooled::spread))
+                                           .add("robots_in_runs",
+                                                figure.value ? figure.value->count : 0)
+                                           .add("reason", figure.reason);
+                                     }))
+                      .add("left_out", collected.left_out)
+                      .add("profile", profile.text)
+                      .text()
+               << "\n";
+    return;
+  }
+  for (const std::string& run : collected.left_out)
+    output.out << "left out: " << run << "\n";
+  for (const LabFigure& figure : profile.figures) {
+    if (!figure.value) {
+      output.out << figure.name << ": unknown, " << figure.reason << "\n";
+      continue;
+    }
+    const double scale = factor(figure);
+    output.out << fmt::format(
+        "{}: {:.1f} {} [{:.1f}, {:.1f}], spread {:.1f} {}, {} robots in runs\n", figure.name,
+        scale * figure.value->mean, figure.unit, scale * figure.value->low,
+        scale * figure.value->high, scale * figure.value->spread, figure.unit, figure.value->count);
+  }
+}
+
+ExitCode write(const ProfileArguments& arguments, const LabProfile& profile,
+               const Collected& collected, Output& output) {
+  if (!arguments.file.empty() && arguments.file != "-") {
+    if (const auto written = write_whole_file(arguments.file, profile.text); !written)
+      return fail(output, ExitCode::Failed, written.error());
+  }
+  if (arguments.file == "-" && !output.json) {
+    output.out << profile.text;
+    return ExitCode::Done;
+  }
+  print_figures(profile, collected, output);
+  if (!arguments.file.empty()) {
+    print_note(output, arguments.file +
+                           " can be named in a campaign file: [simulator] profile = \"" +
+                           arguments.file + "\"");
+  }
+  return ExitCode::Done;
+}
+
+/// A file that is there stays; one that no campaign could name is not written.
+std::optional<Error> flaw_of(const std::string& file) {
+  if (file.empty() || file == "-") return std::nullopt;
+  const std::string name = std::filesystem::path(file).stem().string();
+  if (!file.ends_with(".toml"))
+    return Error{ErrorKind::BadInput, "a profile's file ends in .toml", file};
+  if (built_in_profile(name)) {
+    return Error{ErrorKind::BadInput,
+                 "a profile has its file's name, and `" + name +
+                     "` is built in with other values; give the file another name",
+                 file};
+  }
+  if (std::error_code none; std::filesystem::exists(file, none))
+    return Error{ErrorKind::BadInput, "is there already; name another file", file};
+  return std::nullopt;
+}
+
+ExitCode run(const ProfileArguments& arguments, Output& output) {
+  if (const auto flaw = flaw_of(arguments.file)) return fail(output, ExitCode::Usage, *flaw);
+  Collected collected;
+  for (const std::string& word : arguments.runs) {
+    const auto known =
+        is_of_store(word) ? run_of_store(arguments, word) : run_of_log(arguments, word, output);
+    if (!known) return fail(output, known.error());
+    add_run(*known, collected);
+  }
+  const LabProfile profile = lab_profile(
+      {.robots = collected.robots, .base = arguments.base, .program = track_program_name()});
+  if (!profile.is_measured()) {
+    std::string why = "these runs tell nothing that a profile needs";
+    for (const std::string& run : collected.left_out)
+      why += "; " + run;
+    for (const LabFigure& figure : profile.figures) {
+      if (!collected.robots.empty() && !figure.value)
+        why += "; " + figure.name + ": " + figure.reason;
+    }
+    return fail(output, ExitCode::Failed, Error{ErrorKind::BadInput, why, ""});
+  }
+  const std::string name =
+      arguments.file.empty() || arguments.file == "-" ? "lab.toml" : arguments.file;
+  if (const auto read = parse_profile(profile.text, name); !read)
+    return fail_all(output, read.error());
+  return write(arguments, profile, collected, output);
+}
+
+}  // namespace
+
+Run declare_track_profile(Options& options) {
+  auto arguments = std::make_shared<ProfileArguments>();
+  options.words("RUN", arguments->runs, "Runs of the store (r7), or run logs (run07.toml)",
+                Options::Need::Required);
+  options.text("-o,--output FILE", arguments->file,
+               "Profile to write; never overwritten (- prints it)");
+  options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
+  options.text("--arena FILE", arguments->arena, "Arena file of the run logs");
+  options.choice("--base", arguments->base, profile_names(),
+                 "The built-in profile that holds for all else");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

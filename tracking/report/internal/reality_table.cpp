@@ -1,0 +1,50 @@
+#include "tracking/report/internal/reality_table.h"
+
+#include <fmt/format.h>
+
+namespace swarmsmith {
+namespace {
+
+std::string gain_text(const Gain& gain) {
+  if (!gain.gain) return "cannot be told: " + gain.reason;
+  return fmt::format("{:.1f} +- {:.1f}", 100 * *gain.gain, 100 * gain.error);
+}
+
+std::string neighbours_text(const NeighboursSeen& seen) {
+  if (!seen.is_told()) return "cannot be told: " + seen.reason;
+  return fmt::format("{:.1f} +- {:.1f} of {}", 100 * seen.miss_rate(), 100 * seen.error,
+                     seen.there);
+}
+
+std::string states_text(const Reality& reality) {
+  std::string text;
+  for (const auto& [state, seconds] : reality.states_s)
+    text += fmt::format("{}{}: {:.1f}", text.empty() ? "" : ", ", state, seconds);
+  return text;
+}
+
+}  // namespace
+
+HtmlTable reality_table(const ReportedRun& run) {
+  HtmlTable table{.caption =
+                      "What logs and film together tell of the robots' world: how far treads took "
+                      "the robots of what they were told, and how many of the robots that were in "
+                      "reach a robot did not know of. `swarmsmith track profile` makes a "
+                      "simulator's profile of it.",
+                  .columns = {{"Robot"},
+                              {"Way of that told (%)"},
+                              {"Turn of that told (%)"},
+                              {"Neighbours missed (%)"},
+                              {"Seconds by state"}},
+                  .rows = {}};
+  for (std::size_t i = 0; i < run.scored.reality.size(); ++i) {
+    if (!run.scored.reality[i]) continue;
+    const Reality& reality = *run.scored.reality[i];
+    table.rows.push_back({run.tracked.robots[i].name, gain_text(reality.slip.way),
+                          gain_text(reality.slip.turn), neighbours_text(reality.neighbours),
+                          states_text(reality)});
+  }
+  return table;
+}
+
+}  // namespace swarmsmith

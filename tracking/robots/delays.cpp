@@ -1,0 +1,122 @@
+#include "tracking/robots/delays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "base/math.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kTreadDistance_m = 0.147;
+/// Of the simulator: the RVR's drive, 1.5 Nm on 0.0273 kg m^2, and half of its step.
+constexpr double kSpinRate_radps2 = 55.0;
+constexpr double kHalfStep_s = 0.005;
+/// Changes of the turning that are seen well, and speeds that are the same.
+constexpr double kLeastChange_radps = 1.5;
+constexpr double kSame_radps = 0.1;
+/// Commands are steady so long before and after, and by the latency longer.
+constexpr double kBefore_s = 0.4;
+constexpr double kAfter_s = 0.6;
+constexpr double kLongestGap_s = 0.25;
+
+constexpr double kStep_s = 0.01;
+constexpr double kLeastProbability = 0.01;
+
+double spin_of(const TimedCommand& command) {
+  return (command.right_mps - command.left_mps) / kTreadDistance_m;
+}
+
+/// The samples of the camera that has most of them.
+std::vector<Sample> best_seen(std::span<const Sample> seen) {
+  std::map<int, int> counts;
+  for (const Sample& sample : seen)
+    if (sample.use == Sample::Use::Used) ++counts[sample.camera];
+  std::vector<Sample> best;
+  if (counts.empty()) return best;
+  const int camera =
+      std::ranges::max_element(counts, {}, [](const auto& one) { return one.second; })->first;
+  for (const Sample& sample : seen)
+    if (sample.use == Sample::Use::Used && sample.camera == camera) best.push_back(sample);
+  return best;
+}
+
+/// What was turned from one sample to another; nothing across a gap.
+std::optional<double> turned(std::span<const Sample> samples) {
+  double sum = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i].time_s - samples[i - 1].time_s > kLongestGap_s) return std::nullopt;
+    sum += wrap_angle(samples[i].pose.theta - samples[i - 1].pose.theta);
+  }
+  return sum;
+}
+
+/// Whether commands `first` to the last before `until_s` turn as that one does.
+bool is_steady(std::span<const TimedCommand> commands, std::size_t first, double until_s) {
+  for (std::size_t i = first; i < commands.size() && commands[i].time_s < until_s; ++i)
+    if (std::fabs(spin_of(commands[i]) - spin_of(commands[first])) > kSame_radps) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<double> delays_of(std::span<const TimedCommand> commands, std::span<const Sample> seen,
+                              double latency_s, double turn_gain,
+                              const std::function<bool(double, double)>& is_free) {
+  std::vector<double> delays;
+  const std::vector<Sample> samples = best_seen(seen);
+  const double before_s = std::max(latency_s, 0.0) + kBefore_s;
+  const double after_s = std::max(latency_s, 0.0) + kAfter_s;
+  std::size_t first = 0;  // since when commands turn as the last one does
+  for (std::size_t i = 1; i < commands.size(); ++i) {
+    const double change = spin_of(commands[i]) - spin_of(commands[first]);
+    if (std::fabs(change) <= kSame_radps) continue;
+    const double since_s = commands[first].time_s;
+    const double old = turn_gain * spin_of(commands[first]);
+    const double now_s = commands[i].time_s;
+    first = i;
+    if (std::fabs(change) < kLeastChange_radps || now_s - since_s < before_s) continue;
+    if (commands.back().time_s < now_s + after_s || !is_steady(commands, i, now_s + after_s))
+      continue;
+    const auto from = std::ranges::upper_bound(samples, now_s, {}, &Sample::time_s);
+    const auto to = std::ranges::lower_bound(samples, now_s + after_s, {}, &Sample::time_s);
+    if (from == samples.begin() || to == samples.end()) continue;
+    const Sample& begin = *std::prev(from);
+    if (now_s - begin.time_s > kLongestGap_s || !is_free(begin.time_s, to->time_s)) continue;
+    const auto angle = turned({std::prev(from), std::next(to)});
+    if (!angle) continue;
+    const double wanted = turn_gain * spin_of(commands[i]);
+    const double late_s =
+        (wanted * (to->time_s - now_s) + old * (now_s - begin.time_s) - *angle) / (wanted - old);
+    delays.push_back(late_s - std::fabs(wanted - old) / (2 * kSpinRate_radps2) - kHalfStep_s);
+  }
+  return delays;
+}
+
+std::vector<DrawnDelay> drawn_delays(std::vector<double> acted_s, double period_s) {
+  std::vector<DrawnDelay> drawn;
+  if (acted_s.empty()) return drawn;
+  std::ranges::sort(acted_s);
+  const auto acted = [&](double seconds) {
+    const auto end = std::ranges::upper_bound(acted_s, seconds + kStep_s / 2);
+    return static_cast<double>(end - acted_s.begin()) / static_cast<double>(acted_s.size());
+  };
+  double before = 0;
+  double sum = 0;
+  const int last = std::max(0, static_cast<int>(std::ceil(acted_s.back() / kStep_s)));
+  for (int step = 0; step <= last; ++step) {
+    const double all = acted(step * kStep_s + period_s);
+    const double arrived = all == 0 ? 0 : std::max(before, acted(step * kStep_s) / all);
+    if (arrived - before < kLeastProbability) continue;
+    drawn.push_back({step * kStep_s, arrived - before});
+    sum += arrived - before;
+    before = arrived;
+  }
+  for (DrawnDelay& delay : drawn)
+    delay.probability /= sum;
+  return drawn;
+}
+
+}  // namespace swarmsmith

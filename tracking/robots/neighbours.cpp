@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "base/math.h"
+#include "sim/control/reference_model.h"
+#include "tracking/robots/reality.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Nearer than the range by this much, a robot is there whatever the noise.
+constexpr double kEdge_m = 0.05;
+/// What is seen may be so far from where the robot is: it moves between reading and cycle, and a
+/// lidar sees the side that faces it.
+constexpr double kOff_m = 0.25;
+constexpr double kBlock_s = 2;
+constexpr std::int64_t kLeastChances = 50;
+constexpr std::size_t kLeastBlocks = 5;
+/// Where most of what is seen is nowhere, directions or logs are wrong.
+constexpr double kMostPhantoms = 0.5;
+
+/// Poses of all robots at a time of the run; none where the camera does not know one of them.
+std::optional<std::vector<Pose>> poses_at(const TrackedRun& run, double time_s) {
+  if (run.starts.size() != run.robots.size()) return std::nullopt;
+  const double place = time_s / kControlPeriod_s;
+  const auto last = static_cast<double>(run.trajectory.instants());
+  if (last < 1 || place < 0 || place > last) return std::nullopt;
+  const int before = std::min(static_cast<int>(place), run.trajectory.instants() - 1);
+  const double share = place - before;
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < run.robots.size(); ++i) {
+    if (run.robots[i].cycles[static_cast<std::size_t>(before)] == CycleKind::Missing) return {};
+    const Pose& from = before == 0 ? run.starts[i] : run.trajectory.at(before - 1)[i];
+    const Pose& to = run.trajectory.at(before)[i];
+    poses.push_back({from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+                     from.theta + share * wrap_angle(to.theta - from.theta)});
+  }
+  return poses;
+}
+
+/// Takes the nearest of what the log has out of it, if one is near enough.
+bool take(std::vector<Point>& seen, Point place) {
+  const auto off = [&](Point point) { return hypot(point.x - place.x, point.y - place.y); };
+  const auto nearest = std::ranges::min_element(seen, {}, off);
+  if (nearest == seen.end() || off(*nearest) > kOff_m) return false;
+  seen.erase(nearest);
+  return true;
+}
+
+/// Chances and what became of them, of one span of time.
+struct Block {
+  double there = 0;
+  double seen = 0;
+};
+
+class Count {
+ public:
+  explicit Count(const RobotOfRun& of) : of_(of) {}
+
+  void add(const LogRow& row, double age_s) {
+    const double time_s = row.clock_s - begin_of(of_.log.record) - age_s;
+    const auto poses = poses_at(of_.run, time_s);
+    if (!poses) return;
+    const Pose& own = (*poses)[of_.robot];
+    const SinCos heading = sin_cos(own.theta);
+    std::vector<Point> seen;
+    for (const Neighbour& neighbour : row.sensed.neighbours) {
+      const double x = neighbour.distance_m * neighbour.direction_x;
+      const double y = neighbour.distance_m * neighbour.direction_y;
+      seen.push_back(
+          {own.x + heading.cos * x - heading.sin * y, own.y + heading.sin * x + heading.cos * y});
+    }
+    Block& block = blocks_[static_cast<std::int64_t>(std::floor(time_s / kBlock_s))];
+    for (std::size_t other = 0; other < poses->size(); ++other) {
+      if (other == of_.robot) continue;
+      const Point place = (*poses)[other].position();
+      const bool is_seen = take(seen, place);
+      if (hypot(place.x - own.x, place.y - own.y) > kNeighbourRange_m - kEdge_m) continue;
+      ++block.there;
+      if (is_seen) ++block.seen;
+    }
+    phantoms_ += static_cast<std::int64_t>(seen.size());
+    heard_ += static_cast<std::int64_t>(row.sensed.neighbours.size());
+  }
+
+  NeighboursSeen result() const {
+    NeighboursSeen result;
+    double there = 0;
+    double seen = 0;
+    std::size_t blocks = 0;
+    for (const auto& [number, block] : blocks_) {
+      there += block.there;
+      seen += block.seen;
+      if (block.there > 0) ++blocks;
+    }
+    result.there = static_cast<std::int64_t>(there);
+    result.seen = static_cast<std::int64_t>(seen);
+    result.phantoms = phantoms_;
+    if (static_cast<double>(phantoms_) > kMostPhantoms * static_cast<double>(heard_)) {
+      return {.reason = fmt::format(
+                  "{} of the {} neighbours in its log are where no robot was; is its heading "
+                  "calibrated (`calibrate robot --straight`)?",
+                  phantoms_, heard_)};
+    }
+    if (result.there < kLeastChances || blocks < kLeastBlocks) {
+      return {
+          .reason = fmt::format(
+              "others were within {:.2f} m of it in {} cycles, in {} spans of {:g} s, and {} in "
+              "{} are needed",
+              kNeighbourRange_m - kEdge_m, result.there, blocks, kBlock_s, kLeastChances,
+              kLeastBlocks)};
+    }
+    double squares = 0;
+    for (const auto& [number, block] : blocks_)
+      squares += std::pow(block.seen - seen / there * block.there, 2);
+    const auto count = static_cast<double>(blocks);
+    // None missed is no proof that none ever will be: one chance in two is taken for a miss.
+    const double least =
+        std::sqrt((seen + 0.5) * (there - seen + 0.5)) / (there + 1) / std::sqrt(there);
+    result.error = std::max(std::sqrt(squares * count / (count - 1)) / there, least);
+    return result;
+  }
+
+ private:
+  const RobotOfRun& of_;
+  std::map<std::int64_t, Block> blocks_;
+  std::int64_t phantoms_ = 0;
+  std::int64_t heard_ = 0;
+};
+
+}  // namespace
+
+NeighboursSeen neighbours_of(const RobotOfRun& of) {
+  if (of.log.neighbours) return *of.log.neighbours;
+  Count count(of);
+  bool is_heard = false;
+  for (const LogRow& row : of.log.record.rows) {
+    const auto& age_ms = row.age_ms[index_of(Feed::Neighbours)];
+    if (row.act != Act::Step || !age_ms) continue;
+    is_heard = true;
+    count.add(row, *age_ms / 1000);
+  }
+  if (!is_heard) return {.reason = "its log has no neighbours: its machine does not look for them"};
+  return count.result();
+}
+
+}  // namespace swarmsmith
