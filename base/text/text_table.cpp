@@ -1,6 +1,9 @@
 #include "base/text/text_table.h"
 
 #include <algorithm>
+#include <ostream>
+#include <sstream>
+#include <utility>
 
 #include "base/shown_text.h"
 
@@ -17,7 +20,7 @@ std::string padded(std::string_view text, std::size_t width, Align align) {
   return line.insert(align == Align::Left ? 0 : line.size(), text);
 }
 
-std::string aligned(TextTable table) {
+void write_aligned(std::ostream& out, TextTable table) {
   std::vector<std::size_t> widths(table.rows.front().size());
   for (std::vector<std::string>& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -26,15 +29,20 @@ std::string aligned(TextTable table) {
     }
   }
   table.aligns.resize(widths.size(), Align::Right);
-  std::string text;
-  for (const std::vector<std::string>& row : table.rows) {
+  for (std::vector<std::string>& row : table.rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i)
       line += (i == 0 ? "" : "  ") + padded(row[i], widths[i], table.aligns[i]);
     line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
+    out << line << '\n';
+    row = {};
   }
-  return text;
+}
+
+std::string aligned(TextTable table) {
+  std::ostringstream text;
+  write_aligned(text, std::move(table));
+  return std::move(text).str();
 }
 
 }  // namespace swarmsmith

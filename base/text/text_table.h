@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,5 +27,7 @@ struct TextTable {
 /// A line a row, without blanks at its end. Texts are shown with what is no letter escaped
 /// (base/shown_text.h).
 std::string aligned(TextTable table);
+/// The same to a stream. Each row is freed once it is written.
+void write_aligned(std::ostream& out, TextTable table);
 
 }  // namespace swarmsmith

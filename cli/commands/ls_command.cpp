@@ -1,5 +1,6 @@
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "base/suggestion.h"
 #include "cli/arguments/store_argument.h"
@@ -87,8 +88,9 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
   if (!stages) return fail(output, ExitCode::Store, stages.error());
   if (!output.json && kind->name == "designs") stages->tell(*rows);
   if (!output.json && is_of_programs(**store)) as_costs(*rows);
-  write_rows(output, *rows, output.json ? Form::Json : Form::Text);
-  if (rows->truncated) print_note(output, "`--limit 0` shows all");
+  const bool truncated = rows->truncated;
+  write_rows(output, *std::move(rows), output.json ? Form::Json : Form::Text);
+  if (truncated) print_note(output, "`--limit 0` shows all");
   return ExitCode::Done;
 }
 

@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/text/csv.h"
 #include "cli/arguments/store_argument.h"
@@ -75,10 +76,10 @@ ExitCode run_query(QueryArguments& arguments, Output& output) {
   StoreReader::QueryLimits limits = arguments.limits();
   limits.typed = !sql.empty();
   if (arguments.csv) return write_csv(**store, statement, limits, output);
-  const auto rows = select(**store, statement, limits);
+  auto rows = select(**store, statement, limits);
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   const Form json = arguments.lists ? Form::JsonLists : Form::Json;
-  write_rows(output, *rows, output.json ? json : Form::Text);
+  write_rows(output, *std::move(rows), output.json ? json : Form::Text);
   return ExitCode::Done;
 }
 

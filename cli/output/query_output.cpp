@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <iterator>
-#include <numeric>
+#include <ostream>
 #include <string_view>
 #include <utility>
 
@@ -22,9 +22,9 @@ using Cell = StoreReader::Cell;
 using Type = StoreReader::Cell::Type;
 
 /// For people six significant digits of a real are enough.
-std::string shown(const Cell& cell) {
+std::string shown(Cell cell) {
   if (cell.type == Type::Null) return "-";
-  if (cell.type != Type::Real) return cell.text;
+  if (cell.type != Type::Real) return std::move(cell.text);
   char buffer[32];
   const int size =
       std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
@@ -115,16 +115,25 @@ void as_costs(Rows& rows) {
   }
 }
 
-std::string rows_as_text(const Rows& rows) {
-  TextTable table{.aligns = {}, .rows = {rows.columns}};
-  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+namespace {
+
+TextTable table_of(Rows rows) {
+  TextTable table{.aligns = {}, .rows = {std::move(rows.columns)}};
+  for (std::size_t column = 0; column < table.rows.front().size(); ++column) {
     const bool right = !rows.cells.empty() && is_number(rows.cells.front()[column]);
     table.aligns.push_back(right ? Align::Right : Align::Left);
   }
-  for (const auto& cells : rows.cells)
-    std::ranges::transform(cells, std::back_inserter(table.rows.emplace_back()), shown);
-  return aligned(std::move(table));
+  for (std::vector<Cell>& cells : rows.cells) {
+    std::ranges::transform(cells, std::back_inserter(table.rows.emplace_back()),
+                           [](Cell& cell) { return shown(std::move(cell)); });
+    cells = {};
+  }
+  return table;
 }
+
+}  // namespace
+
+std::string rows_as_text(Rows rows) { return aligned(table_of(std::move(rows))); }
 
 std::string cells_as_csv(const std::vector<Cell>& cells) {
   std::vector<std::string> texts;
@@ -132,13 +141,6 @@ std::string cells_as_csv(const std::vector<Cell>& cells) {
   for (const Cell& cell : cells)
     texts.push_back(cell.text);
   return csv_line(texts);
-}
-
-std::string rows_as_csv(const Rows& rows) {
-  std::string text = csv_line(rows.columns);
-  for (const auto& cells : rows.cells)
-    text += cells_as_csv(cells);
-  return text;
 }
 
 JsonPiece cell_as_json(const Cell& cell) {
@@ -155,47 +157,49 @@ JsonPiece cell_as_json(const Cell& cell) {
   return {json_text(cell.text)};
 }
 
-JsonObject row_as_json(const Rows& rows, std::size_t row) {
+namespace {
+
+JsonObject as_object(const std::vector<std::string>& columns, const std::vector<Cell>& cells) {
   JsonObject object;
-  for (std::size_t column = 0; column < rows.columns.size(); ++column)
-    object.add(rows.columns[column], cell_as_json(rows.cells[row][column]));
+  for (std::size_t column = 0; column < columns.size(); ++column)
+    object.add(columns[column], cell_as_json(cells[column]));
   return object;
 }
 
-JsonPiece rows_as_json(const Rows& rows) {
-  std::vector<std::size_t> numbers(rows.cells.size());
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  return json_list(numbers, [&](std::size_t row) { return row_as_json(rows, row); });
-}
-
-namespace {
-
-JsonPiece rows_as_lists(const Rows& rows) {
-  return json_list(rows.cells,
-                   [](const std::vector<Cell>& cells) { return json_list(cells, cell_as_json); });
+void write_json(std::ostream& out, Rows rows, bool as_lists) {
+  out << "{\"columns\":" << json_of(rows.columns) << ",\"rows\":[";
+  std::string_view between;
+  for (std::vector<Cell>& cells : rows.cells) {
+    out << std::exchange(between, ",")
+        << (as_lists ? json_list(cells, cell_as_json).text : as_object(rows.columns, cells).text());
+    cells = {};
+  }
+  out << "],\"truncated\":" << json_of(rows.truncated) << "}\n";
 }
 
 }  // namespace
 
-void write_rows(Output& output, const Rows& rows, Form form) {
+JsonObject row_as_json(const Rows& rows, std::size_t row) {
+  return as_object(rows.columns, rows.cells[row]);
+}
+
+JsonPiece rows_as_json(const Rows& rows) {
+  return json_list(rows.cells, [&](const auto& cells) { return as_object(rows.columns, cells); });
+}
+
+void write_rows(Output& output, Rows rows, Form form) {
+  const bool truncated = rows.truncated;
+  const std::size_t count = rows.cells.size();
   switch (form) {
     case Form::Text:
-      output.out << rows_as_text(rows);
-      break;
-    case Form::Csv:
-      write_data(output, rows_as_csv(rows));
+      write_aligned(output.out, table_of(std::move(rows)));
       break;
     case Form::Json:
     case Form::JsonLists:
-      output.out << JsonObject()
-                        .add("columns", rows.columns)
-                        .add("rows", form == Form::Json ? rows_as_json(rows) : rows_as_lists(rows))
-                        .add("truncated", rows.truncated)
-                        .text()
-                 << "\n";
+      write_json(output.out, std::move(rows), form == Form::JsonLists);
       break;
   }
-  if (rows.truncated) note_truncated(output, rows.cells.size());
+  if (truncated) note_truncated(output, count);
 }
 
 void note_truncated(Output& output, std::size_t rows) {

@@ -11,9 +11,9 @@
 
 namespace swarmsmith::cli {
 
-/// How rows are written: aligned columns for people, CSV (base/text/csv.h), or one JSON object
+/// How rows are written: aligned columns for people, or one JSON object
 /// {"columns":[...],"rows":[{...}],"truncated":false}, or the same with each row a list.
-enum class Form { Text, Csv, Json, JsonLists };
+enum class Form { Text, Json, JsonLists };
 
 /// Rows of a query, held.
 struct Rows {
@@ -37,11 +37,9 @@ bool is_of_programs(StoreReader& store);
 void as_costs(Rows& rows);
 
 /// Aligned columns below a headline, numbers on the right, six digits of reals.
-std::string rows_as_text(const Rows& rows);
-/// One line of CSV (base/text/csv.h), with its end.
+std::string rows_as_text(Rows rows);
+/// One line of CSV (base/text/csv.h), with its end; null is empty; full precision.
 std::string cells_as_csv(const std::vector<StoreReader::Cell>& cells);
-/// CSV with a headline; null is empty; full precision.
-std::string rows_as_csv(const Rows& rows);
 /// Numbers in full precision.
 JsonPiece cell_as_json(const StoreReader::Cell& cell);
 /// The "rows" array alone.
@@ -49,7 +47,8 @@ JsonPiece rows_as_json(const Rows& rows);
 /// One row, to which keys may be added.
 JsonObject row_as_json(const Rows& rows, std::size_t row);
 
-void write_rows(Output& output, const Rows& rows, Form form);
+/// Row by row, and frees each once it is written: a long answer is held once.
+void write_rows(Output& output, Rows rows, Form form);
 /// That there would be more than these.
 void note_truncated(Output& output, std::size_t rows);
 
