@@ -105,7 +105,7 @@ export function Fleet({ live: { status, running } }: PageProps) {
   const launcher = status?.launcher;
   return <div>
     <h1>Fleet</h1>
-    {!running && <Empty>No campaign runs here. Below are the workers of before, as the store knows them.</Empty>}
+    {!running && <Empty>No campaign runs here: these are the workers that the store knows.</Empty>}
     {status && running && pairs("panel facts", [
       ...(["workers", "slots", "leased", "ready", "done", "failed", "requeued", "lost_workers", "uncommitted"] as const)
         .map((name): [string, string, string?] => [words(name), whole(status[name]), kCounts[name]]),
