@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/files/profile_file.h"
+#include "tests/support/long_runs.h"
 #include "tests/tracking/profile/virtual_lab.h"
 
 namespace swarmsmith {
@@ -65,6 +66,37 @@ TEST(LabProfile, GivesAKnownLaboratoryBack) {
     rest.treads = {};
     rest.neighbours = {};
     EXPECT_EQ(rest, rvr_profile());
+  }
+}
+
+/// Commands act when they do, however often the camera looks, and whatever treads make of them.
+TEST(LabProfile, GivesALatencyBackAtEachFrameRate) {
+  struct Treads {
+    double way, turn, noise_rad;
+  };
+  const std::vector<Treads> all{{1, 1, 0.003}, {0.85, 0.7, 0.003}, {1, 0.8, 0.01}, {0.9, 1.15, 0}};
+  const auto rates = times<std::vector<double>>({15, 30}, {15, 25, 30, 60});
+  std::int64_t seed = 1;
+  for (const int sub_steps : times<std::vector<int>>({10}, {10, 20, 35})) {
+    for (const double rate_hz : rates) {
+      for (const Treads& treads : times<std::vector<Treads>>({all[1]}, all)) {
+        VirtualLab lab{.truth = rvr_profile(), .rate_hz = rate_hz, .noise_rad = treads.noise_rad};
+        lab.truth.timing.delays = {{sub_steps, 1}};
+        lab.truth.treads = {.way = treads.way, .turn = treads.turn};
+        const auto robots = lab.run(++seed);
+        const LabProfile made = lab_profile({.robots = robots, .base = "rvr", .program = "test"});
+        SCOPED_TRACE(made.text);
+        const Profile found = profile_of(made);
+        EXPECT_NEAR(mean_delay_ms(found), 10 * sub_steps, 0.1 * 10 * sub_steps);
+        EXPECT_NEAR(found.treads.way, treads.way, 0.1 * std::fabs(1 - treads.way) + 0.001);
+        EXPECT_NEAR(found.treads.turn, treads.turn, 0.1 * std::fabs(1 - treads.turn) + 0.001);
+        // What a run says of itself.
+        for (const MeasuredRobot& robot : robots) {
+          ASSERT_TRUE(robot.reality.latency.seconds) << robot.reality.latency.reason;
+          EXPECT_NEAR(1000 * *robot.reality.latency.seconds, 10 * sub_steps, sub_steps);
+        }
+      }
+    }
   }
 }
 
