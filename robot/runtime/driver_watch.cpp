@@ -216,6 +216,7 @@ void DriverWatch::begin(TimePoint start) {
   unobeyed_since_ = unobeyed_at_ = {};
   unobeyed_ = unobeyed_before_ = {};
   strange_ = 0;
+  longest_off_ = {};
   forget_changes();
   second_.reset();
   rival_.reset();
@@ -311,6 +312,10 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   } else {
     all.push_back(trouble_of_driver(now));
   }
+  for (const auto& one : all) {
+    if (one) longest_off_ = std::max(longest_off_, now - one->since);
+  }
+  if (!driver_.empty()) longest_off_ = std::max(longest_off_, now - obeyed_);
   const auto first = [&all](bool Trouble::*what) -> std::optional<Trouble> {
     for (const auto& one : all) {
       if (one && (*one).*what) return one;

@@ -49,6 +49,11 @@ class DriverWatch {
 
   /// Why no run can start; empty: it can.
   std::vector<std::string> not_ready(TimePoint now) const;
+  /// Whether a driver has said what the treads do.
+  bool is_told() const { return !driver_.empty(); }
+  /// The longest time of the run for which the treads were not known to obey, or another one acted
+  /// on them.
+  Duration longest_off() const { return longest_off_; }
   /// What keeps a run from being VALID though nothing was seen to go wrong.
   std::vector<std::string> doubts() const;
 
@@ -114,6 +119,7 @@ class DriverWatch {
   std::array<Follows, 2> follows_;
   TimePoint changed_{};  ///< the last time
 
+  Duration longest_off_{};
   int strange_ = 0;  ///< so often in succession it said what was never commanded
   /// For how long the treads were not known to obey: now, and before in the same spell. Treads that
   /// stand because the node stopped them obey for that moment alone.

@@ -100,6 +100,38 @@ TEST(DriverWatch, ADriverThatObeysIsValidAndMayTakeTwoCycles) {
   }
 }
 
+TEST(DriverWatch, TheLogSaysForHowLongTheDriverDidNotObey) {
+  using testing::AllOf;
+  using testing::Field;
+  const auto is = [](bool driven, RunVerdict driver, double least_s, double most_s) {
+    return AllOf(Field(&RunEnd::driven, driven), Field(&RunEnd::driver, driver),
+                 Field(&RunEnd::driver_off_s, testing::Ge(least_s)),
+                 Field(&RunEnd::driver_off_s, testing::Le(most_s)));
+  };
+  const auto obeys = [](DrivenRobot& of) { of.say(of.treads.left_mps, of.treads.right_mps); };
+  DrivenRobot prompt;
+  prompt.run_with(obeys);
+  EXPECT_THAT(prompt.node.head().end.value(), is(true, RunVerdict::Valid, 0, 0.1));
+  DrivenRobot pauses;
+  pauses.run_with([&](DrivenRobot& of) {
+    if (of.clock - of.fault_at > milliseconds(600)) obeys(of);
+  });
+  EXPECT_THAT(pauses.node.head().end.value(), is(true, RunVerdict::Degraded, 0.5, 0.7));
+  DrivenRobot silent;
+  silent.run_with([](DrivenRobot&) {});
+  EXPECT_THAT(silent.node.head().end.value(), is(true, RunVerdict::Invalid, 1.0, 1.2));
+  DrivenRobot contradicted;
+  contradicted.run_with([&](DrivenRobot& of) {
+    obeys(of);
+    of.node.driver().hear(RivalMessage{{of.clock, 0}, "/teleop"});
+  });
+  EXPECT_THAT(contradicted.node.head().end.value(), is(true, RunVerdict::Invalid, 1.0, 1.2));
+  DrivenRobot quiet;
+  const auto nothing = [](DrivenRobot&) {};
+  quiet.run_with(nothing, nothing);
+  EXPECT_THAT(quiet.node.head().end.value(), is(false, RunVerdict::Valid, 0, 0));
+}
+
 TEST(DriverWatch, ADriverMayRoundToACentimetreASecond) {
   DrivenRobot robot;
   const auto driver = [](DrivenRobot& of) {
