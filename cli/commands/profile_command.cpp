@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "base/suggestion.h"
 #include "base/text/json.h"
@@ -32,7 +33,7 @@ std::string whole_text(const Profile& profile) {
   for (Section& section : profile_sections(profile, root)) {
     if (section.header == "[" + root + "]") continue;  // its name is the file's
     section.header.erase(1, root.size() + 1);
-    text += "\n" + text_of({section});
+    text += text_of({section});
   }
   return text;
 }
@@ -63,7 +64,12 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
   std::string text(built_in_profile_text(arguments.name));
   if (text.empty()) {
     const auto profile = find_profile(arguments.name, ".");
-    if (!profile) return fail_all(output, profile.error());
+    if (!profile) {
+      const std::vector<Error>& errors = profile.error();
+      for (std::size_t i = 0; i + 1 < errors.size(); ++i)
+        print_error(output, errors[i]);
+      return fail(output, ExitCode::Usage, errors.back());
+    }
     text = whole_text(*profile);
   }
   if (!arguments.file.empty()) return write(arguments, text, output);
