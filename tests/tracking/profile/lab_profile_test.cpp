@@ -160,6 +160,32 @@ TEST(LabProfile, WhoPushesAWallDoesNotSlip) {
   EXPECT_NEAR(found.treads.turn, 0.9, 0.02);
 }
 
+TEST(LabProfile, APushIsNoSlip) {
+  VirtualLab lab{.truth = rvr_profile(), .pushed_m = 0.3};
+  lab.truth.timing.delays = {{20, 1}};
+  lab.truth.treads = {.way = 0.85, .turn = 0.8};
+  const LabProfile made = measured(lab, 2);
+  const Profile found = profile_of(made);
+  EXPECT_NEAR(found.treads.way, 0.85, 0.015);
+  EXPECT_NEAR(found.treads.turn, 0.8, 0.002);
+  EXPECT_NEAR(mean_delay_ms(found), 200, 5);
+}
+
+/// Also of one run, of which one robot's log is there.
+TEST(LabProfile, OfOneRobotInOneRunSaysSo) {
+  VirtualLab lab{.truth = rvr_profile()};
+  lab.truth.timing.delays = {{20, 1}};
+  lab.truth.treads = {.way = 0.85, .turn = 0.8};
+  std::vector<MeasuredRobot> robots = lab.run(1);
+  robots.resize(1);
+  const LabProfile made = lab_profile({.robots = robots, .base = "rvr", .program = "test"});
+  const Profile found = profile_of(made);
+  EXPECT_NEAR(found.treads.way, 0.85, 0.005);
+  EXPECT_EQ(found.treads.way_sd, 0);
+  EXPECT_NEAR(mean_delay_ms(found), 200, 5);
+  EXPECT_EQ(figure(made, "latency").basis, "of 1 robot in 1 run");
+}
+
 TEST(LabProfile, AHeadingThatIsOffCostsTheNeighboursAndNoMore) {
   VirtualLab lab{.truth = rvr_profile(), .heading_off_rad = 2, .tells_latency = false};
   lab.truth.treads = {.way = 0.9, .turn = 0.8};

@@ -32,8 +32,10 @@ Recorded recorded(const VirtualLab& lab, const Mission& mission, std::int64_t se
   run.tracked.robots.resize(steps.poses.size());
   run.logs.resize(steps.poses.size());
   Rng noise(static_cast<std::uint64_t>(seed) + 1000);
-  const auto seen = [&](const Pose& pose) {
-    return Pose{pose.x + noise.normal(0, lab.noise_m), pose.y + noise.normal(0, lab.noise_m),
+  const auto seen = [&](const Pose& pose, double time_s) {
+    const double pushed_m = lab.pushed_m * std::clamp(time_s - 60, 0.0, 1.0);
+    return Pose{pose.x + pushed_m + noise.normal(0, lab.noise_m),
+                pose.y + noise.normal(0, lab.noise_m),
                 pose.theta + noise.normal(lab.heading_off_rad, lab.noise_rad)};
   };
   // The first frame comes at any time.
@@ -46,10 +48,10 @@ Recorded recorded(const VirtualLab& lab, const Mission& mission, std::int64_t se
       Sample sample;
       sample.time_s = first_s + static_cast<double>(frame) / lab.rate_hz;
       sample.frame = frame;
-      sample.pose = seen(path.at(sample.time_s));
+      sample.pose = seen(path.at(sample.time_s), sample.time_s);
       robot.samples.push_back(sample);
     }
-    run.tracked.starts.push_back(seen(steps.poses[i].front()));
+    run.tracked.starts.push_back(seen(steps.poses[i].front(), 0));
     robot.cycles.assign(steps.decided[i].size(), CycleKind::Measured);
     for (std::size_t cycle = 1; cycle <= steps.decided[i].size(); ++cycle) {
       const RobotRecord& decided = steps.decided[i][cycle - 1];
@@ -65,7 +67,8 @@ Recorded recorded(const VirtualLab& lab, const Mission& mission, std::int64_t se
   }
   for (int cycle = 0; cycle < mission.cycles; ++cycle) {
     for (const auto& decided : steps.decided)
-      run.tracked.trajectory.poses.push_back(seen(decided[static_cast<std::size_t>(cycle)].pose));
+      run.tracked.trajectory.poses.push_back(
+          seen(decided[static_cast<std::size_t>(cycle)].pose, kControlPeriod_s * (cycle + 1)));
   }
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     const std::string name = "rvr" + std::to_string(i + 1);

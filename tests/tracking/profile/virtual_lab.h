@@ -20,6 +20,7 @@ struct VirtualLab {
   double noise_m = 0.0005;
   double noise_rad = 0.003;
   double heading_off_rad = 0;
+  double pushed_m = 0;        ///< so far robots are pushed along x in the second after 60 s
   bool tells_latency = true;  ///< it takes most of the time; all else can do without
 
   /// A run's robots, measured.
