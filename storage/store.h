@@ -179,10 +179,9 @@ class StoreReader {
     /// Memory of SQLite for the statement: sorting, grouping, computed values. The limit applies to
     /// the whole process, so nothing else may write meanwhile.
     std::int64_t memory = std::int64_t{256} << 20U;
-    /// Large sorts go to temporary files beside the store: for statements of our own.
-    bool spill = false;
-    /// Somebody typed the statement: errors say what is wrong with it, and repeat it. Errors of
-    /// other statements are about the store, and name its file: their text is nobody's answer.
+    /// A user typed the statement: errors say what is wrong with it and repeat it, and its sorts
+    /// stay in memory. Errors of our own statements are about the store and name its file, and
+    /// their large sorts go to temporary files beside it.
     bool typed = false;
     /// Views that somebody has added to the file can be read: for statements of a person's own.
     bool views_of_file = false;

@@ -21,8 +21,7 @@ inline constexpr StoreReader::QueryLimits kRecordLimits{
     .rows = 50'000'000,
     .seconds = 600,
     .bytes = std::numeric_limits<std::int64_t>::max(),
-    .memory = std::int64_t{1} << 30U,
-    .spill = true};
+    .memory = std::int64_t{1} << 30U};
 
 /// A score that a finished design's winner got outside of its race.
 struct DesignScore {

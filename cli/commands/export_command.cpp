@@ -273,8 +273,7 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
                      {.rows = 1'000'000'000,
                       .seconds = 600,
                       .bytes = std::numeric_limits<std::int64_t>::max(),
-                      .memory = std::int64_t{1} << 30U,
-                      .spill = true});
+                      .memory = std::int64_t{1} << 30U});
   if (!rows) return fail(output, ExitCode::Store, rows.error());
   if (rows->cells.empty()) {
     const ExitCode code = nothing_found(arguments, output);

@@ -142,8 +142,7 @@ class Reading {
         {.rows = std::numeric_limits<std::int64_t>::max(),
          .seconds = 3600,
          .bytes = std::numeric_limits<std::int64_t>::max(),
-         .memory = std::int64_t{1} << 30U,
-         .spill = true},
+         .memory = std::int64_t{1} << 30U},
         [](const auto&) {},
         [&](const Cells& cells) {
           on_row_(++rows_);

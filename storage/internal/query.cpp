@@ -296,8 +296,9 @@ Expected<StoreReader::QueryEnd> run_query(
     sqlite::Connection& connection, const std::string& sql, const StoreReader::QueryLimits& limits,
     const std::function<void(const std::vector<std::string>&)>& on_columns,
     const std::function<void(const std::vector<StoreReader::Cell>&)>& on_row) {
-  // In memory there is a limit, on the disk there would be none.
-  connection.execute(limits.spill ? "PRAGMA temp_store = DEFAULT" : "PRAGMA temp_store = MEMORY");
+  // In memory there is a limit, on the disk there would be none. A change makes SQLite forget the
+  // lent views, so that all statements of our own keep the same setting.
+  connection.execute(limits.typed ? "PRAGMA temp_store = MEMORY" : "PRAGMA temp_store = DEFAULT");
   lend_views(connection);
   const Rules rules(connection, limits);
   auto statement = prepare(connection, sql, limits);

@@ -133,7 +133,7 @@ TEST_F(QueryTest, SortsOnTheDiskOfTheStore) {
   const auto end = reader->query(
       "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 60000) "
       "SELECT printf('%05000d', i * 7919 % 60000) AS s FROM n ORDER BY s",
-      {.seconds = 600, .bytes = 1 << 30, .memory = 1 << 30, .spill = true}, [](const auto&) {},
+      {.seconds = 600, .bytes = 1 << 30, .memory = 1 << 30}, [](const auto&) {},
       [&](const auto&) {
         if (spilled) return;
         for (const std::string& file : open_files())
@@ -187,7 +187,7 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
         std::string("SELECT randomblob(30000000), randomblob(30000000), randomblob(30000000), "
                     "randomblob(30000000), randomblob(30000000), randomblob(30000000)"),
         std::string("SELECT zeroblob(30000000), zeroblob(30000000), zeroblob(30000000)")}) {
-    const auto end = query(sql, {.seconds = 600});
+    const auto end = query(sql, {.seconds = 600, .typed = true});
     ASSERT_FALSE(end) << sql << " gave " << end->rows << " rows";
     EXPECT_EQ(end.error().kind, ErrorKind::BadInput) << sql;
     EXPECT_THAT(end.error().message, testing::HasSubstr(" MB")) << sql;
