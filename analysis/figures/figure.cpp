@@ -104,23 +104,26 @@ std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions&
 }
 
 std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
-  const auto all = designs(store, {});
-  if (!all) return all.error();
-  std::vector<std::string> missions;
-  std::vector<std::string> methods;
-  bool has_design = !options.filter.design;
-  for (const DesignRecord& design : *all) {
-    missions.push_back(design.mission);
-    methods.push_back(design.method);
-    has_design = has_design || design.design == *options.filter.design;
+  const RecordFilter& asked = options.filter;
+  if (!asked.mission.empty() || !asked.method.empty()) {
+    const auto all = designs(store, {});
+    if (!all) return all.error();
+    std::vector<std::string> missions;
+    std::vector<std::string> methods;
+    for (const DesignRecord& design : *all) {
+      missions.push_back(design.mission);
+      methods.push_back(design.method);
+    }
+    if (auto error = unknown_name(asked.mission, "--mission", std::move(missions))) return error;
+    if (auto error = unknown_name(asked.method, "--method", std::move(methods))) return error;
   }
-  if (auto error = unknown_name(options.filter.mission, "--mission", std::move(missions)))
-    return error;
-  if (auto error = unknown_name(options.filter.method, "--method", std::move(methods)))
-    return error;
-  if (!has_design) {
-    return Error{ErrorKind::NotFound,
-                 "the store has no design " + to_string(*options.filter.design), "--design"};
+  if (asked.design) {
+    const auto found = designs(store, {.design = asked.design});
+    if (!found) return found.error();
+    if (found->empty()) {
+      return Error{ErrorKind::NotFound, "the store has no design " + to_string(*asked.design),
+                   "--design"};
+    }
   }
   if (!options.candidate) return std::nullopt;
   const auto found = candidate(store, *options.candidate);

@@ -18,6 +18,7 @@ struct Figure {
   std::string svg;
   std::string csv;  ///< RFC 4180, header, a row a point, full precision: everything that was drawn
   std::string tex;  ///< TikZ, of machines alone; else empty
+  std::string dot;  ///< GraphViz, of one controller alone; else empty
 };
 
 /// The narrowest and widest figures, mm.

@@ -220,7 +220,8 @@ Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options
   if (!machine) return Unexpected(machine.error());
   return Figure{.svg = with_heading(*machine, options).finish(),
                 .csv = controller_csv(machine->stored),
-                .tex = machine->drawing.tikz};
+                .tex = machine->drawing.tikz,
+                .dot = machine->drawing.dot};
 }
 
 }  // namespace swarmsmith

@@ -11,8 +11,6 @@
 #include "analysis/comparison/comparison.h"
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/figures/figure.h"
-#include "analysis/figures/machine_figure.h"
-#include "analysis/machines/controller_drawing.h"
 #include "analysis/records/csv.h"
 #include "analysis/records/records.h"
 #include "analysis/report/internal/supplement_readme.h"
@@ -73,6 +71,7 @@ Expected<void> add_figure(Files& files, StoreReader& store, const FigureKind& ki
   files.push_back({path + ".svg", figure->svg});
   if (!figure->csv.empty()) files.push_back({path + ".csv", figure->csv});
   if (!figure->tex.empty()) files.push_back({path + ".tex", figure->tex});
+  if (!figure->dot.empty()) files.push_back({path + ".dot", figure->dot});
   return {};
 }
 
@@ -90,14 +89,6 @@ Expected<void> add_controllers(Files& files, StoreReader& store, const Supplemen
     if (drawn == nullptr || design.flavour.empty()) continue;
     const FigureOptions options{.width_mm = kWholeWidth, .candidate = design.best};
     if (auto added = add_figure(files, store, *drawn, options, path, asked); !added) return added;
-    if (!design.best) continue;
-    const auto record = candidate(store, *design.best);
-    if (!record) return Unexpected(record.error());
-    const auto stored = controller_of(*record, store.schema());
-    if (!stored) return Unexpected(stored.error());
-    files.push_back(
-        {path + ".dot",
-         drawing_of(stored->controller, *stored->flavour, kWholeWidth, title_of(*record)).dot});
   }
   return {};
 }

@@ -229,16 +229,16 @@ std::string random_hex(std::size_t words) {
   return text;
 }
 
-/// Readers of the stores that this process writes, kept from one answer to the next: opening one
-/// takes SQLite a millisecond, most of an answer, to read what tables and views there are. Of other
-/// stores none is kept: while it is open, its writer cannot fold the log into the file at its end.
+/// Readers of the stores that stay open, kept from one answer to the next: opening one takes SQLite
+/// some milliseconds, most of an answer, to read what tables and views there are. Of other stores
+/// none is kept: while it is open, its writer cannot fold the log into the file at its end.
 class Readers {
  public:
   using Reader = std::unique_ptr<StoreReader, std::function<void(StoreReader*)>>;
 
   Expected<Reader> take(const DashboardStore& store) {
     struct stat facts = {};
-    const bool may_keep = store.is_own && ::stat(store.file.c_str(), &facts) == 0;
+    const bool may_keep = store.stays_open && ::stat(store.file.c_str(), &facts) == 0;
     const File file{facts.st_dev, facts.st_ino};
     if (may_keep) {
       const std::scoped_lock lock(mutex_);

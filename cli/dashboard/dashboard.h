@@ -19,8 +19,8 @@ struct DashboardStore {
   std::filesystem::path file;
   /// Its place among the campaigns of the coordinator that publishes; none: it is not run there.
   std::optional<std::size_t> place{};
-  /// This process writes it, and closes it when the dashboard is gone.
-  bool is_own = false;
+  /// It is kept open between answers: this process writes it, or reads it once and ends.
+  bool stays_open = false;
 };
 
 struct DashboardOptions {

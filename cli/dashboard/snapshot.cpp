@@ -243,7 +243,7 @@ Expected<std::string> snapshot_page(const std::filesystem::path& store,
     if (auto added = paths.add_design(design); !added) return Unexpected(added.error());
   }
   const auto site = make_dashboard(
-      {.stores = {{store, std::nullopt}}, .version = options.version, .is_snapshot = true});
+      {.stores = {{store, std::nullopt, true}}, .version = options.version, .is_snapshot = true});
   const std::string data = base64_text(gzip(answers_of(*site, paths.take(), options), 9));
   const bool whole =
       replace(page, "<link rel=\"icon\" href=\"favicon.svg\">",
