@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 namespace swarmsmith {
 namespace {
@@ -102,6 +103,7 @@ std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edg
   const double step = stacked ? (edge.height + kBoxGap) / 2 : (edge.width + kBoxGap) / 5;
   const auto rows = static_cast<int>(task.edges.size()) + 4;
   std::vector<EdgePlace> places;
+  places.reserve(kParts.size() * static_cast<std::size_t>(2 * rows + 1));
   for (const double part : kParts) {
     for (int row = -rows; row <= rows; ++row) {
       const PagePoint at = source + part * chord + row * step * normal;
@@ -112,9 +114,16 @@ std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edg
       places.push_back(place);
     }
   }
-  std::ranges::stable_sort(places, {}, &EdgePlace::alone);
-  if (places.size() > kMostPlaces) places.resize(kMostPlaces);
-  return places;
+  // A place is large: only those that stay are moved.
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i].alone; });
+  order.resize(std::min(order.size(), kMostPlaces));
+  std::vector<EdgePlace> best;
+  best.reserve(order.size());
+  for (const std::size_t i : order)
+    best.push_back(places[i]);
+  return best;
 }
 
 double length_under(const EdgePlace& curve, const EdgePlace& other) {
