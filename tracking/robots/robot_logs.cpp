@@ -52,7 +52,7 @@ class Judge {
                 .limit = kTolerance_s,
                 .unit = "s",
                 .catches = "a film that plays too fast or too slowly"};
-    const FilmRate found = film_rate(told_);
+    const FilmRate found = film_rate(told_, run_.start.time_s.value_or(0));
     if (told_.empty() || !found.rate) {
       check.outcome = Check::Outcome::NotRun;
       check.reason = told_.empty() ? "there is no log of a robot" : found.reason;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "tracking/motion/internal/pivot.h"
 
 namespace swarmsmith {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kMedianOfNormal = 0.6744897501960817;
 constexpr double kLeastStepSigma_m = 5e-5;
 /// A heading is told by less than this: a third of what a straight run may spread by.
 constexpr double kHeadingTold_rad = 1.5 * kPi / 180;
-constexpr double kAheadTold_m = 0.003;
+constexpr double kByTurnTold_m = 0.003;
 /// The way must stand out of the noise, and the turns too.
 constexpr double kOverNoise = 10;
 constexpr double kLeastWay_m = 0.25;
@@ -126,10 +127,6 @@ Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& 
   return fit_line(steps, weights, with_place);
 }
 
-}  // namespace
-
-namespace {
-
 /// Both unknowns, or the heading alone.
 TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
   TravelFit fit;
@@ -151,21 +148,19 @@ TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
   }
   // The true heading is the sense in which it goes more.
   fit.turned_rad = forward < 0 ? wrap_angle(turned + kPi) : turned;
-  fit.ahead_m = forward < 0 ? -line.ahead_m : line.ahead_m;
+  fit.by_turn_m = forward < 0 ? -line.ahead_m : line.ahead_m;
   fit.backward_share = fit.way_m > 0 ? backward / fit.way_m : 0;
   fit.turned_sigma_rad = sigma_m / std::sqrt(std::max(line.most, 1e-12));
   // Noise of the turns looks like a way where way and turn always go together.
   const double noise_m = hypot(sigma_m, line.by_turn * steps.front().turn_sigma_rad);
   fit.knows_heading = line.most > kOverNoise * count * noise_m * noise_m &&
                       fit.turned_sigma_rad < kHeadingTold_rad && fit.way_m >= kLeastWay_m;
-  fit.ahead_sigma_m = sigma_m / std::sqrt(std::max(turns, 1e-12));
-  fit.knows_ahead = with_place && fit.knows_heading && fit.ahead_sigma_m < kAheadTold_m;
+  fit.knows_by_turn = with_place && fit.knows_heading &&
+                      sigma_m / std::sqrt(std::max(turns, 1e-12)) < kByTurnTold_m;
   return fit;
 }
 
-}  // namespace
-
-TravelFit fit_travel(std::span<const TravelStep> all) {
+TravelFit fit_way(std::span<const TravelStep> all) {
   constexpr std::size_t kLeastSteps = 20;
   TravelFit fit;
   double step_sigma_m = 0;
@@ -182,6 +177,43 @@ TravelFit fit_travel(std::span<const TravelStep> all) {
   return fit;
 }
 
+/// The same by the measured heading and by one that is turned by 180 degrees.
+void measure_skid(std::span<const TravelStep> steps, const Pivot& pivot, TravelFit& fit) {
+  double products = 0;
+  double squares = 0;
+  double sides = 0;
+  double count = 0;
+  for (const TravelStep& step : steps) {
+    if (step.touches || step.sigma_m > 0) continue;
+    const double aside = step.aside_m - pivot.ahead_m * step.turn_rad;
+    const double along = (step.ahead_m + pivot.aside_m * step.turn_rad) * step.turn_rad;
+    products += aside * along;
+    squares += along * along;
+    sides += aside * aside;
+    ++count;
+  }
+  constexpr double kLeast = 20;
+  if (count < kLeast || !(squares > 0)) return;
+  fit.skid = products / squares;
+  const double left = std::max(sides - fit.skid * products, 0.0);
+  fit.skid_sigma = std::sqrt(left / count / squares);
+}
+
+}  // namespace
+
+TravelFit fit_travel(std::span<const TravelStep> steps) {
+  TravelFit fit = fit_way(steps);
+  const std::optional<Pivot> pivot = pivot_of(steps);
+  if (!pivot) return fit;
+  const double turned = fit.knows_heading ? fit.turned_rad : 0;
+  fit.knows_place = true;
+  fit.ahead_m = std::cos(turned) * pivot->ahead_m - std::sin(turned) * pivot->aside_m;
+  fit.aside_m = std::sin(turned) * pivot->ahead_m + std::cos(turned) * pivot->aside_m;
+  fit.place_sigma_m = pivot->sigma_m;
+  measure_skid(steps, *pivot, fit);
+  return fit;
+}
+
 std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit) {
   /// What slip and single bumps may add: a length, and a share of the way. A skid may add more.
   struct Window {
@@ -195,7 +227,7 @@ std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const Travel
   constexpr double kSigmas = 4;
   const double cosine = fit.knows_heading ? std::cos(fit.turned_rad) : 1;
   const double sine = fit.knows_heading ? std::sin(fit.turned_rad) : 0;
-  const double ahead_m = fit.knows_ahead ? fit.ahead_m : 0;
+  const double by_turn_m = fit.knows_by_turn ? fit.by_turn_m : 0;
   std::optional<Slide> worst;
   for (const Window& window : kWindows) {
     std::size_t first = 0;
@@ -204,7 +236,7 @@ std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const Travel
     double squares = 0;
     const auto add = [&](const TravelStep& step, double sign) {
       if (step.touches || (step.skids && !window.with_skids)) return;
-      aside += sign * (cosine * step.aside_m + sine * step.ahead_m - ahead_m * step.turn_rad);
+      aside += sign * (cosine * step.aside_m + sine * step.ahead_m - by_turn_m * step.turn_rad);
       way += sign * std::fabs(cosine * step.ahead_m - sine * step.aside_m);
       squares += sign * (fit.step_sigma_m * fit.step_sigma_m + step.sigma_m * step.sigma_m);
     };
