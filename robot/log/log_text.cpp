@@ -249,6 +249,10 @@ void read_end(TableReader& root, LogHead& head) {
   need(*table, "stepped", table->integer("stepped", kCounts), end.stepped);
   need(*table, "held", table->integer("held", kCounts), end.held);
   need(*table, "skipped", table->integer("skipped", kCounts), end.skipped);
+  end.driven = table->boolean("driven");
+  if (const auto driver = table->choice("driver", verdicts))
+    end.driver = *run_verdict_from(*driver);
+  if (const auto off_s = table->number("driver_off_s", {0, kMost})) end.driver_off_s = *off_s;
   table->finish();
 }
 
@@ -361,6 +365,11 @@ std::string log_head_text(const LogHead& head) {
     add(end, "stepped", std::to_string(head.end->stepped));
     add(end, "held", std::to_string(head.end->held));
     add(end, "skipped", std::to_string(head.end->skipped));
+    if (head.end->driven) add(end, "driven", *head.end->driven ? "true" : "false");
+    if (head.end->driven.value_or(false)) {
+      add(end, "driver", quoted_text(name_of(head.end->driver)));
+      add(end, "driver_off_s", number_text(head.end->driver_off_s));
+    }
     sections.push_back(std::move(end));
   }
   return text_of(sections);

@@ -18,12 +18,14 @@ constexpr Duration kSpell = std::chrono::seconds(3);
 constexpr Duration kUsualSilence = std::chrono::milliseconds(250);
 
 constexpr Duration kDelayStep = std::chrono::milliseconds(50);
-/// Changes that are remembered, and that are needed to tell a late driver.
-constexpr int kMostChanges = 25;
-constexpr int kLeastChanges = 12;
 
 bool same(double a, double b) {
   return std::fabs(a - b) <= kSame_mps;
+}
+
+template <class Command>
+bool is_same(const Command& command, const DrivenMessage& driven) {
+  return same(command.left_mps, driven.left_mps) && same(command.right_mps, driven.right_mps);
 }
 
 std::string speeds(double left_mps, double right_mps) {
@@ -42,6 +44,15 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 }  // namespace
+
+DriverWatch::DriverWatch(Limits limits) : limits_(limits) {
+  forget_changes();
+}
+
+void DriverWatch::forget_changes() {
+  follows_ = {Follows{.least = 12, .most = 25, .better = 0.2},
+              Follows{.least = 60, .most = 120, .better = 0.08}};
+}
 
 bool DriverWatch::listens(const std::string& name) const {
   return std::ranges::find(listeners_, name, &Listener::name) != listeners_.end();
@@ -63,8 +74,7 @@ std::optional<TimePoint> DriverWatch::commanded_until(const DrivenMessage& drive
   TimePoint until = driven.arrival.at;
   for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
     if (command->from > driven.arrival.at) continue;
-    if (same(command->left_mps, driven.left_mps) && same(command->right_mps, driven.right_mps))
-      return until;
+    if (is_same(*command, driven)) return until;
     until = command->from;
   }
   return std::nullopt;
@@ -83,26 +93,71 @@ void DriverWatch::compare_changes(const DrivenMessage& driven) {
       !(same(last_->left_mps, driven.left_mps) && same(last_->right_mps, driven.right_mps));
   if (!changed) return;
   changed_ = driven.arrival.at;
-  changes_ = std::min(changes_ + 1, kMostChanges);
-  for (std::size_t i = 0; i < kDelays; ++i) {
+  for (Follows& follows : follows_)
+    follows.changes = std::min(follows.changes + 1, follows.most);
+  for (std::size_t i = 0; i < Follows::kDelays; ++i) {
     const Commanded then = commanded_at(driven.arrival.at - static_cast<int>(i) * kDelayStep);
-    const bool is_it =
-        same(then.left_mps, driven.left_mps) && same(then.right_mps, driven.right_mps);
-    follows_[i] += ((is_it ? 1.0 : 0.0) - follows_[i]) / changes_;
+    const double is_it = is_same(then, driven) ? 1 : 0;
+    for (Follows& follows : follows_)
+      follows.share[i] += (is_it - follows.share[i]) / follows.changes;
   }
 }
 
-/// "it is 1.00 s behind", when its changes follow those that were commanded so much better.
-std::string DriverWatch::why_behind() const {
+/// When its changes follow those that were commanded so much better.
+std::string DriverWatch::why_behind(const Follows& follows) const {
   constexpr double kSure = 0.9;
-  constexpr double kBetter = 0.2;
-  if (changes_ < kLeastChanges) return {};
-  const auto late = follows_.begin() + limits_.hold / kDelayStep + 1;
-  const double prompt = *std::max_element(follows_.begin(), late);
-  const auto best = std::max_element(late, follows_.end());
-  if (*best < kSure || *best - prompt < kBetter) return {};
-  const std::chrono::duration<double> delay = (best - follows_.begin()) * kDelayStep;
+  if (follows.changes < follows.least) return {};
+  const auto& share = follows.share;
+  const auto late = share.begin() + limits_.hold / kDelayStep + 1;
+  const double prompt = *std::max_element(share.begin(), late);
+  const auto best = std::max_element(late, share.end());
+  if (*best < kSure || *best - prompt < follows.better) return {};
+  const std::chrono::duration<double> delay = (best - share.begin()) * kDelayStep;
   return fmt::format("{} does each change {:.2f} s after its command", driver_, delay.count());
+}
+
+std::string DriverWatch::why_behind() const {
+  for (const Follows& follows : follows_) {
+    if (auto why = why_behind(follows); !why.empty()) return why;
+  }
+  return {};
+}
+
+void DriverWatch::note_said(const DrivenMessage& driven) {
+  TimePoint until = TimePoint::max();
+  for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
+    if (until != TimePoint::max() && driven.arrival.at - until > limits_.hold) return;
+    until = command->from;
+    command->said |= until <= driven.arrival.at && is_same(*command, driven);
+  }
+}
+
+std::string DriverWatch::why_never_done(TimePoint now) const {
+  // The last command whose time is over; all like it count.
+  const Commanded* last = nullptr;
+  TimePoint until = TimePoint::max();
+  for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
+    const bool is_over = until != TimePoint::max() && now - until > limits_.hold;
+    if (is_over) last = &*command;
+    until = command->from;
+    if (is_over) break;
+  }
+  if (last == nullptr || last->said) return {};
+  Duration sum{};
+  int times = 0;
+  for (std::size_t i = 0; i + 1 < commands_.size(); ++i) {
+    const Commanded& command = commands_[i];
+    const bool is_it =
+        same(command.left_mps, last->left_mps) && same(command.right_mps, last->right_mps);
+    if (!is_it || command.from < begun_ || now - commands_[i + 1].from <= limits_.hold) continue;
+    if (command.said) return {};
+    sum += commands_[i + 1].from - command.from;
+    ++times;
+  }
+  if (sum <= limits_.give_up) return {};
+  return fmt::format("{} never does {}, which was commanded {} times, for {:.1f} s in all", driver_,
+                     speeds(last->left_mps, last->right_mps), times,
+                     std::chrono::duration<double>(sum).count());
 }
 
 void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
@@ -121,6 +176,7 @@ void DriverWatch::hear(const DrivenMessage& driven) {
     driver_ = driven.sender;
     const auto until = commanded_until(driven);
     const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
+    note_said(driven);
     compare_changes(driven);
     last_ = driven;
     strange_ = until || stands ? 0 : strange_ + 1;
@@ -156,11 +212,12 @@ void DriverWatch::set_listeners(std::vector<Listener> listeners, TimePoint now) 
 
 void DriverWatch::begin(TimePoint start) {
   runs_ = true;
-  obeyed_ = replaced_ = start;
+  begun_ = obeyed_ = replaced_ = start;
   unobeyed_since_ = unobeyed_at_ = {};
   unobeyed_ = unobeyed_before_ = {};
-  strange_ = changes_ = 0;
-  follows_ = {};
+  strange_ = 0;
+  longest_off_ = {};
+  forget_changes();
   second_.reset();
   rival_.reset();
   came_later_.clear();
@@ -231,6 +288,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {
   constexpr int kStrange = 3;
   if (auto why = why_behind(); !why.empty()) return Trouble{changed_, true, true, std::move(why)};
+  if (auto why = why_never_done(now); !why.empty())
+    return Trouble{changed_, true, true, std::move(why)};
   if (now - obeyed_ <= limits_.hold) return std::nullopt;
   if (now - unobeyed_at_ > kSpell) unobeyed_ = unobeyed_before_ = {};
   if (unobeyed_since_ != obeyed_) unobeyed_before_ += unobeyed_;
@@ -253,6 +312,10 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble(TimePoint now) {
   } else {
     all.push_back(trouble_of_driver(now));
   }
+  for (const auto& one : all) {
+    if (one) longest_off_ = std::max(longest_off_, now - one->since);
+  }
+  if (!driver_.empty()) longest_off_ = std::max(longest_off_, now - obeyed_);
   const auto first = [&all](bool Trouble::*what) -> std::optional<Trouble> {
     for (const auto& one : all) {
       if (one && (*one).*what) return one;
@@ -290,8 +353,9 @@ std::vector<std::string> DriverWatch::doubts() const {
       doubts.push_back(name + " listened to the speeds of the treads, and went in the run");
   }
   constexpr double kFollows = 0.6;
-  const auto late = follows_.begin() + limits_.hold / kDelayStep + 1;
-  if (changes_ == kMostChanges && *std::max_element(follows_.begin(), late) < kFollows)
+  const Follows& soon = follows_.front();
+  const auto late = soon.share.begin() + limits_.hold / kDelayStep + 1;
+  if (soon.changes == soon.most && *std::max_element(soon.share.begin(), late) < kFollows)
     doubts.push_back(driver_ +
                      " says changes of speed that do not follow those that are commanded");
   for (const std::string& name : came_later_)

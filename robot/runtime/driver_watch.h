@@ -24,7 +24,7 @@ class DriverWatch {
     Duration give_up = std::chrono::seconds(1);      ///< then the run is over
   };
 
-  explicit DriverWatch(Limits limits) : limits_(limits) {}
+  explicit DriverWatch(Limits limits);
 
   /// A command that was sent.
   void commanded(TimePoint at, double left_mps, double right_mps);
@@ -49,6 +49,11 @@ class DriverWatch {
 
   /// Why no run can start; empty: it can.
   std::vector<std::string> not_ready(TimePoint now) const;
+  /// Whether a driver has said what the treads do.
+  bool is_told() const { return !driver_.empty(); }
+  /// The longest time of the run for which the treads were not known to obey, or another one acted
+  /// on them.
+  Duration longest_off() const { return longest_off_; }
   /// What keeps a run from being VALID though nothing was seen to go wrong.
   std::vector<std::string> doubts() const;
 
@@ -57,6 +62,17 @@ class DriverWatch {
     TimePoint from;
     double left_mps = 0;
     double right_mps = 0;
+    bool said = false;  ///< by the driver, then or a moment later
+  };
+  /// How often the driver's last changes were those that were commanded so long before, in steps of
+  /// 50 ms; and how much better a late one must fit than a prompt one.
+  struct Follows {
+    static constexpr std::size_t kDelays = 61;
+    int least = 0;  ///< changes to tell
+    int most = 0;   ///< that are remembered
+    double better = 0;
+    int changes = 0;
+    std::array<double, kDelays> share{};
   };
   /// Others that act on the treads, from their first to their last sign.
   struct Spell {
@@ -74,8 +90,13 @@ class DriverWatch {
   std::optional<Trouble> trouble_of_silent_kind(TimePoint now) const;
   std::optional<Trouble> trouble_of_driver(TimePoint now);
   Commanded commanded_at(TimePoint time) const;
+  void forget_changes();
+  void note_said(const DrivenMessage& driven);
   void compare_changes(const DrivenMessage& driven);
   std::string why_behind() const;
+  std::string why_behind(const Follows& follows) const;
+  /// Speeds that were commanded again and again, each time for a moment, and that it never says.
+  std::string why_never_done(TimePoint now) const;
   bool listens(const std::string& name) const;
   bool is_quiet(TimePoint now) const;
   static void extend(std::optional<Spell>& spell, const std::string& name, TimePoint at);
@@ -90,16 +111,15 @@ class DriverWatch {
 
   // Of the present or the last run.
   bool runs_ = false;
+  TimePoint begun_{};
   std::string driver_;  ///< whose word counts; empty: none has said anything
   TimePoint obeyed_{};  ///< when the treads last did what was commanded, as far as is known
   /// Robots have few speeds, which come again and again, so that a late one may look like a prompt
-  /// one. What tells is when they change: how often the new ones were those that were commanded so
-  /// long before, in steps of 50 ms.
-  static constexpr std::size_t kDelays = 61;
-  std::array<double, kDelays> follows_{};
-  int changes_ = 0;
+  /// one. What tells is when they change: soon, where few late ones fit; later, where most do.
+  std::array<Follows, 2> follows_;
   TimePoint changed_{};  ///< the last time
 
+  Duration longest_off_{};
   int strange_ = 0;  ///< so often in succession it said what was never commanded
   /// For how long the treads were not known to obey: now, and before in the same spell. Treads that
   /// stand because the node stopped them obey for that moment alone.

@@ -240,6 +240,7 @@ void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, c
   cycle_ = stepped_ = held_ = skipped_ = late_readings_ = cut_ = 0;
   held_for_ = {};
   by_driver_ = by_operator_ = {};
+  driver_failed_ = false;
   clock_steps_.clear();
   new_step_.clear();
   operator_behind_s_ = 0;
@@ -316,6 +317,7 @@ Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
         fmt::format("driver: {} (for {:.2f} s, since {:.1f} s)", trouble->what,
                     seconds_of(now.clock - trouble->since), time_s(trouble->since));
     if (trouble->ends) {
+      driver_failed_ = true;
       Decision decision = hold(beat.cycle, beat.late, now, why);
       fail(why);
       return decision;
@@ -522,7 +524,7 @@ void RobotNode::judge() {
                     seconds_of(longest_silence_[i]), held_for_[i]));
   }
   for (const Standing* standing : {&by_driver_, &by_operator_}) {
-    if (standing->cycles == 0) continue;
+    if (standing->cycles == 0 || (standing == &by_driver_ && driver_failed_)) continue;
     add(RunVerdict::Degraded,
         fmt::format("{}, for up to {:.2f} s, at {:.1f} s: {} cycles were not stepped",
                     standing->what, seconds_of(standing->longest), standing->at_s,
@@ -574,6 +576,14 @@ NodeState RobotNode::state(const Now& now) const {
   return state;
 }
 
+void RobotNode::note_driver(RunEnd& end) const {
+  end.driven = driver_.is_told();
+  if (!*end.driven) return;
+  if (by_driver_.cycles > 0 || !driver_.doubts().empty()) end.driver = RunVerdict::Degraded;
+  if (driver_failed_) end.driver = RunVerdict::Invalid;
+  end.driver_off_s = seconds_of(driver_.longest_off());
+}
+
 LogHead RobotNode::head() const {
   LogHead head{.run = run_,
                .robot = settings_.robot,
@@ -602,6 +612,7 @@ LogHead RobotNode::head() const {
                       .stepped = stepped_,
                       .held = held_,
                       .skipped = skipped_};
+    if (!lock_step_) note_driver(*head.end);
   }
   return head;
 }

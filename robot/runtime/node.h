@@ -149,6 +149,7 @@ class RobotNode {
   Decision hold_and_count(const ControlClock::Beat& beat, const Now& now, const std::string& why);
   std::string silence_of_operator(const Now& now) const;
   void judge();
+  void note_driver(RunEnd& end) const;
 
   NodeSettings settings_;
   const Controller* controller_;
@@ -192,6 +193,7 @@ class RobotNode {
   std::int64_t cut_ = 0;
   Standing by_driver_;
   Standing by_operator_;
+  bool driver_failed_ = false;
   PerFeed<std::int64_t> held_for_{};
   PerFeed<Duration> longest_silence_{};
   std::string broken_;  ///< why it failed or was stopped

@@ -66,6 +66,12 @@ struct RunEnd {
   std::int64_t stepped = 0;
   std::int64_t held = 0;
   std::int64_t skipped = 0;
+  /// Whether a driver said what it has the treads do; none: an older log, or one of a lock-step.
+  std::optional<bool> driven;
+  /// If one did: what the node thinks of it, and the longest time for which the treads were not
+  /// known to do as commanded, or another one acted on them.
+  RunVerdict driver = RunVerdict::Valid;
+  double driver_off_s = 0;
 
   friend bool operator==(const RunEnd&, const RunEnd&) = default;
 };

@@ -4,9 +4,11 @@ by libzmq's C interface. Neither has code of ours in it.
     drivers.py sensors|treads|quiet|second|joystick ros NAME | zeromq ENDPOINT
 
 `treads` does what a driver must: obeys one publisher, stops after 300 ms without a command, and says what the treads do.
-It prints what they do, "T LEFT RIGHT", by CLOCK_MONOTONIC. A line on its input spoils it: `slow`, `half`, `foreign`, or
-`operator` (over ZeroMQ: says another hello and hears no speeds any more). `quiet` is such a driver that does
-not say what the treads do. `second` says that it drives them, too; `joystick` sends speeds of its own, over ROS.
+It prints what they do, "T LEFT RIGHT", by CLOCK_MONOTONIC. A line on its input spoils it: `slow SECONDS`; `half` (the
+right tread stands), `reversed`, `weak` (half of the speed), `foreign` (obeys another one), `stuck` (does the last command
+for ever); `invented` (says what was never commanded, and does what was); or `operator` (over ZeroMQ: says another hello and
+hears no speeds any more). `quiet` is such a driver that does not say what the treads do. `second` says that it drives them,
+too; `joystick` sends speeds of its own, over ROS. `SWARMSMITH_DRIVER` is its name in ROS.
 """
 import ctypes
 import os
@@ -15,11 +17,11 @@ import struct
 import sys
 import threading
 import time
-import xmlrpc.client
-import xmlrpc.server
 
 INFINITY = float("inf")
-LATE_S = 1.0
+#: What a driver that is spoiled makes of a command.
+SPOILED = {"half": lambda left, right: (left, 0.0), "reversed": lambda left, right: (-left, -right),
+           "weak": lambda left, right: (left / 2, right / 2), "foreign": lambda left, right: (0.123, 0.045)}
 
 
 class ZeroMq:
@@ -52,7 +54,7 @@ class ZeroMq:
         self.send_numbers("driven", (left, right))
 
     def speeds(self):
-        """Those that came, with who sent them."""
+        """Those that came, with who sent them; waits 10 ms for them."""
         buffer = ctypes.create_string_buffer(100000)
         while True:
             size = self.zmq.zmq_recv(self.socket, buffer, len(buffer), 0)
@@ -94,6 +96,9 @@ class Ros:
     RANGES = ("teraranger_array/RangeArray", "4c1d9b3ff03219d31e41c86817a72ba8")
 
     def __init__(self, name, robot):
+        import xmlrpc.client
+        import xmlrpc.server
+        self.client = xmlrpc.client.ServerProxy
         self.name, self.space = name, "/" + robot
         self.readers, self.came = {}, []
         self.lock = threading.Lock()
@@ -105,7 +110,7 @@ class Ros:
         slave.register_function(lambda *_: [1, "", ["TCPROS", "localhost", self.server.getsockname()[1]]], "requestTopic")
         slave.register_function(self.publishers_are, "publisherUpdate")
         self.place = f"http://localhost:{slave.server_address[1]}/"
-        self.master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"], allow_none=True)
+        self.master = self.client(os.environ["ROS_MASTER_URI"], allow_none=True)
         self.known = set()
         for work in (slave.serve_forever, self.serve):
             threading.Thread(target=work, daemon=True).start()
@@ -150,7 +155,7 @@ class Ros:
 
     def read(self, topic, place):
         try:
-            answer = xmlrpc.client.ServerProxy(place).requestTopic(self.name, topic, [["TCPROS"]])
+            answer = self.client(place).requestTopic(self.name, topic, [["TCPROS"]])
             connection = socket.create_connection(tuple(answer[2][1:]))
             connection.sendall(header_of({"callerid": self.name, "topic": topic, "type": self.ARRAY[0],
                                           "md5sum": self.ARRAY[1], "tcp_nodelay": "1"}))
@@ -182,47 +187,49 @@ class Ros:
 
 
 class Treads:
-    """A driver: what came, when, and what the treads do."""
+    """A driver: what came, when, and what the treads do. `say` is called when they do something else."""
 
-    def __init__(self, way):
-        self.way, self.fault = way, ""
+    def __init__(self, way, say):
+        self.way, self.say, self.fault, self.late_s = way, say, "", 0
         self.heard, self.waiting, self.now = {}, [], (0.0, 0.0)
         threading.Thread(target=self.read_faults, daemon=True).start()
 
     def read_faults(self):
         for line in sys.stdin:
-            self.fault = line.strip()
-            if self.fault == "operator":
+            fault, *late_s = line.split()
+            if fault == "operator":
                 self.way.role = "operator"
+            self.late_s = float(late_s[0]) if late_s else 0
+            self.fault = fault
             print("fault", time.monotonic(), flush=True)
 
-    def set(self, speeds):
-        if self.fault == "half":
-            speeds = speeds[0], 0.0
-        if self.fault == "foreign":
-            speeds = 0.123, 0.045
+    def set(self, left, right):
+        if self.fault == "stuck":
+            return
+        speeds = SPOILED.get(self.fault, lambda *same: same)(left, right)
         if speeds != self.now:
             self.now = speeds
             print(time.monotonic(), *speeds, flush=True)
+            self.say()
+
+    def said(self):
+        return (-0.21, 0.17) if self.fault == "invented" else self.now
 
     def turn(self):
         for sender, left, right in self.way.speeds():
             self.heard[sender] = time.monotonic()
-            late = LATE_S if self.fault == "slow" else 0
-            self.waiting.append((time.monotonic() + late, (left, right)))
+            self.waiting.append((time.monotonic() + self.late_s, (left, right)))
         now = time.monotonic()
         while self.waiting and self.waiting[0][0] <= now:
             speeds = self.waiting.pop(0)[1]
-            self.set(speeds if sum(now - heard < 1 for heard in self.heard.values()) < 2 else (0.0, 0.0))
-        if self.fault != "foreign" and now - max(self.heard.values(), default=0) > 0.3 + LATE_S * (self.fault == "slow"):
-            self.set((0.0, 0.0))
-        elif self.fault == "foreign":
-            self.set(self.now)
+            self.set(*(speeds if sum(now - heard < 1 for heard in self.heard.values()) < 2 else (0.0, 0.0)))
+        if now - max(self.heard.values(), default=0) > 0.3 + self.late_s:
+            self.set(0.0, 0.0)
 
 
 def main():
     role, kind, place = sys.argv[1:4]
-    way = ZeroMq(place) if kind == "zeromq" else Ros(f"/{role}_{os.getpid()}", place)
+    way = ZeroMq(place) if kind == "zeromq" else Ros(os.environ.get("SWARMSMITH_DRIVER", f"/{role}_{os.getpid()}"), place)
     if kind == "ros":
         for topic, of, what in (("sensors", "ranges", Ros.RANGES), ("treads", "driven", Ros.ARRAY),
                                 ("second", "driven", Ros.ARRAY), ("joystick", "wheels", Ros.ARRAY)):
@@ -230,7 +237,10 @@ def main():
                 way.publish(of, what)
         if role in ("treads", "quiet", "second"):
             way.subscribe("wheels")
-    treads = Treads(way)
+    elif role == "sensors":
+        way.role = role
+    drives = role in ("treads", "quiet", "second")
+    treads = Treads(way, lambda: role == "quiet" or way.driven(*treads.said()))
     due, count = time.monotonic(), 0
     print("begins", flush=True)
     while os.getppid() != 1:
@@ -241,10 +251,10 @@ def main():
         elif role == "joystick":
             way.array("wheels", (0.2, 0.2))
         elif role != "quiet":
-            way.driven(*treads.now)
-        while time.monotonic() < due:
+            way.driven(*treads.said())
+        while drives and time.monotonic() < due:
             treads.turn()
-            time.sleep(0.002)
+        time.sleep(max(0, due - time.monotonic()))
 
 
 if __name__ == "__main__":

@@ -41,7 +41,7 @@ class Driver(ProgramTest):
             operator += ["--key", f"{way.keys}/operator.key"]
         robots.wait_for(lambda: subprocess.run([ROBOT, "check", "--robots", "1", *operator],
                                                capture_output=True).returncode == 0, "a robot that is ready")
-        start = Process(self, [ROBOT, "start", "--run", "r1", "--robots", "1", "--seconds", "30",
+        start = Process(self, [ROBOT, "start", "--run", "r1", "--robots", "1", "--seconds", "30", "--in", "0.6",
                                "--write", self.folder / "r1.toml", *operator])
         driver.wait_for(r"0\.300 0\.300")
         node.signal(signal.SIGKILL)

@@ -33,22 +33,28 @@ class Drivers(ProgramTest):
                                     self.folder)
         self.driver("sensors")
 
-    def driver(self, role):
+    def driver(self, role, name=None):
+        """`name`: in ROS."""
         place = self.swarm.places[0].split("=")[1] if self.kind == "zeromq" else "rvr1"
-        driver = Process(self, [sys.executable, DRIVERS, role, self.kind, place], self.swarm.variables)
+        variables = {**self.swarm.variables, **({"SWARMSMITH_DRIVER": name} if name else {})}
+        driver = Process(self, [sys.executable, DRIVERS, role, self.kind, place], variables)
         driver.wait_for("begins")
         return driver
 
-    def spoil(self, driver, fault):
+    def spoil(self, driver, fault, acts=False):
+        """When it heard of it; `acts`: when the treads first did wrong."""
         driver.process.stdin.write(fault + "\n")
         driver.process.stdin.flush()
-        return float(driver.wait_for(r"fault (\S+)\n").group(1))
+        return float(driver.wait_for(r"fault \S+\n(\d\S+)" if acts else r"fault (\S+)\n").group(1))
+
+    def start(self, run, seconds):
+        return self.swarm.program(self, "start", "--run", run, "--robots", "1", "--seconds", seconds, "--in", "0.6",
+                                  "--patience", "20", "--write", self.folder / f"{run}.toml", key="operator")
 
     def begin(self, seconds=30, role="treads"):
         """A run with a driver that obeys, until the treads turn."""
         treads = self.driver(role)
-        start = self.swarm.program(self, "start", "--run", "r1", "--robots", "1", "--seconds", seconds, "--in", "0.6",
-                                   "--patience", "20", "--write", self.folder / "r1.toml", key="operator")
+        start = self.start("r1", seconds)
         treads.wait_for(r"\d 0\.3 0\.3\n")
         return treads, start
 
@@ -61,6 +67,8 @@ class Drivers(ProgramTest):
         with (self.folder / "r1.rvr1.toml").open("rb") as file:
             end = tomllib.load(file)["end"]
         self.assertEqual((noted["verdict"], end["verdict"]), ("INVALID", "INVALID"))
+        if end["driven"]:
+            self.assertEqual(end["driver"], "INVALID")
         self.assertRegex(end["reasons"][0], reason)
         self.assertRegex(end["reasons"][0], r"since \d+\.\d s")
         self.assertEqual(noted["reasons"], end["reasons"])
@@ -82,10 +90,16 @@ class Drivers(ProgramTest):
 
     # A test a fault.
 
-    def obeys(self):
-        _, start = self.begin(seconds=3)
+    def obeys(self, seconds=3):
+        treads = self.driver("treads")
+        start = self.start("r0", seconds)
         self.assertEqual(start.end(), 0, start.said())
-        self.assertIn("r1: VALID", start.said())
+        self.assertIn("r0: VALID", start.said())
+        with (self.folder / "r0.rvr1.toml").open("rb") as file:
+            end = tomllib.load(file)["end"]
+        self.assertEqual((end["driven"], end["driver"]), (True, "VALID"))
+        self.assertLess(end["driver_off_s"], 0.3)
+        return treads
 
     def silent(self):
         treads, start = self.begin()
@@ -106,22 +120,37 @@ class Drivers(ProgramTest):
 
     def slow(self):
         treads, start = self.begin()
-        self.spoil(treads, "slow")
+        self.spoil(treads, "slow 1")
         # Speeds come again and again: it takes a dozen changes to tell late ones from others.
         self.assert_invalid(start, None, r"s behind|after its command")
 
     def half(self):
-        treads, start = self.begin()
-        fault_at = self.spoil(treads, "half")
+        """Its run before is VALID."""
+        treads = self.obeys(seconds=1)
+        treads.out.clear()
+        start = self.start("r1", 30)
+        treads.wait_for(r"\d 0\.3 0\.3\n")
+        fault_at = self.spoil(treads, "half", acts=True)
         self.assert_invalid(start, fault_at, "only the left one obeys")
 
-    def foreign(self):
+    def other_speeds(self, fault):
         treads, start = self.begin()
-        self.assert_invalid(start, self.spoil(treads, "foreign"), "it obeys another one")
+        fault_at = self.spoil(treads, fault, acts=fault != "invented")
+        self.assert_invalid(start, fault_at, "it obeys another one")
+
+    def stuck(self):
+        treads, start = self.begin()
+        self.spoil(treads, "stuck")
+        self.assert_invalid(start, None, r"s behind|never does \S+ and \S+ m/s, which was commanded \d+ times")
+
+    def late_by_no_more_than_is_allowed(self):
+        treads, start = self.begin(seconds=8)
+        self.spoil(treads, "slow 0.15")
+        self.assertEqual(start.end(), 0, start.said())
 
     def second(self):
         treads, start = self.begin()
-        self.driver("second")
+        self.driver("second", "/elsewhere/second")
         fault_at = time.monotonic()
         self.assert_invalid(start, fault_at, "drives the treads, too, beside")
         self.assert_treads_stand(treads, fault_at)
@@ -165,7 +194,22 @@ class OverZeroMq(Drivers):
         self.half()
 
     def test_contradicted(self):
-        self.foreign()
+        self.other_speeds("foreign")
+
+    def test_half_of_the_speed(self):
+        self.other_speeds("weak")
+
+    def test_backwards(self):
+        self.other_speeds("reversed")
+
+    def test_one_that_says_what_was_never_commanded(self):
+        self.other_speeds("invented")
+
+    def test_stuck(self):
+        self.stuck()
+
+    def test_one_that_is_late_by_no_more_than_is_allowed(self):
+        self.late_by_no_more_than_is_allowed()
 
     def test_a_second_one(self):
         self.second()
@@ -222,7 +266,22 @@ class OverRos(Drivers):
         self.half()
 
     def test_contradicted(self):
-        self.foreign()
+        self.other_speeds("foreign")
+
+    def test_half_of_the_speed(self):
+        self.other_speeds("weak")
+
+    def test_backwards(self):
+        self.other_speeds("reversed")
+
+    def test_one_that_says_what_was_never_commanded(self):
+        self.other_speeds("invented")
+
+    def test_stuck(self):
+        self.stuck()
+
+    def test_one_that_is_late_by_no_more_than_is_allowed(self):
+        self.late_by_no_more_than_is_allowed()
 
     def test_a_second_one(self):
         self.second()
@@ -235,12 +294,12 @@ class OverRos(Drivers):
 
     def test_another_one_that_sends_speeds(self):
         treads, start = self.begin()
-        joystick = self.driver("joystick")
+        joystick = self.driver("joystick", "/elsewhere/joystick")
         fault_at = time.monotonic()
-        self.assert_invalid(start, fault_at, r"/joystick_\d+ commands the treads, too")
+        self.assert_invalid(start, fault_at, "/elsewhere/joystick commands the treads, too")
         self.assert_treads_stand(treads, fault_at)
         joystick.kill()
-        self.node.wait_for(r"/joystick_\d+ publishes /rvr1/wheels, too|commands the treads, too|$")
+        self.node.wait_for("/elsewhere/joystick publishes /rvr1/wheels, too|commands the treads, too|$")
 
 
 if __name__ == "__main__":

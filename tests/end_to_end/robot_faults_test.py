@@ -22,7 +22,7 @@ class Faults(ProgramTest):
 
     def world_in_steps(self, way, *words):
         mission = mission_of(self.folder, "aggregation", seconds=5)
-        return way.program(self, "world", "--mission", mission, "--seeds", "1-1000000", "--lock-step", "--json",
+        return way.program(self, "world", "--mission", mission, "--seeds", "1-20000", "--lock-step", "--json",
                            "--patience", SILENCE_S, *words)
 
     def assert_killed_node_is_named(self, way):

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tracking/robots/robot_logs.h"
@@ -11,6 +12,9 @@ using Outcome = Check::Outcome;
 constexpr Question kOwnLog{"log of this run", "", "a log of another run, robot or machine"};
 /// Its number are the cycles that it lost.
 constexpr Question kNode{"robot's own verdict", "%", "a robot that stood still or skipped cycles"};
+constexpr Question kDriver{"driver watched", "s",
+                           "treads that did not obey: a driver that was silent, dead, replaced, "
+                           "contradicted or late"};
 constexpr Question kEnd{"end of the robot's log", "s", "a node that died, a file that was cut"};
 constexpr Question kClock{"clock of the robot", "ms", "a robot that began earlier or later"};
 constexpr Question kMotion{"motion as commanded", "",
@@ -28,6 +32,28 @@ Outcome worst_of(const std::vector<Issue>& issues, const std::string& robot,
   return worst;
 }
 
+/// Its number is the longest time for which the treads were not known to obey.
+Check driver_check(const RobotLog& log) {
+  const std::string& robot = log.robot;
+  if (!log.record.head.end) return not_asked(kDriver, robot, "its log has no end");
+  const RunEnd& end = *log.record.head.end;
+  if (!end.driven) {
+    return not_asked(kDriver, robot,
+                     "its log does not say whether the driver was watched: it is an older one, or "
+                     "no node's");
+  }
+  if (!*end.driven) {
+    return not_asked(kDriver, robot, "its driver did not say what the treads do (`driven`)");
+  }
+  constexpr std::array kOutcomes = {Outcome::Passed, Outcome::Warned, Outcome::Failed};
+  const Outcome outcome = kOutcomes.at(static_cast<std::size_t>(end.driver));
+  const double limit_s = outcome == Outcome::Failed ? kDriverGone_s : kDriverOff_s;
+  // There are other ways not to obey.
+  const bool is_why = (end.driver_off_s > limit_s) == (outcome != Outcome::Passed);
+  return is_why ? answered(kDriver, robot, outcome, end.driver_off_s, limit_s)
+                : answered(kDriver, robot, outcome);
+}
+
 /// All that is asked of one robot that has a log.
 void ask(const RobotLog& log, const std::optional<Latency>& latency, const RunLog& run,
          const std::vector<Issue>& issues, std::vector<Check>& checks) {
@@ -35,6 +61,7 @@ void ask(const RobotLog& log, const std::optional<Latency>& latency, const RunLo
   const RunRecord& record = log.record;
   const double last_s = record.rows.empty() ? 0 : record.rows.back().sensed.time_s;
   const double duration_s = run.mission.cycles * kControlPeriod_s;
+  checks.push_back(driver_check(log));
   checks.push_back(answered(kEnd, robot, worst_of(issues, robot, {IssueCode::LogShort}),
                             std::max(0.0, duration_s - last_s), kLostAtTheEnd_s));
   const std::optional<double> offset_s = record.head.clock_offset_s;
@@ -98,7 +125,7 @@ std::vector<Check> checks_of_logs(const TrackedRun& run, const Observations& obs
       continue;
     }
     const std::string why = kept == Outcome::Warned ? "its log cannot be read" : none;
-    for (const Question& question : {kEnd, kClock, kMotion})
+    for (const Question& question : {kDriver, kEnd, kClock, kMotion})
       checks.push_back(not_asked(question, robot, why));
   }
   return checks;

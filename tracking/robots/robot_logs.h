@@ -35,6 +35,10 @@ inline constexpr double kClockOffset_s = 0.02;
 inline constexpr double kDegradedShare = 0.01;
 inline constexpr double kInvalidShare = 0.05;
 
+/// Treads that did not obey stand then, and their run is over then (docs/robot-messages.md).
+inline constexpr double kDriverOff_s = 0.3;
+inline constexpr double kDriverGone_s = 1.0;
+
 /// What follows from the robots' logs and from what `start` noted of their nodes.
 struct RobotFindings {
   std::vector<std::optional<Latency>> latencies;  ///< as the tracked robots; none without a log

@@ -37,7 +37,10 @@ LogHead example_head() {
                         .reasons = {"14 of 1200 cycles skipped", "line\nbreak"},
                         .stepped = 1186,
                         .held = 0,
-                        .skipped = 14}};
+                        .skipped = 14,
+                        .driven = true,
+                        .driver = RunVerdict::Degraded,
+                        .driver_off_s = 0.625}};
 }
 
 /// A row of arbitrary numbers.

@@ -100,6 +100,38 @@ TEST(DriverWatch, ADriverThatObeysIsValidAndMayTakeTwoCycles) {
   }
 }
 
+TEST(DriverWatch, TheLogSaysForHowLongTheDriverDidNotObey) {
+  using testing::AllOf;
+  using testing::Field;
+  const auto is = [](bool driven, RunVerdict driver, double least_s, double most_s) {
+    return AllOf(Field(&RunEnd::driven, driven), Field(&RunEnd::driver, driver),
+                 Field(&RunEnd::driver_off_s, testing::Ge(least_s)),
+                 Field(&RunEnd::driver_off_s, testing::Le(most_s)));
+  };
+  const auto obeys = [](DrivenRobot& of) { of.say(of.treads.left_mps, of.treads.right_mps); };
+  DrivenRobot prompt;
+  prompt.run_with(obeys);
+  EXPECT_THAT(prompt.node.head().end.value(), is(true, RunVerdict::Valid, 0, 0.1));
+  DrivenRobot pauses;
+  pauses.run_with([&](DrivenRobot& of) {
+    if (of.clock - of.fault_at > milliseconds(600)) obeys(of);
+  });
+  EXPECT_THAT(pauses.node.head().end.value(), is(true, RunVerdict::Degraded, 0.5, 0.7));
+  DrivenRobot silent;
+  silent.run_with([](DrivenRobot&) {});
+  EXPECT_THAT(silent.node.head().end.value(), is(true, RunVerdict::Invalid, 1.0, 1.2));
+  DrivenRobot contradicted;
+  contradicted.run_with([&](DrivenRobot& of) {
+    obeys(of);
+    of.node.driver().hear(RivalMessage{{of.clock, 0}, "/teleop"});
+  });
+  EXPECT_THAT(contradicted.node.head().end.value(), is(true, RunVerdict::Invalid, 1.0, 1.2));
+  DrivenRobot quiet;
+  const auto nothing = [](DrivenRobot&) {};
+  quiet.run_with(nothing, nothing);
+  EXPECT_THAT(quiet.node.head().end.value(), is(false, RunVerdict::Valid, 0, 0));
+}
+
 TEST(DriverWatch, ADriverMayRoundToACentimetreASecond) {
   DrivenRobot robot;
   const auto driver = [](DrivenRobot& of) {
@@ -204,37 +236,82 @@ TEST(DriverWatch, ASlowDriverEndsTheRun) {
   }
 }
 
-TEST(DriverWatch, ASlowDriverIsFoundWhereSpeedsComeAgain) {
-  for (const std::size_t behind : {8U, 10U}) {
-    int cycle = 0;
-    const auto of_time = [&cycle](std::size_t ago) {  // straight on, then left and straight in turn
-      const int k = cycle - static_cast<int>(ago);
-      return k % 17 < 9 || k % 2 == 0 ? Command{0.3, 0.3, {}} : Command{0.3, -0.3, {}};
-    };
-    DriverWatch watch({});
-    TimePoint clock{std::chrono::seconds(100)};
-    watch.set_listeners({{"driver", clock}}, clock);
-    watch.begin(clock);
-    std::optional<DriverWatch::Trouble> trouble;
-    int prompt_cycles = 0;
-    for (; cycle < 300 && !(trouble && trouble->ends); ++cycle) {
-      const Command now = of_time(0);
-      const bool is_late = cycle >= 150;
-      watch.commanded(clock, now.left_mps, now.right_mps);
-      const Command then = of_time(is_late ? behind : 1);
-      clock += milliseconds(60);
-      watch.hear(DrivenMessage{{clock, 0}, then.left_mps, then.right_mps, "driver"});
-      clock += milliseconds(40);
-      trouble = watch.trouble(clock);
-      if (!is_late) {
-        EXPECT_FALSE(trouble) << trouble->what;
-        ++prompt_cycles;
-      }
-    }
-    EXPECT_EQ(prompt_cycles, 150);
-    ASSERT_TRUE(trouble && trouble->ends) << behind;
-    EXPECT_THAT(trouble->what, HasSubstr("s after its command")) << behind;
+/// A driver alone, without a node: what is commanded in a cycle, and what the driver says then.
+struct Played {
+  std::optional<DriverWatch::Trouble> trouble;  ///< the first that ends the run
+  int cycle = 0;                                ///< when
+};
+
+const Command kStraight{0.3, 0.3, {}};
+const Command kTurns{0.3, -0.3, {}};
+
+/// 1200 cycles; the fault begins with the 300th.
+Played play(const std::function<Command(int)>& wanted,
+            const std::function<Command(int)>& says_then) {
+  DriverWatch watch({});
+  TimePoint clock{std::chrono::seconds(100)};
+  watch.set_listeners({{"driver", clock}}, clock);
+  watch.begin(clock);
+  for (int cycle = 0; cycle < 1200; ++cycle) {
+    watch.commanded(clock, wanted(cycle).left_mps, wanted(cycle).right_mps);
+    const Command said = cycle < 300 ? wanted(cycle - 1) : says_then(cycle);
+    clock += milliseconds(60);
+    watch.hear(DrivenMessage{{clock, 0}, said.left_mps, said.right_mps, "driver"});
+    clock += milliseconds(40);
+    const auto trouble = watch.trouble(clock);
+    if (trouble && trouble->ends) return {trouble, cycle};
   }
+  return {{}, 1200};
+}
+
+/// Turns of one to three cycles that come again each `period` cycles, but now and then do not.
+Command often_turning(int cycle, int period) {
+  const int round = cycle / period;
+  const bool is_odd_one = round % 4 == 0;
+  const bool turns = cycle % period < (is_odd_one ? 1 : period / 2);
+  return turns ? kTurns : kStraight;
+}
+
+TEST(DriverWatch, ASlowDriverIsFoundWhereSpeedsComeAgain) {
+  for (const int behind : {8, 10}) {
+    // Straight on, then left and straight in turn.
+    const auto wanted = [](int k) { return k % 17 < 9 || k % 2 == 0 ? kStraight : kTurns; };
+    const Played played = play(wanted, [&](int k) { return wanted(k - behind); });
+    ASSERT_TRUE(played.trouble) << behind;
+    EXPECT_GE(played.cycle, 300) << played.trouble->what;
+    EXPECT_THAT(played.trouble->what, HasSubstr("s after its command")) << behind;
+  }
+}
+
+TEST(DriverWatch, ASlowDriverIsFoundWhereItIsLateByThePeriodOfThePattern) {
+  for (const int period : {4, 5, 6}) {
+    const auto wanted = [period](int k) { return often_turning(k, period); };
+    const Played slow = play(wanted, [&](int k) { return wanted(k - 1 - period); });
+    ASSERT_TRUE(slow.trouble) << period;
+    EXPECT_GE(slow.cycle, 300) << slow.trouble->what;
+    EXPECT_THAT(slow.trouble->what, HasSubstr("s after its command")) << period;
+    const Played prompt = play(wanted, [&](int k) { return wanted(k - 1); });
+    EXPECT_FALSE(prompt.trouble) << period << prompt.trouble->what;
+  }
+}
+
+TEST(DriverWatch, ADriverThatNeverDoesWhatIsCommandedForAMomentIsFound) {
+  for (const int period : {2, 4}) {
+    const auto wanted = [period](int k) { return k % period < period / 2 ? kStraight : kTurns; };
+    const Played stuck = play(wanted, [](int) { return kStraight; });
+    ASSERT_TRUE(stuck.trouble) << period;
+    EXPECT_GE(stuck.cycle, 300) << stuck.trouble->what;
+    EXPECT_LE(stuck.cycle, 450) << period;
+    EXPECT_THAT(stuck.trouble->what,
+                HasSubstr("never does 0.3 and -0.3 m/s, which was commanded "));
+  }
+}
+
+TEST(DriverWatch, ADriverThatLooksFiveTimesASecondIsNoSlowOne) {
+  // Each cycle another speed, as robots command that follow others.
+  const auto wanted = [](int k) { return Command{0.3, 0.3 - 0.001 * (k * 7919 % 500), {}}; };
+  const Played played = play(wanted, [&](int k) { return wanted(k / 2 * 2); });
+  EXPECT_FALSE(played.trouble) << played.trouble->what;
 }
 
 TEST(DriverWatch, WithoutADriverThatSaysWhatItDoesNoRunIsValid) {

@@ -134,7 +134,7 @@ TEST_F(RobotLogsTest, AreAskedTheSameOfEachRobotWithNumbersAndLimits) {
   Observations seen;
   seen.logs = logs;
   const std::vector<Check> checks = checks_of_logs(run, seen, log, judged());
-  EXPECT_EQ(checks.size(), 10U);
+  EXPECT_EQ(checks.size(), 12U);
   const Check* motion = check_of(checks, "motion as commanded", "rvr1");
   ASSERT_NE(motion, nullptr);
   EXPECT_EQ(motion->outcome, Check::Outcome::Passed);
@@ -146,6 +146,40 @@ TEST_F(RobotLogsTest, AreAskedTheSameOfEachRobotWithNumbersAndLimits) {
   EXPECT_EQ(clock->limit, 20);
 }
 
+TEST_F(RobotLogsTest, SayForHowLongTheDriverDidNotObey) {
+  Observations seen;
+  const auto asked = [&](std::optional<bool> driven, RunVerdict driver, double off_s) {
+    RunEnd& end = *logs[0].record.head.end;
+    end.driven = driven;
+    end.driver = driver;
+    end.driver_off_s = off_s;
+    seen.logs = logs;
+    return *check_of(checks_of_logs(run, seen, log, judged()), "driver watched", "rvr1");
+  };
+  const Check obeys = asked(true, RunVerdict::Valid, 0.13);
+  EXPECT_EQ(obeys.outcome, Check::Outcome::Passed);
+  EXPECT_EQ(value_text(obeys) + ", " + limit_text(obeys), "0.13 s, at most 0.3 s");
+  const Check held = asked(true, RunVerdict::Degraded, 0.62);
+  EXPECT_EQ(held.outcome, Check::Outcome::Warned);
+  EXPECT_EQ(value_text(held) + ", " + limit_text(held), "0.62 s, at most 0.3 s");
+  const Check gone = asked(true, RunVerdict::Invalid, 1.08);
+  EXPECT_EQ(gone.outcome, Check::Outcome::Failed);
+  EXPECT_EQ(value_text(gone) + ", " + limit_text(gone), "1.08 s, at most 1 s");
+  const Check late = asked(true, RunVerdict::Invalid, 0.2);
+  EXPECT_EQ(late.outcome, Check::Outcome::Failed);
+  EXPECT_EQ(value_text(late), "") << "that is not why";
+  const Check quiet = asked(false, RunVerdict::Valid, 0);
+  EXPECT_EQ(quiet.outcome, Check::Outcome::NotRun);
+  EXPECT_EQ(quiet.reason, "its driver did not say what the treads do (`driven`)");
+  const Check old = asked(std::nullopt, RunVerdict::Valid, 0);
+  EXPECT_EQ(old.outcome, Check::Outcome::NotRun);
+  EXPECT_THAT(old.reason, testing::HasSubstr("it is an older one"));
+  logs[0].record.head.end.reset();
+  seen.logs = logs;
+  EXPECT_EQ(check_of(checks_of_logs(run, seen, log, judged()), "driver watched", "rvr1")->reason,
+            "its log has no end");
+}
+
 TEST_F(RobotLogsTest, ThatAreNotThereOrNotOfThisRunAreSaid) {
   Observations seen;
   log.notes[0] = {"rvr1", "", std::nullopt, {}};
@@ -153,9 +187,9 @@ TEST_F(RobotLogsTest, ThatAreNotThereOrNotOfThisRunAreSaid) {
   logs.clear();
   log.notes[1].verdict.reset();
   const std::vector<Check> checks = checks_of_logs(run, seen, log, judged());
-  EXPECT_EQ(checks.size(), 10U);
+  EXPECT_EQ(checks.size(), 12U);
   for (const char* name : {"log of this run", "end of the robot's log", "clock of the robot",
-                           "motion as commanded", "robot's own verdict"}) {
+                           "motion as commanded", "robot's own verdict", "driver watched"}) {
     const Check* of_first = check_of(checks, name, "rvr1");
     ASSERT_NE(of_first, nullptr) << name;
     EXPECT_EQ(of_first->outcome, Check::Outcome::NotRun) << name;
