@@ -212,8 +212,8 @@ ClockSteps clock_steps(const FilmedCamera& film) {
     const double lost_s = said.lost_s;
     // A stamp that is late alone makes an interval too long and the next one too short.
     const double with_next = lost_s + (at(i - 1) + at(i + 1)) / 2;
-    const bool is_step = std::fabs(lost_s) >= least && std::fabs(with_next) >= least;
-    if (!said.is_leap && (!is_step || lost_s * with_next < 0)) continue;
+    if (std::fabs(lost_s) < least) continue;
+    if (!said.is_leap && (std::fabs(with_next) < least || lost_s * with_next < 0)) continue;
     ++steps.count;
     sum += lost_s;
     steps.most_off_s = std::max({steps.most_off_s, std::fabs(sum), std::fabs(lost_s)});
