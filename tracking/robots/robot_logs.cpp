@@ -10,8 +10,9 @@
 namespace swarmsmith {
 namespace {
 
-/// Motion before its command, beyond what the camera's times may be wrong by.
-constexpr double kEarly_s = 0.02;
+/// Motion before its command: half a cycle. A start, and where a speed begins to change between two
+/// pictures, are not known better.
+constexpr double kEarly_s = 0.05;
 
 Verdict verdict_of(RunVerdict verdict) {
   return *verdict_from_name(name_of(verdict));

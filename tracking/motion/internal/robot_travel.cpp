@@ -72,13 +72,6 @@ void mark_unsteady(std::vector<TravelStep>& steps, double sigma_m) {
     steps[i].is_steady = false;
     steps[i - 1].is_steady = false;
   }
-  constexpr double kTurns_rad = 0.05;
-  constexpr double kSkids_s = 0.85;
-  double turned_s = -kSkids_s;
-  for (TravelStep& step : steps) {
-    if (std::fabs(step.turn_rad) > kTurns_rad) turned_s = step.to_s;
-    step.skids = !step.is_steady && step.to_s - turned_s < kSkids_s;
-  }
 }
 
 std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track, std::size_t robot,

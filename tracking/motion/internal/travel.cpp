@@ -1,6 +1,7 @@
 #include "tracking/motion/internal/travel.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -214,36 +215,74 @@ TravelFit fit_travel(std::span<const TravelStep> steps) {
   return fit;
 }
 
+namespace {
+
+/// Of a step of the point that the robot turns about, in the axes of its true heading.
+struct Unexplained {
+  double aside_m = 0;
+  double way_m = 0;
+};
+
+/// Friction of treads brakes a body sideways, and drives it never: so what goes to the side is at
+/// most what the body had in that direction the step before, until it is used up. The rest is
+/// somebody else's. After a touch, or a gap, all may be the body's own.
+std::vector<Unexplained> unexplained(std::span<const TravelStep> steps, const TravelFit& fit) {
+  const double turned = fit.knows_heading ? fit.turned_rad : 0;
+  const Eigen::Rotation2Dd to_true(turned);
+  // Where nothing tells the point it turns about, what goes with turns may be skids or a place.
+  const double by_turn_m = !fit.knows_place && fit.knows_by_turn ? fit.by_turn_m : 0;
+  std::vector<Unexplained> all;
+  const TravelStep* before = nullptr;
+  Eigen::Vector2d had(0, 0);  // ahead and to the left, in the axes of the step before
+  for (const TravelStep& step : steps) {
+    Eigen::Vector2d way = to_true * Eigen::Vector2d(step.ahead_m, step.aside_m);
+    if (fit.knows_place) way += step.turn_rad * Eigen::Vector2d(fit.aside_m, -fit.ahead_m);
+    const bool goes_on = before != nullptr && !before->touches && !step.touches &&
+                         std::fabs(before->to_s - step.from_s) < kSameInstant_s;
+    double explained = way(1);
+    if (goes_on) {
+      const double turn = (before->turn_rad + step.turn_rad) / 2;
+      const double kept = (Eigen::Rotation2Dd(-turn) * had)(1);
+      const double with_turn = by_turn_m * step.turn_rad;
+      explained = std::clamp(way(1), std::min(0.0, kept) + std::min(0.0, with_turn),
+                             std::max(0.0, kept) + std::max(0.0, with_turn));
+    }
+    all.push_back({way(1) - explained, std::fabs(way(0))});
+    had = {way(0), explained};
+    before = &step;
+  }
+  return all;
+}
+
+}  // namespace
+
 std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit) {
-  /// What slip and single bumps may add: a length, and a share of the way. A skid may add more.
+  /// What slip and single bumps may add: a length, and a share of the way.
   struct Window {
     double length_s;
     double slip_m;
-    bool with_skids;
   };
-  constexpr std::array<Window, 4> kWindows{
-      {{1, 0.03, false}, {5, 0.05, false}, {1, 0.1, true}, {5, 0.15, true}}};
+  constexpr std::array<Window, 2> kWindows{{{1, 0.03}, {5, 0.05}}};
   constexpr double kSlip = 0.1;
   constexpr double kSigmas = 4;
-  const double cosine = fit.knows_heading ? std::cos(fit.turned_rad) : 1;
-  const double sine = fit.knows_heading ? std::sin(fit.turned_rad) : 0;
-  const double by_turn_m = fit.knows_by_turn ? fit.by_turn_m : 0;
+  const std::vector<Unexplained> ways = unexplained(steps, fit);
   std::optional<Slide> worst;
   for (const Window& window : kWindows) {
     std::size_t first = 0;
     double aside = 0;
     double way = 0;
     double squares = 0;
-    const auto add = [&](const TravelStep& step, double sign) {
-      if (step.touches || (step.skids && !window.with_skids)) return;
-      aside += sign * (cosine * step.aside_m + sine * step.ahead_m - by_turn_m * step.turn_rad);
-      way += sign * std::fabs(cosine * step.ahead_m - sine * step.aside_m);
+    const auto add = [&](std::size_t i, double sign) {
+      const TravelStep& step = steps[i];
+      if (step.touches) return;
+      aside += sign * ways[i].aside_m;
+      way += sign * ways[i].way_m;
       squares += sign * (fit.step_sigma_m * fit.step_sigma_m + step.sigma_m * step.sigma_m);
     };
     for (std::size_t last = 0; last < steps.size(); ++last) {
-      add(steps[last], 1);
+      add(last, 1);
       while (steps[last].to_s - steps[first].from_s > window.length_s + kSameInstant_s)
-        add(steps[first++], -1);
+        add(first++, -1);
       const double limit =
           window.slip_m + kSlip * way + kSigmas * std::sqrt(std::max(0.0, squares));
       const double is = std::fabs(aside);

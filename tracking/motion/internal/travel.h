@@ -23,7 +23,6 @@ struct TravelStep {
   double noise_m = 0;     ///< of the way, one sigma
   double sigma_m = 0;     ///< of what is interpolated, beyond a sample's noise
   bool touches = false;   ///< a wall, an obstacle or a robot, or just did, and may slide from it
-  bool skids = false;     ///< it turned and changed its speed: a body goes on in its old direction
   bool is_steady = true;  ///< neither gains nor loses speed, when a body slides over its treads
 };
 
