@@ -185,9 +185,13 @@ FilmRate film_rate(std::span<const ToldAndSeen> all, double start_s) {
     found.reason = "robots did not move as their logs command, at no speed of the film";
     return found;
   }
+  // One that is far off needs to be known less well: half way to a right film, which it must be far
+  // likelier than, too.
   constexpr double kAside = 0.01;
-  const double aside = std::max(best_fit(robots, best.rate * (1 + kAside), start_s).likelihood,
-                                best_fit(robots, best.rate * (1 - kAside), start_s).likelihood);
+  const double away = std::max(kAside, std::fabs(best.rate - 1) / 2);
+  double aside = std::max(best_fit(robots, best.rate * (1 + away), start_s).likelihood,
+                          best_fit(robots, best.rate * (1 - away), start_s).likelihood);
+  if (away > kAside) aside = std::max(aside, best_fit(robots, 1, start_s).likelihood);
   if (best.fit.likelihood - aside < kFarLikelier) {
     found.reason = "commands change too little";
     return found;

@@ -35,6 +35,7 @@ class Driven {
     double creep = 0;    ///< of the way, to the side: uneven ground
     bool spins = false;  ///< turns on the spot half of the time
     bool backwards = false;
+    bool bends = false;    ///< turns while it drives, to the left
     double grip_m_s2 = 0;  ///< by which a body's speed comes to that of its treads; 0: at once
   };
 
@@ -76,6 +77,10 @@ class Driven {
         turn = turns          ? (rng.uniform() < 0.5 ? 2.2 : -2.2)
                : choice > 0.8 ? 1.5 * (rng.uniform() - 0.5)
                               : 0;
+        if (style.bends) {
+          speed = style.speed_m_s;
+          turn = choice < 0.6 ? 2.2 : 0;
+        }
         lost = style.slip * rng.uniform();
       }
       const double away = std::hypot(pose.x - home.x, pose.y - home.y);
@@ -324,6 +329,28 @@ TEST(TravelTest, ABumpOfAMomentIsNone) {
           .track()
           .value();
   EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
+}
+
+/// Each bend adds a skid, and all go to the same side: they add up to more than a push moves.
+TEST(TravelTest, SkidsAreNoPush) {
+  for (const double grip : {0.75, 0.4}) {
+    for (const double rate : {10.0, 15.0, 30.0}) {
+      Seeing seeing = usual();
+      seeing.frame_rate = rate;
+      const Driven::Style style{.bends = true, .grip_m_s2 = grip};
+      const TrackedRun run = seen_run(Driven(style, {}), seeing).track().value();
+      EXPECT_EQ(find_issue(run, IssueCode::PushedDoubtful), nullptr) << grip << " " << rate;
+      EXPECT_EQ(find_issue(run, IssueCode::Pushed), nullptr) << grip << " " << rate;
+      if (grip < 0.5) continue;
+      // Nor do they hide one.
+      const Driven pushed(style, {{1, 20, 21, 0.25, 0}});
+      const TrackedRun other = seen_run(pushed, seeing).track().value();
+      const Issue* issue = find_issue(other, IssueCode::Pushed);
+      if (issue == nullptr) issue = find_issue(other, IssueCode::PushedDoubtful);
+      ASSERT_NE(issue, nullptr) << grip << " " << rate;
+      EXPECT_EQ(issue->robot, "rvr2");
+    }
+  }
 }
 
 /// Robots push each other, and slide along walls, and nobody carried them.

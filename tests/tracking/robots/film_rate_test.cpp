@@ -77,6 +77,14 @@ TEST(FilmRateTest, IsWhatTheRobotsClocksSay) {
   }
 }
 
+TEST(FilmRateTest, IsToldSoonerWhereItIsFarOff) {
+  for (const double speed : {0.667, 0.733, 1.4, 1.9}) {
+    const FilmRate found = rate_of(speed, 0.12, 12);
+    ASSERT_TRUE(found.rate) << speed << found.reason;
+    EXPECT_NEAR(*found.rate, speed, 0.03 * speed);
+  }
+}
+
 /// By a clock that was right the run began 12.4 s after the film; the film plays otherwise.
 TEST(FilmRateTest, IsToldWhereTheStartIsOffByIt) {
   constexpr double kStart_s = 12.4;

@@ -118,6 +118,27 @@ class Film {
     return longest;
   }
 
+  /// How long robots drove between two pictures that are far apart by the clock, when all that move
+  /// before and after, two at least, went no farther than in a few intervals. They may turn.
+  std::optional<double> stall_s(const std::vector<TagWay>& tags, std::size_t i) const {
+    if (time(i) - time(i - 1) < 3 * usual_s_) return std::nullopt;
+    int moving = 0;
+    double sum = 0;
+    for (const TagWay& tag : tags) {
+      const auto before = velocity(tag, i - 1, -1);
+      const auto after = velocity(tag, i, 1);
+      if (!before || !after || !seen(tag, i) || !seen(tag, i - 1)) continue;
+      if (std::min(before->norm(), after->norm()) / 2 * usual_s_ < kLeastStep_px) continue;
+      const Corners moved = corners_of(*seen(tag, i)) - corners_of(*seen(tag, i - 1));
+      const double drove = 2 * moved.norm() / (before->norm() + after->norm());
+      if (drove > std::min(3 * usual_s_, (time(i) - time(i - 1)) / 3)) return std::nullopt;
+      ++moving;
+      sum += drove;
+    }
+    if (moving < 2) return std::nullopt;
+    return sum / moving;
+  }
+
   bool beats_top_speed(const TagWay& tag, std::size_t i) const {
     return corners_moved(seen(tag, i - 1)->corners, seen(tag, i)->corners) >
            kCornerSpeed_m_s * tag.pixels_per_m * (time(i) - time(i - 1)) + kLeastStep_px;
@@ -148,7 +169,8 @@ class Film {
 /// What the robots that move agree on.
 struct Said {
   double lost_s = 0;
-  bool is_leap = false;  ///< farther than any robot drives; how long it took is about known
+  /// Farther than any robot drives, or hardly anywhere: how long it took is about known.
+  bool is_leap = false;
 };
 
 std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, std::size_t i) {
@@ -160,7 +182,8 @@ std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, s
     all.push_back(*lost);
     is_too_fast = is_too_fast || film.beats_top_speed(tag, i);
   }
-  const auto drove_s = film.leap_s(tags, i);
+  auto drove_s = film.leap_s(tags, i);
+  if (!drove_s) drove_s = film.stall_s(tags, i);
   std::optional<Said> leap;
   if (drove_s) leap = Said{*drove_s - (film.time(i) - film.time(i - 1)), true};
   if (all.empty() || (all.size() == 1 && !is_too_fast)) return leap;
@@ -212,7 +235,9 @@ ClockSteps clock_steps(const FilmedCamera& film) {
     const double lost_s = said.lost_s;
     // A stamp that is late alone makes an interval too long and the next one too short.
     const double with_next = lost_s + (at(i - 1) + at(i + 1)) / 2;
-    if (std::fabs(lost_s) < least) continue;
+    // Stamps come one after the other: none is late by more than an interval or two.
+    if (std::fabs(lost_s) < (said.is_leap ? std::min(least, 2 * pictures.usual_s()) : least))
+      continue;
     if (!said.is_leap && (std::fabs(with_next) < least || lost_s * with_next < 0)) continue;
     ++steps.count;
     sum += lost_s;

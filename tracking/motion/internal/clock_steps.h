@@ -26,7 +26,8 @@ struct ClockSteps {
 /// Between each two true pictures of the run the robots that move steadily say how long it took. A
 /// step is where at least two agree that it was half an interval more or less than the clock says.
 /// Where more is lost, robots turn meanwhile: then it is where at least two are farther at once
-/// than any robot drives, and none goes on as if nothing had been.
+/// than any robot drives, and none goes on as if nothing had been. Where the clock jumps ahead
+/// while they turn, it is where all that move before and after are nearly where they were.
 ClockSteps clock_steps(const FilmedCamera& film);
 
 }  // namespace swarmsmith
