@@ -14,8 +14,10 @@ constexpr double kLeastTurn_rad = 0.1;
 constexpr double kTold_m = 0.003;
 /// What the end of a skid moves a point by.
 constexpr double kSkid_m = 0.005;
-/// Nearer to the side than a tread: about that one robots turn, too.
+/// Nearer to the side than a tread: about that one robots turn, too. No tread's middle is farther
+/// ahead or behind.
 constexpr double kMostAside_m = 0.06;
+constexpr double kNoTread_m = 0.03;
 constexpr std::size_t kLeastPoints = 5;
 constexpr int kLeastEachWay = 2;
 
@@ -71,7 +73,7 @@ std::optional<Heap> heap_around(const Resting& middle, const std::vector<Resting
   heap.noise_m = std::sqrt(noise) / count;
   const bool turns_both_ways =
       std::min(left, static_cast<int>(heap.count) - left) >= kLeastEachWay &&
-      std::fabs(heap.aside_m) < kMostAside_m;
+      (std::fabs(heap.aside_m) < kMostAside_m || std::fabs(heap.ahead_m) > kNoTread_m);
   if (!turns_both_ways && std::fabs(heap.aside_m) > kSkid_m) return std::nullopt;
   return heap;
 }
