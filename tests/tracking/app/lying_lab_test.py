@@ -79,8 +79,9 @@ class LyingLab(unittest.TestCase):
             file = lab / "rvr2.offset.toml"
             file.write_text(turned(file.read_text(), degrees))
             verdict, text = self.score(self.film(), lab)
-            self.assertEqual(verdict, "INVALID", text)
-            self.assertRegex(text, rf"E_TAG_TURNED.*rvr2.*turned by -?{degrees} degrees")
+            # A robot that hardly turns on the spot may as well drive backwards: then it is doubted.
+            self.assertIn(verdict, ("INVALID", "DEGRADED") if degrees == 180 else ("INVALID",), text)
+            self.assertRegex(text, rf"(E_TAG_TURNED|W_HEADING_OFF).*rvr2.*turned by -?{degrees} degrees")
 
     def test_heights_and_edges(self):
         for what, change, verdict_wanted, code in (
@@ -103,7 +104,8 @@ class LyingLab(unittest.TestCase):
             self.assertRegex(text, code)
 
     def test_a_robot_that_was_pushed(self):
-        pushed = pushed_aside(self.film().with_name("long.trajectory.csv"), self.folder / "pushed.csv")
+        # While no other robot is near, which could have pushed it.
+        pushed = pushed_aside(self.film().with_name("long.trajectory.csv"), self.folder / "pushed.csv", from_s=12)
         log = LAB.film("pushed", "--trajectory", pushed, mission="grid_exploration", seconds=25, seed=5)
         verdict, text = self.score(log)
         self.assertEqual(verdict, "INVALID", text)
