@@ -123,7 +123,7 @@ void leave_out(const PlaceQuestion& question, PlaceCalibration& calibration) {
   calibration.worst_left_out_m = calibration.tags[farthest].left_out_m;
   // One wrong tag pulls the others' fits along, so that theirs may be the larger error.
   const bool is_wrong = calibration.worst_left_out_m > question.limits.left_out_m ||
-                        calibration.rms_px > question.limits.rms_px;
+                        calibration.rms_px > rms_limit_px(calibration, question.limits);
   calibration.worst_tag = question.seen[is_wrong ? suspect : farthest].tag.tag;
 }
 

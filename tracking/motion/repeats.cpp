@@ -37,6 +37,7 @@ class Search {
 
   Repeats run() {
     find_long();
+    find_loops();
     find_short();
     found_.count = static_cast<std::size_t>(std::ranges::count(found_.again, true));
     return std::move(found_);
@@ -248,6 +249,47 @@ class Search {
       --first;
     }
     return times_[last] - times_[first] >= kDoubtful_s ? first : from;
+  }
+
+  // Some pictures over and over.
+
+  /// Whether all robots are where they were so many frames before, and two were elsewhere between.
+  bool comes_back(std::size_t frame, std::size_t back) const {
+    constexpr double kElsewhere_px = 2;
+    int away = 0;
+    for (const TagWay& tag : tags_) {
+      if (!both(tag, frame - back, frame)) continue;
+      const TagCorners& now = tag.seen[frame]->corners;
+      if (corners_moved(tag.seen[frame - back]->corners, now) > kStanding_px) return false;
+      for (std::size_t between = frame - back + 1; between < frame; ++between) {
+        if (!tag.is_seen(between)) continue;
+        if (corners_moved(tag.seen[between]->corners, now) < kElsewhere_px) continue;
+        ++away;
+        break;
+      }
+    }
+    return away >= 2;
+  }
+
+  void find_loops() {
+    constexpr double kLongest_s = 1.5;
+    constexpr std::size_t kInARow = 3;
+    for (std::size_t first = 2; first < frames(); ++first) {
+      std::size_t longest = 0;
+      for (std::size_t back = 2; back <= first; ++back) {
+        if (times_[first] - times_[first - back] > kLongest_s) break;
+        std::size_t count = 0;
+        while (first + count < frames() && comes_back(first + count, back))
+          ++count;
+        longest = std::max(longest, count);
+      }
+      if (longest < kInARow) continue;
+      const std::size_t last = first + longest - 1;
+      for (std::size_t frame = first; frame <= last; ++frame)
+        found_.again[frame] = true;
+      found_.frozen.push_back({times_[first - 1], times_[last], true});
+      first = last;
+    }
   }
 
   const std::vector<double>& times_;

@@ -14,6 +14,7 @@ namespace swarmsmith {
 struct ClockSpan {
   double from_s = 0;
   double to_s = 0;
+  bool is_loop = false;  ///< some pictures over and over, in place of one
 };
 
 /// Frames of one camera that show the picture before once more, as recorders write them that hang,
@@ -32,6 +33,8 @@ struct Repeats {
 /// - for longer: they make up for it in one step; or, at the film's end, the camera's noise is gone
 ///   that moved the corners of still tags before; or, where that cannot be told, two or more stop
 ///   dead in one frame, each after a full step. One robot that does so is doubtful.
+/// Where robots come back, all at once and for three pictures or more, to where they were shortly
+/// before, the recorder repeats a few pictures.
 /// A film in which nothing moves before and after is no repeat: its robots are where it shows them,
 /// but at its end it is doubtful when no corner differs by a thousandth of a pixel any more, and
 /// nothing tells whether the codec hides noise.

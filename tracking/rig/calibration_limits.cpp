@@ -32,6 +32,11 @@ std::string on_the_floor(double pixels, const CameraModel& model) {
                      kFloor_m);
 }
 
+std::string on_the_floor(double pixels, const PlaceCalibration& calibration) {
+  const double scale = pixels_per_metre(calibration);
+  return scale > 0 ? fmt::format(" ({} on the floor)", millimetres(pixels / scale)) : "";
+}
+
 }  // namespace
 
 std::string millimetres(double metres) {
@@ -40,6 +45,24 @@ std::string millimetres(double metres) {
 
 double rms_limit_px(const CameraModel& model, const CameraLimits& limits) {
   return std::max(limits.least_px, limits.rms_rad * std::min(model.fx, model.fy));
+}
+
+double pixels_per_metre(const PlaceCalibration& calibration) {
+  double pixels = 0;
+  double metres = 0;
+  for (const PlaceCalibration::Seen& seen : calibration.tags) {
+    for (std::size_t i = 0; i < seen.corners.size(); ++i) {
+      const ImagePoint& from = seen.corners.at(i);
+      const ImagePoint& to = seen.corners.at((i + 1) % seen.corners.size());
+      pixels += std::hypot(to.u - from.u, to.v - from.v);
+      metres += seen.tag.edge_m;
+    }
+  }
+  return metres > 0 ? pixels / metres : 0;
+}
+
+double rms_limit_px(const PlaceCalibration& calibration, const PlaceLimits& limits) {
+  return std::max(limits.least_px, limits.rms_m * pixels_per_metre(calibration));
 }
 
 std::vector<Error> faults_of(const CameraCalibration& calibration, const CameraLimits& limits) {
@@ -125,12 +148,14 @@ std::vector<Error> faults_of(const PlaceCalibration& calibration, const PlaceLim
   const double off = tag == calibration.tags.end() ? calibration.worst_left_out_m : tag->left_out_m;
   const std::string worst = fmt::format("worst is tag {}, {} off where the others put it",
                                         calibration.worst_tag, millimetres(off));
-  if (!(calibration.rms_px <= limits.rms_px)) {
+  const double most_px = rms_limit_px(calibration, limits);
+  if (!(calibration.rms_px <= most_px)) {
     faults.add_if(true, IssueCode::Extrinsics,
-                  fmt::format("floor tags fit with RMS {:.3f} px, limit {} px; {}: survey it again "
-                              "(x, y, angle), and check that the camera's calibration is of this "
-                              "focus and zoom",
-                              calibration.rms_px, limits.rms_px, worst));
+                  fmt::format("floor tags fit with RMS {:.3f} px{}, limit {:.2f} px; {}: survey it "
+                              "again (x, y, angle), and check that the camera's calibration is of "
+                              "this focus and zoom",
+                              calibration.rms_px, on_the_floor(calibration.rms_px, calibration),
+                              most_px, worst));
   } else {
     faults.add_if(!(calibration.worst_left_out_m <= limits.left_out_m), IssueCode::Extrinsics,
                   fmt::format("{}, limit {} (RMS {:.3f} px); survey it again (x, y, angle)", worst,
@@ -148,9 +173,13 @@ std::vector<Error> faults_of(const PlaceCalibration& calibration, const PlaceLim
 
 std::vector<std::string> cautions_of(const PlaceCalibration& calibration,
                                      const PlaceLimits& limits) {
-  if (calibration.rms_px <= limits.good_rms_px) return {};
-  return {fmt::format("RMS {:.3f} px is above {} px (good ones have 0.05 px): survey tag {} again",
-                      calibration.rms_px, limits.good_rms_px, calibration.worst_tag)};
+  const double good_px = limits.good_share * rms_limit_px(calibration, limits);
+  if (calibration.rms_px <= good_px) return {};
+  return {
+      fmt::format("RMS {:.3f} px{} is above {:.2f} px (good ones have 0.05 px): survey tag {} "
+                  "again",
+                  calibration.rms_px, on_the_floor(calibration.rms_px, calibration), good_px,
+                  calibration.worst_tag)};
 }
 
 std::vector<Error> faults_of(const OffsetCalibration& calibration, const OffsetLimits& limits) {

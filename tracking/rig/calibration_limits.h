@@ -29,8 +29,11 @@ struct CameraLimits {
 
 struct PlaceLimits {
   int least_tags = 4;
-  double rms_px = 0.3;
-  double good_rms_px = 0.15;    ///< above it a person is told
+  /// Reprojection on the floor: what a tape is off by (Rig::survey_error_m). Corners and lenses of
+  /// small pictures are not better than `least_px`.
+  double rms_m = 0.002;
+  double least_px = 0.3;
+  double good_share = 0.5;      ///< of the limit; above it a person is told
   double left_out_m = 0.005;    ///< leave-one-tag-out error on the floor
   double least_coverage = 0.5;  ///< of the arena by the tags' hull
   double least_height_m = 0.5;  ///< of the camera
@@ -61,6 +64,11 @@ std::vector<std::string> cautions_of(const OffsetCalibration& calibration);
 
 /// The RMS reprojection that a lens may have, pixels of its pictures.
 double rms_limit_px(const CameraModel& model, const CameraLimits& limits = {});
+
+/// The RMS reprojection that a place may have, pixels; and how many pixels a metre of floor has, by
+/// the floor tags. 0 without tags.
+double rms_limit_px(const PlaceCalibration& calibration, const PlaceLimits& limits = {});
+double pixels_per_metre(const PlaceCalibration& calibration);
 
 /// A length as people read it: "3.2 mm".
 std::string millimetres(double metres);

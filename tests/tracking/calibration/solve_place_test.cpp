@@ -131,11 +131,32 @@ TEST(SolvePlaceTest, TheWrongOneOfFourIsNamedToo) {
   }
 }
 
-/// Seven millimetres show in no RMS of 0.3 px, but by leaving the tag out.
+/// A pixel of a large picture is a small thing: what fits is told by the floor. Of the same tape,
+/// the same floor tags fit in small pictures and in large ones.
+TEST(SolvePlaceTest, TheLimitGrowsWithThePicture) {
+  for (const double times : {0.3, 0.5, 1.0, 2.0, 4.0}) {
+    for (const double off_m : {0.0015, 0.012}) {
+      PlaceQuestion asked = question(0);
+      CameraModel& camera = asked.camera;
+      camera.size = {static_cast<int>(1920 * times), static_cast<int>(1080 * times)};
+      for (double* const value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy})
+        *value *= times;
+      asked.seen = seen_floor({camera, laboratory().place}, 0.05, 1);
+      for (std::size_t i = 0; i < asked.seen.size(); ++i) {
+        ReferenceTag& tag = asked.seen[i].tag;
+        (i % 2 == 0 ? tag.pose.x : tag.pose.y) += i % 3 == 0 ? off_m : -off_m;
+      }
+      const std::string found = refusal(asked);
+      EXPECT_THAT(found, HasSubstr(off_m < 0.002 ? "accepted" : "E_EXTRINSICS")) << times;
+    }
+  }
+}
+
+/// Seven millimetres show in no RMS of a few pixels, but by leaving the tag out.
 TEST(SolvePlaceTest, SmallErrorsOfTheSurveyShowWithoutTheTag) {
   PlaceQuestion question_ = question(0.02);
   question_.seen[2].tag.pose.y += 0.007;
-  question_.limits.rms_px = 3;
+  question_.limits.least_px = 3;
   EXPECT_THAT(refusal(question_), AllOf(HasSubstr("E_EXTRINSICS"), HasSubstr("worst is tag 102"),
                                         HasSubstr("limit 5.00 mm")));
 }

@@ -55,7 +55,7 @@ TEST(ChecksTest, OfACleanRunPassAndSayWhatWasNotAsked) {
                                    "reach of the lens calibration, camera0",
                                    // They drive on one and the same circle all the time.
                                    "tag against the treads, rvr1", "tag against the treads, rvr2",
-                                   "tag against the treads, rvr3"));
+                                   "tag against the treads, rvr3", "direction of time, "));
   // Each robot and the camera are asked all that there is to ask.
   for (const char* robot : {"rvr1", "rvr2", "rvr3"}) {
     const auto asked = std::ranges::count(run.checks, robot, &Check::subject);

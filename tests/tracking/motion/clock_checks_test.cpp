@@ -89,6 +89,9 @@ TEST(ClockStepTest, AStepIsSeenByAllRobotsAndNamed) {
     const Issue* issue = find_issue(run, IssueCode::ClockStep);
     ASSERT_NE(issue, nullptr) << step;
     EXPECT_THAT(issue->text, HasSubstr("jumped ahead by")) << step;
+    EXPECT_THAT(issue->text, HasSubstr("s of driving apart"));
+    const Issue* gap = find_issue(run, IssueCode::Gap);
+    EXPECT_EQ(gap, nullptr) << step << " " << gap->text;
     EXPECT_NEAR(issue->from.value(), 12 + step, 0.11);
   }
 }
@@ -107,6 +110,69 @@ TEST(ClockStepTest, TimeThatIsLostIsNamed) {
     ASSERT_NE(issue, nullptr) << step;
     EXPECT_THAT(issue->text, HasSubstr("lost")) << step;
   }
+}
+
+/// Straight on for 0.6 s, and a turn for 0.4 s, each robot at another time.
+Pose turning(int robot, double time_s) {
+  const double phase = time_s + 0.35 * robot;
+  const double turned = std::floor(phase) + std::clamp(std::fmod(phase, 1.0) / 0.4, 0.0, 1.0);
+  Pose pose{-0.55 + 0.55 * robot, robot == 1 ? 0.5 : -0.4, 0};
+  constexpr double kTurn_rad = 1.7;
+  for (int leg = 0; leg < static_cast<int>(phase); ++leg) {
+    pose.x += 0.18 * std::cos(kTurn_rad * (leg + 1));
+    pose.y += 0.18 * std::sin(kTurn_rad * (leg + 1));
+  }
+  pose.theta = kTurn_rad * turned;
+  const double way = 0.3 * std::max(0.0, std::fmod(phase, 1.0) - 0.4);
+  pose.x += way * std::cos(pose.theta);
+  pose.y += way * std::sin(pose.theta);
+  return pose;
+}
+
+/// Robots turn in a second, so that nothing says how far each went: they are elsewhere at once.
+TEST(ClockStepTest, ASecondThatIsLostAtOnceIsTheCauseThatIsNamed) {
+  int named = 0;
+  for (const double from : {8.0, 11.3, 12.7, 15.2, 17.5}) {
+    SeenRun seen = seen_run(turning, kFilm);
+    const double from_clock = from + kFilm.clock_s;
+    seen.cut(from + 0.01, from + 1.01);
+    for (double& time : seen.observations.cameras[0].frame_times)
+      if (time > from_clock + 0.5) time -= 1;
+    for (Sighting& sighting : seen.observations.sightings)
+      if (sighting.time_s > from_clock + 0.5) sighting.time_s -= 1;
+    const TrackedRun run = seen.track().value();
+    const Issue* issue = find_issue(run, IssueCode::ClockStep);
+    if (issue == nullptr) {
+      for (const Issue& other : run.issues)
+        ADD_FAILURE() << from << " " << other.text;
+      continue;
+    }
+    ++named;
+    EXPECT_THAT(issue->text, HasSubstr("lost"));
+    EXPECT_NEAR(issue->from.value(), from, 0.15);
+    EXPECT_EQ(find_issue(run, IssueCode::Gap), nullptr) << find_issue(run, IssueCode::Gap)->text;
+  }
+  EXPECT_EQ(named, 5);
+}
+
+TEST(ClockStepTest, MostJumpsAheadAreNamedWhileRobotsTurn) {
+  int named = 0;
+  for (const double from : {8.0, 8.2, 8.4, 8.6, 8.8, 9.0, 9.2, 9.4}) {
+    const SeenRun seen = with_clock(
+        turning, [&](double time) { return time < from ? time : time + 0.5; }, kFilm);
+    const TrackedRun run = seen.track().value();
+    const Issue* issue = find_issue(run, IssueCode::ClockStep);
+    if (issue == nullptr) continue;
+    ++named;
+    EXPECT_THAT(issue->text, HasSubstr("jumped ahead by 0."));
+    EXPECT_NEAR(issue->from.value(), from + 0.5, 0.15);
+  }
+  EXPECT_GE(named, 5);
+  // The same pause, and no jump: pictures were dropped, and robots went on.
+  SeenRun dropped = seen_run(turning, kFilm);
+  for (const double from : {8.0, 9.2, 10.4, 11.6})
+    dropped.cut(from, from + 0.45);
+  EXPECT_EQ(find_issue(dropped.track().value(), IssueCode::ClockStep), nullptr);
 }
 
 TEST(ClockStepTest, FramesThatAreLostWhileCountingAddUp) {
@@ -137,6 +203,26 @@ TEST(ClockStepTest, FramesThatAreLostWhileCountingAddUp) {
   const TrackedRun run = seen.track().value();
   ASSERT_NE(find_issue(run, IssueCode::ClockStep), nullptr);
   EXPECT_THAT(find_issue(run, IssueCode::ClockStep)->text, HasSubstr("lost"));
+}
+
+TEST(OrderTest, PicturesInAnotherOrderAreNoFilm) {
+  // Two exchanged, in all places or in three.
+  for (const int most : {1000, 3}) {
+    SeenRun seen = seen_run(on_circle, kFilm);
+    const std::vector<double> times = seen.observations.cameras[0].frame_times;
+    for (Sighting& sighting : seen.observations.sightings) {
+      const std::int64_t pair = sighting.frame / 2;
+      if (most == 3 && pair != 50 && pair != 90 && pair != 130) continue;
+      const auto other = static_cast<std::size_t>(sighting.frame ^ 1);
+      if (other >= times.size()) continue;
+      sighting.frame = static_cast<std::int64_t>(other);
+      sighting.time_s = times[other];
+    }
+    const TrackedRun run = seen.track().value();
+    const Issue* issue = find_issue(run, IssueCode::Timestamps);
+    ASSERT_NE(issue, nullptr) << most;
+    EXPECT_THAT(issue->text, HasSubstr("out of order"));
+  }
 }
 
 TEST(ClockStepTest, DroppedFramesJitterAndPausesAreNone) {

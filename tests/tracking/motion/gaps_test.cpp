@@ -90,7 +90,7 @@ TEST(GapsTest, MoreThanOneInTwentyCyclesBridgedIsAnError) {
 /// A robot that somebody carried: both parts of its track are its own, and nothing lies between.
 TEST(GapsTest, NothingIsInterpolatedAcrossAWayThatNoRobotGoes) {
   const Truth carried = [](int robot, double time_s) {
-    return on_circle(robot, time_s < 30 ? time_s : time_s + 5);
+    return on_circle(robot, robot != 1 || time_s < 30 ? time_s : time_s + 5);
   };
   SeenRun seen = seen_run(carried, {.cycles = 600});
   seen.hide(2, 29.82, 30.18);

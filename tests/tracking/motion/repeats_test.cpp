@@ -95,6 +95,20 @@ TEST(RepeatsTest, ARecorderThatHangsToTheEndCoversNoMore) {
   }
 }
 
+TEST(RepeatsTest, AFewPicturesOverAndOverAreARecorderThatHangsToo) {
+  for (const std::int64_t pictures : {2, 3, 7}) {
+    SeenRun seen = seen_run(on_circle, kFilm);
+    hold(seen, [&](std::int64_t frame) {
+      return frame < 300 ? frame : 300 - pictures + (frame - 300) % pictures;
+    });
+    const TrackedRun run = seen.track().value();
+    ASSERT_NE(find_issue(run, IssueCode::VideoTruncated), nullptr);
+    EXPECT_THAT(find_issue(run, IssueCode::VideoTruncated)->text, HasSubstr("hung"));
+    ASSERT_NE(find_issue(run, IssueCode::PicturesRepeated), nullptr);
+    EXPECT_THAT(find_issue(run, IssueCode::PicturesRepeated)->text, HasSubstr("over and over"));
+  }
+}
+
 TEST(RepeatsTest, ARecorderThatHangsForAWhileLeavesAGap) {
   for (const int moving : {1, 3}) {
     SeenRun seen = seen_run(that_stop(1000, 0, moving), kFilm);

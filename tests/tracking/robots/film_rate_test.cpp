@@ -77,6 +77,28 @@ TEST(FilmRateTest, IsWhatTheRobotsClocksSay) {
   }
 }
 
+TEST(FilmRateTest, IsToldSoonerWhereItIsFarOff) {
+  for (const double speed : {0.667, 0.733, 1.4, 1.9}) {
+    const FilmRate found = rate_of(speed, 0.12, 12);
+    ASSERT_TRUE(found.rate) << speed << found.reason;
+    EXPECT_NEAR(*found.rate, speed, 0.03 * speed);
+  }
+}
+
+/// By a clock that was right the run began 12.4 s after the film; the film plays otherwise.
+TEST(FilmRateTest, IsToldWhereTheStartIsOffByIt) {
+  constexpr double kStart_s = 12.4;
+  for (const double speed : {0.667, 0.97, 1.0, 1.4}) {
+    const std::vector<TimedCommand> commands = exploring(60, 1);
+    std::vector<Sample> seen = filmed(commands, speed, 0.12);
+    for (Sample& sample : seen)
+      sample.time_s += kStart_s / speed - kStart_s;
+    const FilmRate found = film_rate(std::vector<ToldAndSeen>{{commands, seen}}, kStart_s);
+    ASSERT_TRUE(found.rate) << speed << found.reason;
+    EXPECT_NEAR(*found.rate, speed, 0.003 * speed);
+  }
+}
+
 TEST(FilmRateTest, IsNotToldWhereNothingTellsIt) {
   EXPECT_FALSE(film_rate({}).rate);
   const std::vector<TimedCommand> straight(600, TimedCommand{0, 0.3, 0.3});

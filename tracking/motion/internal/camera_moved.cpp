@@ -150,7 +150,8 @@ void check_calibrations(const Rig& rig, const CameraSetup& setup, std::vector<Ch
   const auto found = rig.places.find(setup.place_file);
   if (found == rig.places.end()) return;
   const PlaceCalibration& place = found->second;
-  within(kPlace, place.rms_px, limits.rms_px, place.rms_px <= limits.rms_px);
+  const double most_px = rms_limit_px(place, limits);
+  within(kPlace, place.rms_px, most_px, place.rms_px <= most_px);
   within(kLeftOut, 1000 * place.worst_left_out_m, 1000 * limits.left_out_m,
          place.worst_left_out_m <= limits.left_out_m);
   within(kSpread, 100 * place.coverage, 100 * limits.least_coverage,

@@ -58,11 +58,14 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
   for (const ClockSpan& span : repeats.frozen) {
     if (span.from_s - start > film.duration_s || span.to_s < start) continue;
     if (issue) findings.issues.push_back(std::move(*issue));
-    issue = issue_of(IssueCode::PicturesRepeated,
-                     fmt::format("camera {} shows one picture from {:.2f} s to {:.2f} s, while "
-                                 "robots moved on: its recorder hung; the copies are no samples",
-                                 film.camera.name, span.from_s - start, span.to_s - start),
-                     span.from_s - start, span.to_s - start);
+    issue =
+        issue_of(IssueCode::PicturesRepeated,
+                 fmt::format("camera {} shows {} from {:.2f} s to {:.2f} s, while robots moved on: "
+                             "its recorder hung; the copies are no samples",
+                             film.camera.name,
+                             span.is_loop ? "the same few pictures over and over" : "one picture",
+                             span.from_s - start, span.to_s - start),
+                 span.from_s - start, span.to_s - start);
   }
   const double doubtful = repeats.doubtful_from_s.value_or(start) - start;
   if (!issue && repeats.doubtful_from_s && doubtful < film.duration_s - kSameInstant_s) {
@@ -140,8 +143,32 @@ void check_counting(const FilmedCamera& film, bool length_agrees, Findings& find
                            film.record.file, rate, rate)));
 }
 
+void check_order(const FilmedCamera& film, const ClockSteps& steps, Findings& findings) {
+  constexpr int kMost = 1;
+  Check check{.name = "order of the pictures",
+              .subject = film.camera.name,
+              .value = static_cast<double>(steps.backwards),
+              .limit = kMost,
+              .unit = "",
+              .catches = "a film whose pictures were put together in another order"};
+  if (!steps.reason.empty()) {
+    check.outcome = Check::Outcome::NotRun;
+    check.value.reset();
+    check.reason = steps.reason;
+  }
+  if (steps.backwards <= kMost) return findings.add(std::move(check));
+  findings.add(std::move(check),
+               issue_of(IssueCode::Timestamps,
+                        fmt::format("pictures of camera {} are out of order: at {} places all "
+                                    "robots that move go back at once, first at {:.2f} s of the "
+                                    "run; copy the film again from the camera",
+                                    film.camera.name, steps.backwards, steps.backwards_at_s),
+                        steps.backwards_at_s, steps.backwards_at_s));
+}
+
 void check_steps(const FilmedCamera& film, Findings& findings) {
   const ClockSteps steps = clock_steps(film);
+  check_order(film, steps, findings);
   constexpr double kLimit_s = 0.15;
   Check check{.name = "steps of the clock",
               .subject = film.camera.name,
@@ -159,13 +186,13 @@ void check_steps(const FilmedCamera& film, Findings& findings) {
   const std::string text =
       worst.lost_s > 0
           ? fmt::format(
-                "the clock of camera {} lost {:.2f} s at {:.2f} s of the run: all robots "
-                "that move are farther than their speeds take them",
-                film.camera.name, worst.lost_s, worst.at_s)
+                "the clock of camera {} lost {:.2f} s at {:.2f} s of the run: pictures "
+                "before and after are {:.2f} s apart by it, and {:.2f} s of driving",
+                film.camera.name, worst.lost_s, worst.at_s, worst.between_s, worst.driving_s())
           : fmt::format(
                 "the clock of camera {} jumped ahead by {:.2f} s at {:.2f} s of the run: "
-                "robots went on as if that time had not been",
-                film.camera.name, -worst.lost_s, worst.at_s);
+                "pictures before and after are {:.2f} s of driving apart",
+                film.camera.name, -worst.lost_s, worst.at_s, worst.driving_s());
   findings.add(std::move(check),
                issue_of(IssueCode::ClockStep,
                         text + fmt::format(" ({} such places, together up to {:.2f} s off, limit "

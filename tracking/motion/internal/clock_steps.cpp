@@ -17,6 +17,8 @@ constexpr double kSteady = 0.3;
 /// The same with its direction: a robot in a tight bend.
 constexpr double kBend = 0.6;
 constexpr double kLeastStep_px = 1;
+/// Two robots cannot be nearer, whichever way their tags are turned.
+constexpr double kSamePlace_m = 0.15;
 
 Corners corners_of(const Sighting& seen) {
   Corners all;
@@ -74,6 +76,69 @@ class Film {
     return time_s - interval;
   }
 
+  /// Of a corner, pixels a second: what it has for a tenth of the film, and no robot's less than
+  /// half of its fastest.
+  double usual_speed(const TagWay& tag) const {
+    std::vector<double> speeds;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (const auto speed = velocity(tag, i, 1)) speeds.push_back(speed->norm() / 2);
+    }
+    const double least = kCornerSpeed_m_s / 4 * tag.pixels_per_m;
+    if (speeds.empty()) return least;
+    const auto high =
+        speeds.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(speeds.size() - 1));
+    std::ranges::nth_element(speeds, high);
+    return std::clamp(*high, least, 2 * least);
+  }
+
+  /// How long robots drove between a picture and the one before when at least two of them are
+  /// farther than any robot drives.
+  std::optional<double> leap_s(const std::vector<TagWay>& tags, std::size_t i) const {
+    std::vector<const TagWay*> far;
+    double longest = 0;
+    for (const TagWay& tag : tags) {
+      if (!seen(tag, i) || !seen(tag, i - 1)) continue;
+      if (!beats_top_speed(tag, i)) {
+        const auto lost = lost_s(tag, i);
+        if (lost && std::fabs(*lost) < usual_s_ / 2) return std::nullopt;
+        continue;
+      }
+      far.push_back(&tag);
+      longest = std::max(longest, corners_moved(seen(tag, i - 1)->corners, seen(tag, i)->corners) /
+                                      usual_speed(tag));
+    }
+    if (far.size() < 2) return std::nullopt;
+    // Exchanged tags are no clock.
+    for (const TagWay* const one : far) {
+      for (const TagWay* const other : far) {
+        const double apart = corners_moved(seen(*other, i - 1)->corners, seen(*one, i)->corners);
+        if (one != other && apart < kSamePlace_m * one->pixels_per_m) return std::nullopt;
+      }
+    }
+    return longest;
+  }
+
+  /// How long robots drove between two pictures that are far apart by the clock, when all that move
+  /// before and after, two at least, went no farther than in a few intervals. They may turn.
+  std::optional<double> stall_s(const std::vector<TagWay>& tags, std::size_t i) const {
+    if (time(i) - time(i - 1) < 3 * usual_s_) return std::nullopt;
+    int moving = 0;
+    double sum = 0;
+    for (const TagWay& tag : tags) {
+      const auto before = velocity(tag, i - 1, -1);
+      const auto after = velocity(tag, i, 1);
+      if (!before || !after || !seen(tag, i) || !seen(tag, i - 1)) continue;
+      if (std::min(before->norm(), after->norm()) / 2 * usual_s_ < kLeastStep_px) continue;
+      const Corners moved = corners_of(*seen(tag, i)) - corners_of(*seen(tag, i - 1));
+      const double drove = 2 * moved.norm() / (before->norm() + after->norm());
+      if (drove > std::min(3 * usual_s_, (time(i) - time(i - 1)) / 3)) return std::nullopt;
+      ++moving;
+      sum += drove;
+    }
+    if (moving < 2) return std::nullopt;
+    return sum / moving;
+  }
+
   bool beats_top_speed(const TagWay& tag, std::size_t i) const {
     return corners_moved(seen(tag, i - 1)->corners, seen(tag, i)->corners) >
            kCornerSpeed_m_s * tag.pixels_per_m * (time(i) - time(i - 1)) + kLeastStep_px;
@@ -103,8 +168,9 @@ class Film {
 
 /// What the robots that move agree on.
 struct Said {
-  int robots = 0;
   double lost_s = 0;
+  /// Farther than any robot drives, or hardly anywhere: how long it took is about known.
+  bool is_leap = false;
 };
 
 std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, std::size_t i) {
@@ -116,21 +182,26 @@ std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, s
     all.push_back(*lost);
     is_too_fast = is_too_fast || film.beats_top_speed(tag, i);
   }
-  if (all.empty() || (all.size() == 1 && !is_too_fast)) return std::nullopt;
+  auto drove_s = film.leap_s(tags, i);
+  if (!drove_s) drove_s = film.stall_s(tags, i);
+  std::optional<Said> leap;
+  if (drove_s) leap = Said{*drove_s - (film.time(i) - film.time(i - 1)), true};
+  if (all.empty() || (all.size() == 1 && !is_too_fast)) return leap;
   const auto [least, most] = std::ranges::minmax(all);
   double sum = 0;
   for (const double one : all)
     sum += one;
   const double mean = sum / static_cast<double>(all.size());
-  if (most - least > std::max(kSteady * std::fabs(mean), film.usual_s() / 4)) return std::nullopt;
-  return Said{static_cast<int>(all.size()), mean};
+  if (most - least > std::max(kSteady * std::fabs(mean), film.usual_s() / 4)) return leap;
+  return Said{mean, leap.has_value()};
 }
 
 /// How much stamps jitter, by the median of what is lost.
-double jitter_of(const std::map<std::size_t, double>& lost) {
+double jitter_of(const std::map<std::size_t, Said>& lost) {
   std::vector<double> sizes;
-  for (const auto& [i, lost_s] : lost)
-    sizes.push_back(std::fabs(lost_s));
+  for (const auto& [i, said] : lost) {
+    if (!said.is_leap) sizes.push_back(std::fabs(said.lost_s));
+  }
   if (sizes.empty()) return 0;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::ranges::nth_element(sizes, middle);
@@ -142,29 +213,38 @@ double jitter_of(const std::map<std::size_t, double>& lost) {
 ClockSteps clock_steps(const FilmedCamera& film) {
   ClockSteps steps;
   const Film pictures(film);
-  std::map<std::size_t, double> lost;
+  std::map<std::size_t, Said> lost;
   std::size_t within = 0;
   for (std::size_t i = 1; i < pictures.size(); ++i) {
     const double at_s = pictures.time(i) - film.camera.start_s;
     if (at_s < 0 || pictures.time(i - 1) - film.camera.start_s > film.duration_s) continue;
     ++within;
-    if (const auto said = said_of(pictures, film.tags, i)) lost[i] = said->lost_s;
+    const auto said = said_of(pictures, film.tags, i);
+    if (!said) continue;
+    lost[i] = *said;
+    const double interval_s = pictures.time(i) - pictures.time(i - 1);
+    if (interval_s + said->lost_s > -interval_s / 4) continue;
+    if (steps.backwards++ == 0) steps.backwards_at_s = at_s;
   }
   if (20 * lost.size() < within || lost.empty())
     steps.reason = "hardly ever did two robots move steadily at once";
   const double least = std::max(pictures.usual_s() / 2, 5 * jitter_of(lost));
   double sum = 0;
-  const auto at = [&](std::size_t i) { return lost.contains(i) ? lost.at(i) : 0; };
-  for (const auto& [i, lost_s] : lost) {
+  const auto at = [&](std::size_t i) { return lost.contains(i) ? lost.at(i).lost_s : 0; };
+  for (const auto& [i, said] : lost) {
+    const double lost_s = said.lost_s;
     // A stamp that is late alone makes an interval too long and the next one too short.
     const double with_next = lost_s + (at(i - 1) + at(i + 1)) / 2;
-    if (std::fabs(lost_s) < least || std::fabs(with_next) < least || lost_s * with_next < 0)
+    // Stamps come one after the other: none is late by more than an interval or two.
+    if (std::fabs(lost_s) < (said.is_leap ? std::min(least, 2 * pictures.usual_s()) : least))
       continue;
+    if (!said.is_leap && (std::fabs(with_next) < least || lost_s * with_next < 0)) continue;
     ++steps.count;
     sum += lost_s;
     steps.most_off_s = std::max({steps.most_off_s, std::fabs(sum), std::fabs(lost_s)});
     if (std::fabs(lost_s) <= std::fabs(steps.worst.lost_s)) continue;
-    steps.worst = {pictures.time(i) - film.camera.start_s, lost_s};
+    steps.worst = {pictures.time(i) - film.camera.start_s, lost_s,
+                   pictures.time(i) - pictures.time(i - 1)};
   }
   return steps;
 }

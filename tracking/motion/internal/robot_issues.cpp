@@ -60,8 +60,18 @@ class Complaints {
   std::vector<Issue>& issues_;
 };
 
-void check_gaps(const std::vector<Gap>& gaps, const TrackLimits& limits, Complaints& complaints) {
+/// Whether the clock stepped at the end of a stretch: then that is the cause, and is said.
+bool is_step(const FrameReport& frames, double from_s, double to_s) {
+  return std::ranges::any_of(frames.issues, [&](const Issue& issue) {
+    return issue.code == IssueCode::ClockStep && issue.from.value_or(-1) > from_s &&
+           (*issue.from <= to_s + kSameInstant_s || to_s >= frames.to_s - kSameInstant_s);
+  });
+}
+
+void check_gaps(const std::vector<Gap>& gaps, const FrameReport& frames, const TrackLimits& limits,
+                Complaints& complaints) {
   for (const Gap& gap : gaps) {
+    if (is_step(frames, gap.from_s, gap.to_s)) continue;
     if (gap.length_s() <= limits.degraded_gap_s + kSameInstant_s) continue;
     complaints.add(IssueCode::Gap,
                    fmt::format("was not seen from {:.2f} s to {:.2f} s (limit {:.1f} s); look what "
@@ -72,11 +82,13 @@ void check_gaps(const std::vector<Gap>& gaps, const TrackLimits& limits, Complai
 }
 
 /// How many.
-int check_breaks(const RobotTrack& track, const TrackOptions& options, Complaints& complaints) {
+int check_breaks(const RobotTrack& track, const FrameReport& frames, const TrackOptions& options,
+                 Complaints& complaints) {
   const TrackLimits& limits = options.limits;
   int breaks = 0;
   for (const auto& [from, to] : track.breaks) {
     if (to.time_s < 0 || from.time_s > instant_s(options.span.cycles)) continue;
+    if (is_step(frames, from.time_s, to.time_s)) continue;
     ++breaks;
     const double way = hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y);
     const double turn = std::fabs(wrap_angle(to.pose.theta - from.pose.theta));
@@ -318,10 +330,10 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
     made.longest_gap_from_s = longest->from_s;
   }
   next();
-  check_gaps(gaps, limits, complaints);
+  check_gaps(gaps, frames, limits, complaints);
   note(kGap, made.longest_gap_s, limits.degraded_gap_s);
   next();
-  const int jumps = check_breaks(track, options, complaints);
+  const int jumps = check_breaks(track, frames, options, complaints);
   note(kJumps, jumps, 0);
   next();
   const std::optional<double> gap_at_end = check_end(track, frames, options, complaints);

@@ -19,6 +19,7 @@ struct RobotTrack {
   /// Neighbours in one camera's track of which the second cannot be reached from the first.
   std::vector<std::pair<TimedPose, TimedPose>> breaks;
   Scatter sigma;  ///< of one camera's sample, systematic parts included
+  Scatter noise;  ///< the same without them
   /// Cycles at which two cameras measured it more than `kDisagree_m` apart.
   int disagreeing = 0;
   int compared = 0;  ///< cycles at which two cameras measured it

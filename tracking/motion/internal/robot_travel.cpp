@@ -72,13 +72,6 @@ void mark_unsteady(std::vector<TravelStep>& steps, double sigma_m) {
     steps[i].is_steady = false;
     steps[i - 1].is_steady = false;
   }
-  constexpr double kTurns_rad = 0.05;
-  constexpr double kSkids_s = 0.85;
-  double turned_s = -kSkids_s;
-  for (TravelStep& step : steps) {
-    if (std::fabs(step.turn_rad) > kTurns_rad) turned_s = step.to_s;
-    step.skids = !step.is_steady && step.to_s - turned_s < kSkids_s;
-  }
 }
 
 std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track, std::size_t robot,
@@ -110,10 +103,11 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
                      .aside_m = dy * half_way.cos - dx * half_way.sin,
                      .turn_rad = turn,
                      .turn_sigma_rad = 1.5 * track.sigma.sigma_rad,
+                     .noise_m = hypot(1.5 * track.noise.sigma_m, sigma),
                      .sigma_m = sigma,
                      .touches = cycle - std::max(touched, touched_before) <= kSlides});
   }
-  mark_unsteady(steps, track.sigma.sigma_m);
+  mark_unsteady(steps, track.noise.sigma_m);
   return steps;
 }
 
@@ -121,6 +115,7 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
 struct Misplaced {
   double turned_rad = 0;
   double ahead_m = 0;  ///< of the measured point, before the true middle
+  double aside_m = 0;  ///< to its left
   double off_m = 0;    ///< its distance from it
 };
 
@@ -130,7 +125,7 @@ Misplaced if_turned(const TagOffset& own, double turned_rad) {
   const SinCos yaw = sin_cos(own.yaw_rad);
   const double x = own.x_m - (turn.cos * own.x_m - turn.sin * own.y_m);
   const double y = own.y_m - (turn.sin * own.x_m + turn.cos * own.y_m);
-  return {turned_rad, yaw.cos * x - yaw.sin * y, hypot(x, y)};
+  return {turned_rad, yaw.cos * x - yaw.sin * y, yaw.sin * x + yaw.cos * y, hypot(x, y)};
 }
 
 /// Its tag rides where that of another robot should.
@@ -138,12 +133,19 @@ Misplaced if_exchanged(const TagOffset& own, const TagOffset& others) {
   const SinCos yaw = sin_cos(others.yaw_rad);
   const double x = others.x_m - own.x_m;
   const double y = others.y_m - own.y_m;
-  return {wrap_angle(others.yaw_rad - own.yaw_rad), yaw.cos * x - yaw.sin * y, hypot(x, y)};
+  return {wrap_angle(others.yaw_rad - own.yaw_rad), yaw.cos * x - yaw.sin * y,
+          yaw.sin * x + yaw.cos * y, hypot(x, y)};
+}
+
+/// Of a place on the floor, with what is known of it.
+double place_limit(const TravelFit& fit) {
+  return kPlace_m + 3 * fit.place_sigma_m;
 }
 
 bool explains(const Misplaced& guess, const TravelFit& fit) {
   return std::fabs(wrap_angle(guess.turned_rad - fit.turned_rad)) < kHeading_rad &&
-         (!fit.knows_ahead || std::fabs(guess.ahead_m - fit.ahead_m) < kPlace_m);
+         (!fit.knows_place ||
+          hypot(guess.ahead_m - fit.ahead_m, guess.aside_m - fit.aside_m) < place_limit(fit));
 }
 
 std::string degrees(double radians) {
@@ -188,32 +190,34 @@ class Case {
     }
   }
 
-  /// The measured point against the middle between the treads, along the robot.
+  /// The measured point against where the robot turns about, as in its spin.
   void judge_place() {
     Check check{.name = "tag against the treads",
                 .subject = robot_.setup.name,
                 .value = {},
-                .limit = 1000 * kPlace_m,
+                .limit = {},
                 .unit = "mm",
                 .catches = "a tag that sits elsewhere than calibrated",
                 .reason = {}};
     if (!robot_.has_offset) return skip(std::move(check), "its tag was taken for its centre");
-    if (!fit_.knows_ahead) return skip(std::move(check), kTooLittle);
-    check.value = 1000 * std::fabs(fit_.ahead_m);
-    const bool is_off = std::fabs(fit_.ahead_m) > kPlace_m + 3 * fit_.ahead_sigma_m;
+    if (!fit_.knows_place)
+      return skip(std::move(check), "it turned too little on the spot where it touched nothing");
+    const double off = hypot(fit_.ahead_m, fit_.aside_m);
+    check.value = 1000 * off;
+    check.limit = 1000 * place_limit(fit_);
+    const bool is_off = off > place_limit(fit_);
     if (!is_off || is_accused_) {
       if (is_off) check.outcome = Check::Outcome::Failed;
       return run_.checks.push_back(std::move(check));
     }
-    // No proof: bodies that skid, or are pushed along by others, turn about other points, too.
+    // No proof: a tread that slips, or is dead, turns a robot about another point, too.
     check.outcome = Check::Outcome::Warned;
     run_.checks.push_back(std::move(check));
     add(IssueCode::TagPlaceDoubtful,
-        fmt::format("turns about a point {:.0f} mm {} where its offset puts its centre (limit "
-                    "{:.0f} mm): its tag may sit otherwise than calibrated, or it skidded; look at "
-                    "the tag",
-                    1000 * std::fabs(fit_.ahead_m), fit_.ahead_m > 0 ? "behind" : "ahead of",
-                    1000 * kPlace_m));
+        fmt::format("turns on the spot about a point {:.0f} mm {} where its offset puts its centre "
+                    "(limit {:.0f} mm): its tag sits otherwise than calibrated, or one of its "
+                    "treads slips; look at the tag, or calibrate the robot again",
+                    1000 * off, side_of_pivot(), 1000 * place_limit(fit_)));
   }
 
   void judge_slide(const std::vector<TravelStep>& steps) {
@@ -246,6 +250,12 @@ class Case {
   static constexpr const char* kTooLittle =
       "it drove and turned too little where it touched nothing";
 
+  std::string side_of_pivot() const {
+    if (std::fabs(fit_.ahead_m) >= std::fabs(fit_.aside_m))
+      return fit_.ahead_m > 0 ? "behind" : "ahead of";
+    return fit_.aside_m > 0 ? "to the right of" : "to the left of";
+  }
+
   void skip(Check check, const char* reason) {
     check.outcome = Check::Outcome::NotRun;
     check.reason = reason;
@@ -263,10 +273,11 @@ class Case {
   /// the tag sits over the treads' middle.
   void judge_backwards(Check check) {
     const Misplaced turned = if_turned(robot_.offset, kPi);
-    const bool is_told = fit_.knows_ahead && std::fabs(turned.ahead_m) > kPlace_m;
+    const bool is_told = fit_.knows_place && turned.off_m > place_limit(fit_);
     // Measured in the axes of a robot that drives ahead.
     const bool is_turned =
-        is_told && std::fabs(fit_.ahead_m - turned.ahead_m) < std::fabs(fit_.ahead_m);
+        is_told && hypot(fit_.ahead_m - turned.ahead_m, fit_.aside_m - turned.aside_m) <
+                       hypot(fit_.ahead_m, fit_.aside_m);
     if (is_turned) {
       return accuse(std::move(check), true,
                     "drives backwards, and turns about another point than its offset says", turned);
@@ -323,6 +334,44 @@ class Case {
   bool is_accused_ = false;
 };
 
+/// Bodies skid after they turned, in their old direction; before they turn only in a film that runs
+/// backwards.
+void judge_direction(const std::vector<TravelFit>& fits, TrackedRun& run) {
+  constexpr double kSigmas = 5;
+  constexpr double kLeastSkid = 0.1;
+  int told = 0;
+  int backwards = 0;
+  for (const TravelFit& fit : fits) {
+    if (!fit.knows_heading || fit.skid_sigma <= 0) continue;
+    ++told;
+    const bool drives_backwards =
+        kPi - std::fabs(fit.turned_rad) <= kHeading_rad && fit.backward_share >= kMostlyBackwards;
+    if (drives_backwards && fit.skid > std::max(kLeastSkid, kSigmas * fit.skid_sigma)) ++backwards;
+  }
+  Check check{.name = "direction of time",
+              .value = backwards,
+              .limit = 1,
+              .unit = "robots",
+              .catches = "a film that runs backwards"};
+  if (told == 0) {
+    check.outcome = Check::Outcome::NotRun;
+    check.value.reset();
+    check.reason = "no robot drove and turned enough where it touched nothing";
+  }
+  const bool is_reversed = backwards >= 2 && backwards == told;
+  if (is_reversed) {
+    check.outcome = Check::Outcome::Failed;
+    run.issues.push_back({IssueCode::Timestamps,
+                          fmt::format("all {} robots drive backwards, and skid before they turn: "
+                                      "the film runs backwards",
+                                      backwards),
+                          {},
+                          {},
+                          {}});
+  }
+  run.checks.push_back(std::move(check));
+}
+
 }  // namespace
 
 void judge_travel(const std::vector<TaggedRobot>& robots, const std::vector<RobotTrack>& tracks,
@@ -340,6 +389,7 @@ void judge_travel(const std::vector<TaggedRobot>& robots, const std::vector<Robo
     one.judge_place();
     one.judge_slide(steps[i]);
   }
+  judge_direction(fits, run);
 }
 
 }  // namespace swarmsmith

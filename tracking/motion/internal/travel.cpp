@@ -1,11 +1,13 @@
 #include "tracking/motion/internal/travel.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/math.h"
+#include "tracking/motion/internal/pivot.h"
 
 namespace swarmsmith {
 namespace {
@@ -15,7 +17,7 @@ constexpr double kMedianOfNormal = 0.6744897501960817;
 constexpr double kLeastStepSigma_m = 5e-5;
 /// A heading is told by less than this: a third of what a straight run may spread by.
 constexpr double kHeadingTold_rad = 1.5 * kPi / 180;
-constexpr double kAheadTold_m = 0.003;
+constexpr double kByTurnTold_m = 0.003;
 /// The way must stand out of the noise, and the turns too.
 constexpr double kOverNoise = 10;
 constexpr double kLeastWay_m = 0.25;
@@ -126,10 +128,6 @@ Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& 
   return fit_line(steps, weights, with_place);
 }
 
-}  // namespace
-
-namespace {
-
 /// Both unknowns, or the heading alone.
 TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
   TravelFit fit;
@@ -151,21 +149,19 @@ TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
   }
   // The true heading is the sense in which it goes more.
   fit.turned_rad = forward < 0 ? wrap_angle(turned + kPi) : turned;
-  fit.ahead_m = forward < 0 ? -line.ahead_m : line.ahead_m;
+  fit.by_turn_m = forward < 0 ? -line.ahead_m : line.ahead_m;
   fit.backward_share = fit.way_m > 0 ? backward / fit.way_m : 0;
   fit.turned_sigma_rad = sigma_m / std::sqrt(std::max(line.most, 1e-12));
   // Noise of the turns looks like a way where way and turn always go together.
   const double noise_m = hypot(sigma_m, line.by_turn * steps.front().turn_sigma_rad);
   fit.knows_heading = line.most > kOverNoise * count * noise_m * noise_m &&
                       fit.turned_sigma_rad < kHeadingTold_rad && fit.way_m >= kLeastWay_m;
-  fit.ahead_sigma_m = sigma_m / std::sqrt(std::max(turns, 1e-12));
-  fit.knows_ahead = with_place && fit.knows_heading && fit.ahead_sigma_m < kAheadTold_m;
+  fit.knows_by_turn = with_place && fit.knows_heading &&
+                      sigma_m / std::sqrt(std::max(turns, 1e-12)) < kByTurnTold_m;
   return fit;
 }
 
-}  // namespace
-
-TravelFit fit_travel(std::span<const TravelStep> all) {
+TravelFit fit_way(std::span<const TravelStep> all) {
   constexpr std::size_t kLeastSteps = 20;
   TravelFit fit;
   double step_sigma_m = 0;
@@ -182,36 +178,111 @@ TravelFit fit_travel(std::span<const TravelStep> all) {
   return fit;
 }
 
+/// The same by the measured heading and by one that is turned by 180 degrees.
+void measure_skid(std::span<const TravelStep> steps, const Pivot& pivot, TravelFit& fit) {
+  double products = 0;
+  double squares = 0;
+  double sides = 0;
+  double count = 0;
+  for (const TravelStep& step : steps) {
+    if (step.touches || step.sigma_m > 0) continue;
+    const double aside = step.aside_m - pivot.ahead_m * step.turn_rad;
+    const double along = (step.ahead_m + pivot.aside_m * step.turn_rad) * step.turn_rad;
+    products += aside * along;
+    squares += along * along;
+    sides += aside * aside;
+    ++count;
+  }
+  constexpr double kLeast = 20;
+  if (count < kLeast || !(squares > 0)) return;
+  fit.skid = products / squares;
+  const double left = std::max(sides - fit.skid * products, 0.0);
+  fit.skid_sigma = std::sqrt(left / count / squares);
+}
+
+}  // namespace
+
+TravelFit fit_travel(std::span<const TravelStep> steps) {
+  TravelFit fit = fit_way(steps);
+  const std::optional<Pivot> pivot = pivot_of(steps);
+  if (!pivot) return fit;
+  const double turned = fit.knows_heading ? fit.turned_rad : 0;
+  fit.knows_place = true;
+  fit.ahead_m = std::cos(turned) * pivot->ahead_m - std::sin(turned) * pivot->aside_m;
+  fit.aside_m = std::sin(turned) * pivot->ahead_m + std::cos(turned) * pivot->aside_m;
+  fit.place_sigma_m = pivot->sigma_m;
+  measure_skid(steps, *pivot, fit);
+  return fit;
+}
+
+namespace {
+
+/// Of a step of the point that the robot turns about, in the axes of its true heading.
+struct Unexplained {
+  double aside_m = 0;
+  double way_m = 0;
+};
+
+/// Friction of treads brakes a body sideways, and drives it never: so what goes to the side is at
+/// most what the body had in that direction the step before, until it is used up. The rest is
+/// somebody else's. After a touch, or a gap, all may be the body's own.
+std::vector<Unexplained> unexplained(std::span<const TravelStep> steps, const TravelFit& fit) {
+  const double turned = fit.knows_heading ? fit.turned_rad : 0;
+  const Eigen::Rotation2Dd to_true(turned);
+  // Where nothing tells the point it turns about, what goes with turns may be skids or a place.
+  const double by_turn_m = !fit.knows_place && fit.knows_by_turn ? fit.by_turn_m : 0;
+  std::vector<Unexplained> all;
+  const TravelStep* before = nullptr;
+  Eigen::Vector2d had(0, 0);  // ahead and to the left, in the axes of the step before
+  for (const TravelStep& step : steps) {
+    Eigen::Vector2d way = to_true * Eigen::Vector2d(step.ahead_m, step.aside_m);
+    if (fit.knows_place) way += step.turn_rad * Eigen::Vector2d(fit.aside_m, -fit.ahead_m);
+    const bool goes_on = before != nullptr && !before->touches && !step.touches &&
+                         std::fabs(before->to_s - step.from_s) < kSameInstant_s;
+    double explained = way(1);
+    if (goes_on) {
+      const double turn = (before->turn_rad + step.turn_rad) / 2;
+      const double kept = (Eigen::Rotation2Dd(-turn) * had)(1);
+      const double with_turn = by_turn_m * step.turn_rad;
+      explained = std::clamp(way(1), std::min(0.0, kept) + std::min(0.0, with_turn),
+                             std::max(0.0, kept) + std::max(0.0, with_turn));
+    }
+    all.push_back({way(1) - explained, std::fabs(way(0))});
+    had = {way(0), explained};
+    before = &step;
+  }
+  return all;
+}
+
+}  // namespace
+
 std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit) {
-  /// What slip and single bumps may add: a length, and a share of the way. A skid may add more.
+  /// What slip and single bumps may add: a length, and a share of the way.
   struct Window {
     double length_s;
     double slip_m;
-    bool with_skids;
   };
-  constexpr std::array<Window, 4> kWindows{
-      {{1, 0.03, false}, {5, 0.05, false}, {1, 0.1, true}, {5, 0.15, true}}};
+  constexpr std::array<Window, 2> kWindows{{{1, 0.03}, {5, 0.05}}};
   constexpr double kSlip = 0.1;
   constexpr double kSigmas = 4;
-  const double cosine = fit.knows_heading ? std::cos(fit.turned_rad) : 1;
-  const double sine = fit.knows_heading ? std::sin(fit.turned_rad) : 0;
-  const double ahead_m = fit.knows_ahead ? fit.ahead_m : 0;
+  const std::vector<Unexplained> ways = unexplained(steps, fit);
   std::optional<Slide> worst;
   for (const Window& window : kWindows) {
     std::size_t first = 0;
     double aside = 0;
     double way = 0;
     double squares = 0;
-    const auto add = [&](const TravelStep& step, double sign) {
-      if (step.touches || (step.skids && !window.with_skids)) return;
-      aside += sign * (cosine * step.aside_m + sine * step.ahead_m - ahead_m * step.turn_rad);
-      way += sign * std::fabs(cosine * step.ahead_m - sine * step.aside_m);
+    const auto add = [&](std::size_t i, double sign) {
+      const TravelStep& step = steps[i];
+      if (step.touches) return;
+      aside += sign * ways[i].aside_m;
+      way += sign * ways[i].way_m;
       squares += sign * (fit.step_sigma_m * fit.step_sigma_m + step.sigma_m * step.sigma_m);
     };
     for (std::size_t last = 0; last < steps.size(); ++last) {
-      add(steps[last], 1);
+      add(last, 1);
       while (steps[last].to_s - steps[first].from_s > window.length_s + kSameInstant_s)
-        add(steps[first++], -1);
+        add(first++, -1);
       const double limit =
           window.slip_m + kSlip * way + kSigmas * std::sqrt(std::max(0.0, squares));
       const double is = std::fabs(aside);

@@ -20,27 +20,35 @@ struct TravelStep {
   double aside_m = 0;  ///< to its left
   double turn_rad = 0;
   double turn_sigma_rad = 0;
+  double noise_m = 0;     ///< of the way, one sigma
   double sigma_m = 0;     ///< of what is interpolated, beyond a sample's noise
   bool touches = false;   ///< a wall, an obstacle or a robot, or just did, and may slide from it
-  bool skids = false;     ///< it turned and changed its speed: a body goes on in its old direction
   bool is_steady = true;  ///< neither gains nor loses speed, when a body slides over its treads
 };
 
-/// What all of a run's free steps say of a tag. A heading that is off by `turned` and a point that
-/// lies `ahead` of the middle between the treads move so in each step:
-/// aside * cos(turned) + ahead_m * sin(turned) = ahead * turn. Both are fitted with weights that
-/// leave single pushes out. A robot that drives one and the same arc leaves open which of the two
-/// it is: then the heading is fitted alone, as if the point were right.
+/// What all of a run's free steps say of a tag. A heading that is off by `turned`, and what goes
+/// with each turn, move so in each step: aside * cos(turned) + ahead * sin(turned) = by_turn *
+/// turn. Both are fitted with weights that leave single pushes out. What goes with turns is the
+/// place of the measured point, and skids. A robot that drives one and the same arc leaves open
+/// which it is: then the heading is fitted alone.
 struct TravelFit {
   double way_m = 0;  ///< along the treads, without touch
   bool knows_heading = false;
   double turned_rad = 0;  ///< the measured heading minus the true one, if it drives ahead mostly
   double turned_sigma_rad = 0;
   double backward_share = 0;  ///< of the way, by the measured heading
-  bool knows_ahead = false;
-  double ahead_m = 0;
-  double ahead_sigma_m = 0;
+  bool knows_by_turn = false;
+  double by_turn_m = 0;
   double step_sigma_m = 0;  ///< of one step to the side
+  /// Of the measured point, from where the robot turns about on the spot, by the true heading.
+  bool knows_place = false;
+  double ahead_m = 0;
+  double aside_m = 0;
+  double place_sigma_m = 0;
+  /// How far it goes to the side, over how far ahead and by how much it turns, in one step: below 0
+  /// for bodies that skid out of their old direction. None skids into its new one.
+  double skid = 0;
+  double skid_sigma = 0;  ///< 0 when it is not known
 };
 TravelFit fit_travel(std::span<const TravelStep> steps);
 
