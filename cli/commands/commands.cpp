@@ -149,12 +149,14 @@ Examples:
 
 constexpr std::string_view kProfileDetails =
     R"(Prints a built-in profile as a commented file, to edit and to name in a campaign file: profile =
-"my_rvr.toml". Without a name it lists the built-in profiles.
+"my_rvr.toml". Of a file of your own it prints all settings, those of its base included. Without a
+name it lists the built-in profiles.
 
 Examples:
   swarmsmith profile
   swarmsmith profile pseudo-reality
-  swarmsmith profile rvr -o my_rvr.toml)";
+  swarmsmith profile rvr -o my_rvr.toml
+  swarmsmith profile my_rvr.toml)";
 
 constexpr std::string_view kStatusDetails =
     R"(Asks the running coordinator for campaigns, idle slots and their reasons, designs, and hosts, the worst

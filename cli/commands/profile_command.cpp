@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "base/suggestion.h"
 #include "base/text/json.h"
@@ -25,6 +26,18 @@ void list(Output& output) {
     output.out << name << "\n";
 }
 
+/// All that a file of one's own says, that of its base included, as a file.
+std::string whole_text(const Profile& profile) {
+  const std::string root = "profile";
+  std::string text = "format = 1\n";
+  for (Section& section : profile_sections(profile, root)) {
+    if (section.header == "[" + root + "]") continue;  // its name is the file's
+    section.header.erase(1, root.size() + 1);
+    text += text_of({section});
+  }
+  return text;
+}
+
 ExitCode write(const ProfileArguments& arguments, std::string_view text, Output& output) {
   if (std::error_code none; std::filesystem::exists(arguments.file, none)) {
     return fail(output, ExitCode::Usage,
@@ -48,11 +61,17 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
     list(output);
     return ExitCode::Done;
   }
-  const auto profile = built_in_profile(arguments.name);
-  if (!profile) {
-    return fail(output, ExitCode::Usage, Error{ErrorKind::BadInput, profile.error().message, ""});
+  std::string text(built_in_profile_text(arguments.name));
+  if (text.empty()) {
+    const auto profile = find_profile(arguments.name, ".");
+    if (!profile) {
+      const std::vector<Error>& errors = profile.error();
+      for (std::size_t i = 0; i + 1 < errors.size(); ++i)
+        print_error(output, errors[i]);
+      return fail(output, ExitCode::Usage, errors.back());
+    }
+    text = whole_text(*profile);
   }
-  const std::string_view text = built_in_profile_text(arguments.name);
   if (!arguments.file.empty()) return write(arguments, text, output);
   if (output.json) {
     output.out << JsonObject().add("profile", arguments.name).add("text", text).text() << "\n";
@@ -66,7 +85,7 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
 
 Run declare_profile(Options& options) {
   auto arguments = std::make_shared<ProfileArguments>();
-  options.text("PROFILE", arguments->name, "A built-in profile (default: list them)");
+  options.text("PROFILE", arguments->name, "A built-in profile, or a file (default: list them)");
   options.text("-o,--output FILE", arguments->file, "File to write; never overwritten");
   return [arguments](Output& output) { return run_profile(*arguments, output); };
 }

@@ -10,6 +10,7 @@
 
 #include "analysis/records/records.h"
 #include "base/id.h"
+#include "cli/output/stored_quarantine.h"
 #include "cli/output/stored_stages.h"
 #include "storage/rows.h"
 
@@ -173,7 +174,9 @@ std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& stat
   if (now == nullptr && state.rejected > 0)
     looks.push_back({counted(state.rejected, "evaluation") + " rejected", c});
   if (head.state == "interrupted")
-    looks.push_back({head.name + " is not finished, and nobody runs it", c});
+    looks.push_back({head.name + " is not finished, and no process runs it", c});
+  for (const QuarantineStatus& one : state.quarantine)
+    looks.push_back({quarantine_line(one), "fleet"});
   Rows designs = state.designs;
   for (std::size_t i = 0; i < designs.cells.size(); ++i) {
     const std::string id = cell_of(designs, i, "id").text;
@@ -250,6 +253,9 @@ Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_wr
     if (auto added = add_stages(store, state.designs); !added) return Unexpected(added.error());
   }
   if (is_written) return state;
+  auto quarantine = stored_quarantine(store);
+  if (!quarantine) return Unexpected(quarantine.error());
+  state.quarantine = *std::move(quarantine);
   correct_states(state.campaign);
   correct_states(state.designs);
   return state;

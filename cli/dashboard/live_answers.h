@@ -22,7 +22,8 @@ struct StoredCampaignState {
   Rows campaign;  ///< name, digest, state, used, budget, a row a campaign
   Rows designs;   ///< as `live` has them
   std::string last_event;
-  std::int64_t rejected = 0;  ///< evaluations, as its events say
+  std::int64_t rejected = 0;                 ///< evaluations, as its events say
+  std::vector<QuarantineStatus> quarantine;  ///< while no process writes the store
 };
 
 /// Errors: as a query's. `stages`: with where searches are that are no iterated races, which the

@@ -133,7 +133,9 @@ TextTable table_of(Rows rows) {
 
 }  // namespace
 
-std::string rows_as_text(Rows rows) { return aligned(table_of(std::move(rows))); }
+std::string rows_as_text(Rows rows) {
+  return aligned(table_of(std::move(rows)));
+}
 
 std::string cells_as_csv(const std::vector<Cell>& cells) {
   std::vector<std::string> texts;

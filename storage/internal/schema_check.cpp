@@ -199,11 +199,12 @@ Expected<void> check_lengths(const Connection& connection, const std::filesystem
   for (const Limit& limit : kLimits) {
     if (schema < limit.schema) continue;
     const std::int64_t longest = sqlite::integer_of(
-        connection, fmt::format("SELECT max(length({})) FROM {}", limit.column, limit.table));
+        connection,
+        fmt::format("SELECT max(length(CAST({} AS BLOB))) FROM {}", limit.column, limit.table));
     if (longest <= limit.most) continue;
     return unexpected(ErrorKind::Corrupt,
-                      fmt::format("a {} in the store's table {} has {} characters; a store has {} "
-                                  "at most",
+                      fmt::format("a {} in the store's table {} has {} bytes; a store has {} at "
+                                  "most",
                                   limit.column, limit.table, longest, limit.most),
                       path.string());
   }

@@ -1,5 +1,8 @@
 """Who lied is cut out of a store, and who is in quarantine is seen, and can be forgiven."""
+import base64
+import gzip
 import json
+import re
 import signal
 import unittest
 
@@ -126,6 +129,11 @@ class Forgiven(Trust):
         self.assertEqual(serving.wait(), 130, serving.tail())
         liar.kill()
         self.assert_shown()
+        page = self.folder / "page.html"
+        self.said("dashboard", self.store, "--export", page)
+        shown = re.search(r'id="snapshot"[^>]*>([^<]+)<', page.read_text())[1]
+        looks = re.findall(r'"text":"([^"]*)"', gzip.decompress(base64.b64decode(shown)).decode())
+        self.assertRegex("\n".join(looks), r"node7@.* is in quarantine since .*it gave")
         # It lasts, and the coordinator that waits for workers says why none comes.
         serving = self.serve("--keys", self.keys)
         wait_for(lambda: "node7" in serving.log(), "why it waits")

@@ -150,6 +150,40 @@ TEST_F(OpeningTest, FindsTheFileSystemOfAFolderOfThisHost) {
   EXPECT_EQ(shared_file_system("/dev"), "");
 }
 
+TEST_F(OpeningTest, RefusesTextsThatAreLongerThanAnyOfOurs) {
+  constexpr int kName = kLongestName;
+  const std::vector<std::pair<std::string, int>> limits{
+      {"campaign.name", kName},    {"source.name", kName},         {"design.mission", kName},
+      {"design.method", kName},    {"design.flavour", kName},      {"design.reason", 1 << 20},
+      {"phrase.machine", 8 << 20}, {"phrase.parameters", 8 << 20}, {"phrase.modules", 8 << 20}};
+  make_store();
+  execute("INSERT OR IGNORE INTO phrase (id, machine, parameters, modules) VALUES (1, '', '', '')");
+  const std::filesystem::path whole = folder / "whole.db";
+  std::filesystem::copy_file(path, whole);
+  for (const auto& [name, most] : limits) {
+    SCOPED_TRACE(name);
+    const std::string table = name.substr(0, name.find('.'));
+    const std::string column = name.substr(name.find('.') + 1);
+    // SQLite's length() of a text ends at its first zero.
+    for (const std::string& text :
+         {std::string("substr(hex(zeroblob({0})), 1, {0})"), std::string("zeroblob({0})")}) {
+      const auto set = [&](int length) {
+        std::filesystem::copy_file(whole, path, std::filesystem::copy_options::overwrite_existing);
+        execute("UPDATE " + table + " SET " + column + " = CAST(" +
+                fmt::format(fmt::runtime(text), length) +
+                " AS TEXT) WHERE id = (SELECT min(id) FROM " + table + ")");
+      };
+      set(most);
+      EXPECT_TRUE(StoreReader::open(path));
+      set(most + 1);
+      EXPECT_EQ(reader_refusal().kind, ErrorKind::Corrupt);
+      EXPECT_EQ(reader_refusal().message,
+                fmt::format("a {} in the store's table {} has {} bytes; a store has {} at most",
+                            column, table, most + 1, most));
+    }
+  }
+}
+
 TEST_F(OpeningTest, RefusesASecondWriterOfTheSameProcess) {
   const auto first = open_store(path, campaign);
   EXPECT_EQ(refusal().kind, ErrorKind::Conflict);

@@ -192,7 +192,7 @@ TEST_F(OfOthers, NamesOfAnyLengthAreRefused) {
   change(path, "UPDATE design SET mission = printf('%.100000c', 'm')");
   const auto reader = StoreReader::open(path);
   ASSERT_FALSE(reader);
-  EXPECT_THAT(reader.error().message, HasSubstr("100000 characters"));
+  EXPECT_THAT(reader.error().message, HasSubstr("100000 bytes"));
 }
 
 // --- rows that are those of a commit ---

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -104,14 +105,23 @@ void add_run(const KnownRun& run, Collected& collected) {
     collected.left_out.push_back(run.name + " is INVALID");
     return;
   }
-  bool has_log = false;
-  for (std::size_t i = 0; i < run.analysis.scored.reality.size(); ++i) {
-    const auto& reality = run.analysis.scored.reality[i];
-    if (!reality) continue;
-    has_log = true;
-    collected.robots.push_back({run.name, run.analysis.tracked.robots[i].name, *reality});
+  const std::size_t before = collected.robots.size();
+  std::vector<std::string> without;
+  for (std::size_t i = 0; i < run.analysis.tracked.robots.size(); ++i) {
+    const std::string& robot = run.analysis.tracked.robots[i].name;
+    const auto& all = run.analysis.scored.reality;
+    if (i < all.size() && all[i]) {
+      collected.robots.push_back({run.name, robot, *all[i]});
+    } else {
+      without.push_back(robot);
+    }
   }
-  if (!has_log) collected.left_out.push_back(run.name + " has no robot's log");
+  if (collected.robots.size() == before) {
+    collected.left_out.push_back(run.name + " has no robot's log that can be read");
+    return;
+  }
+  for (const std::string& robot : without)
+    collected.left_out.push_back(run.name + ", " + robot + " has no log that can be read");
 }
 
 void print_figures(const LabProfile& profile, const Collected& collected, Output& output) {
@@ -133,6 +143,7 @@ void print_figures(const LabProfile& profile, const Collected& collected, Output
                                            .add("spread", of(&Pooled::spread))
                                            .add("robots_in_runs",
                                                 figure.value ? figure.value->count : 0)
+                                           .add("basis", figure.basis)
                                            .add("reason", figure.reason);
                                      }))
                       .add("left_out", collected.left_out)
@@ -149,10 +160,10 @@ void print_figures(const LabProfile& profile, const Collected& collected, Output
       continue;
     }
     const double scale = factor(figure);
-    output.out << fmt::format(
-        "{}: {:.1f} {} [{:.1f}, {:.1f}], spread {:.1f} {}, {} robots in runs\n", figure.name,
-        scale * figure.value->mean, figure.unit, scale * figure.value->low,
-        scale * figure.value->high, scale * figure.value->spread, figure.unit, figure.value->count);
+    output.out << fmt::format("{}: {:.1f} {} [{:.1f}, {:.1f}], spread {:.1f} {}, {}\n", figure.name,
+                              scale * figure.value->mean, figure.unit, scale * figure.value->low,
+                              scale * figure.value->high, scale * figure.value->spread, figure.unit,
+                              figure.basis);
   }
 }
 
@@ -175,6 +186,24 @@ ExitCode write(const ProfileArguments& arguments, const LabProfile& profile,
   return ExitCode::Done;
 }
 
+/// A run counts once: a store has another number for a run that was scored again.
+std::optional<std::string> same_run(const std::vector<MeasuredRobot>& robots) {
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto is_same = [&](const MeasuredRobot& a, const MeasuredRobot& b) {
+        return a.run != b.run && a.robot == b.robot && !a.reality.delays_s.empty() &&
+               a.reality.delays_s == b.reality.delays_s &&
+               a.reality.slip.turn.gain == b.reality.slip.turn.gain;
+      };
+      if (is_same(robots[i], robots[j])) {
+        return robots[j].run + " and " + robots[i].run +
+               " are one run, by their figures; name it once";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 /// A file that is there stays; one that no campaign could name is not written.
 std::optional<Error> flaw_of(const std::string& file) {
   if (file.empty() || file == "-") return std::nullopt;
@@ -194,6 +223,14 @@ std::optional<Error> flaw_of(const std::string& file) {
 
 ExitCode run(const ProfileArguments& arguments, Output& output) {
   if (const auto flaw = flaw_of(arguments.file)) return fail(output, ExitCode::Usage, *flaw);
+  for (auto word = arguments.runs.begin(); word != arguments.runs.end(); ++word) {
+    if (std::find(arguments.runs.begin(), word, *word) != word)
+      return fail(output, ExitCode::Usage, {ErrorKind::BadInput, "is named twice", *word});
+    if (!is_of_store(*word) && arguments.arena.empty()) {
+      return fail(output, ExitCode::Usage,
+                  {ErrorKind::BadInput, "is a run log: name its arena file with --arena", *word});
+    }
+  }
   Collected collected;
   for (const std::string& word : arguments.runs) {
     const auto known =
@@ -201,6 +238,8 @@ ExitCode run(const ProfileArguments& arguments, Output& output) {
     if (!known) return fail(output, known.error());
     add_run(*known, collected);
   }
+  if (const auto flaw = same_run(collected.robots))
+    return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *flaw, ""});
   const LabProfile profile = lab_profile(
       {.robots = collected.robots, .base = arguments.base, .program = track_program_name()});
   if (!profile.is_measured()) {

@@ -61,7 +61,9 @@ class Writer {
   LabProfile write() {
     head();
     LabProfile profile;
-    std::string body = neighbours() + timing() + treads();
+    std::string body = neighbours();
+    body += timing();
+    body += treads();
     profile.figures = std::move(figures_);
     profile.text = std::move(text_) + body + foot();
     return profile;
@@ -95,16 +97,20 @@ class Writer {
     return told;
   }
 
+  static std::string count_text(const Told& told) {
+    std::string text = fmt::format("of {} robot{} in {} run{}", told.robots.size(),
+                                   told.robots.size() == 1 ? "" : "s", told.runs.size(),
+                                   told.runs.size() == 1 ? "" : "s");
+    if (!told.reasons.empty()) text += fmt::format(" ({} could not tell)", told.reasons.size());
+    return text;
+  }
+
   /// The comment of a figure that was measured.
   static std::string comment(const std::string& name, const Pooled& value, const Told& told,
                              double factor, const std::string& unit) {
-    std::string text = fmt::format(
-        "# {}: {:.1f} {} [{:.1f}, {:.1f}], spread {:.1f} {}; of {} robot{} in {} run{}", name,
-        factor * value.mean, unit, factor * value.low, factor * value.high, factor * value.spread,
-        unit, told.robots.size(), told.robots.size() == 1 ? "" : "s", told.runs.size(),
-        told.runs.size() == 1 ? "" : "s");
-    if (!told.reasons.empty()) text += fmt::format(" ({} could not tell)", told.reasons.size());
-    return text + "\n";
+    return fmt::format("# {}: {:.1f} {} [{:.1f}, {:.1f}], spread {:.1f} {}; {}\n", name,
+                       factor * value.mean, unit, factor * value.low, factor * value.high,
+                       factor * value.spread, unit, count_text(told));
   }
 
   /// The comment of one that could not be, and its figure.
@@ -114,7 +120,7 @@ class Writer {
       reason += (i == 0 ? ": " : "; ") + told.reasons[i];
     if (told.reasons.size() > kReasons)
       reason += fmt::format("; and {} more", told.reasons.size() - kReasons);
-    figures_.push_back({name, {}, unit, reason});
+    figures_.push_back({name, {}, unit, {}, reason});
     return fmt::format("# {}: left as in `{}`, since {}\n", name, source_.base, reason);
   }
 
@@ -134,8 +140,10 @@ class Writer {
       there += robot.reality.neighbours.there;
       phantoms += robot.reality.neighbours.phantoms;
     }
-    const Pooled all = pooled(told.estimates);
-    figures_.push_back({name, all, "%", ""});
+    Pooled all = pooled(told.estimates);
+    all.low = std::max(all.low, 0.0);
+    all.high = std::min(all.high, 1.0);
+    figures_.push_back({name, all, "%", count_text(told), {}});
     text += comment(name, all, told, 100, "%");
     text += fmt::format(
         "# Chances: {} robots in reach, in single control cycles. In {} more cycles a log has a\n"
@@ -182,7 +190,7 @@ class Writer {
       for (double* value : {&all.mean, &all.low, &all.high})
         *value -= later_s;
     }
-    figures_.push_back({"latency", all, "ms", ""});
+    figures_.push_back({"latency", all, "ms", count_text(told), {}});
     std::string text = comment("latency", all, told, 1000, "ms");
     text += fmt::format(
         "# From command to treads, by {} changes of the turning, which scatter by {:.1f} ms "
@@ -243,7 +251,7 @@ class Writer {
     });
     if (told.estimates.empty()) return left("latency", told, "ms");
     const Pooled all = pooled(told.estimates);
-    figures_.push_back({"latency", all, "ms", ""});
+    figures_.push_back({"latency", all, "ms", count_text(told), {}});
     return comment("latency", all, told, 1000, "ms") +
            "# From command to treads, by the motion of whole runs, less the 5 ms that the "
            "simulator "
@@ -265,9 +273,9 @@ class Writer {
     });
     if (told.estimates.empty()) return text + left("control period", told, "ms");
     const Pooled all = pooled(told.estimates);
-    figures_.push_back({"control period", all, "ms", ""});
-    text += fmt::format("# control period: {:.2f} to {:.2f} ms; of {} robots in {} runs\n",
-                        least_ms, most_ms, told.robots.size(), told.runs.size());
+    figures_.push_back({"control period", all, "ms", count_text(told), {}});
+    text += fmt::format("# control period: {:.2f} to {:.2f} ms; {}\n", least_ms, most_ms,
+                        count_text(told));
     if (std::max(std::fabs(least_ms - kNominal_ms), std::fabs(most_ms - kNominal_ms)) <
         kLeastPeriodOff_ms) {
       return text + "period = [\"100 ms\", \"100 ms\"]\n";
@@ -290,7 +298,7 @@ class Writer {
         continue;
       }
       const Pooled all = pooled(told.estimates);
-      figures_.push_back({name, all, "%", ""});
+      figures_.push_back({name, all, "%", count_text(told), {}});
       text += comment(name, all, told, 100, "%");
       text += fmt::format("{:<8}= {}\n", key, number_text(rounded(std::max(0.0, all.mean), 1e4)));
       text += fmt::format("{:<8}= {}\n", key + "_sd", number_text(rounded(all.spread, 1e4)));

@@ -22,6 +22,7 @@ struct LabFigure {
   std::string name;  ///< "latency"
   std::optional<Pooled> value;
   std::string unit;    ///< "ms", "%"
+  std::string basis;   ///< "of 3 robots in 4 runs (1 could not tell)"
   std::string reason;  ///< why it was left as the base has it, a sentence
 };
 

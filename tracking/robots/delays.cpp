@@ -21,9 +21,13 @@ constexpr double kSame_radps = 0.1;
 constexpr double kBefore_s = 0.4;
 constexpr double kAfter_s = 0.6;
 constexpr double kLongestGap_s = 0.25;
+/// Where nothing better is known.
+constexpr double kLongestLatency_s = 0.5;
 
 constexpr double kStep_s = 0.01;
 constexpr double kLeastProbability = 0.01;
+/// Standard errors by which a law's steps are higher than what is before them.
+constexpr double kLeastRise = 3;
 
 double spin_of(const TimedCommand& command) {
   return (command.right_mps - command.left_mps) / kTreadDistance_m;
@@ -60,15 +64,48 @@ bool is_steady(std::span<const TimedCommand> commands, std::size_t first, double
   return true;
 }
 
+/// A part of the law: from a step on, so many of those commands had arrived whose successors had.
+struct Level {
+  int step = 0;
+  double had = 0;
+  double of = 0;
+
+  double arrived() const { return of > 0 ? had / of : 0; }
+};
+
+/// By how many standard errors the second level is higher.
+double rise(const Level& low, const Level& high) {
+  if (low.of <= 0 || high.of <= 0) return low.of <= 0 && high.had > 0 ? kLeastRise : 0;
+  const double both = (low.had + high.had + 0.5) / (low.of + high.of + 1);
+  return (high.arrived() - low.arrived()) /
+         std::sqrt(both * (1 - both) * (1 / low.of + 1 / high.of));
+}
+
+/// Neighbours become one, the least different first, until all that are left rise: a law never
+/// falls, and chance makes many small steps of a large one.
+void join_levels(std::vector<Level>& levels) {
+  while (levels.size() > 1) {
+    std::size_t least = 1;
+    for (std::size_t i = 2; i < levels.size(); ++i) {
+      if (rise(levels[i - 1], levels[i]) < rise(levels[least - 1], levels[least])) least = i;
+    }
+    if (rise(levels[least - 1], levels[least]) >= kLeastRise) return;
+    levels[least - 1].had += levels[least].had;
+    levels[least - 1].of += levels[least].of;
+    levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+}
+
 }  // namespace
 
 std::vector<double> delays_of(std::span<const TimedCommand> commands, std::span<const Sample> seen,
-                              double latency_s, double turn_gain,
+                              std::optional<double> latency_s, double turn_gain,
                               const std::function<bool(double, double)>& is_free) {
   std::vector<double> delays;
   const std::vector<Sample> samples = best_seen(seen);
-  const double before_s = std::max(latency_s, 0.0) + kBefore_s;
-  const double after_s = std::max(latency_s, 0.0) + kAfter_s;
+  const double known_s = std::max(latency_s.value_or(kLongestLatency_s), 0.0);
+  const double before_s = known_s + kBefore_s;
+  const double after_s = known_s + kAfter_s;
   std::size_t first = 0;  // since when commands turn as the last one does
   for (std::size_t i = 1; i < commands.size(); ++i) {
     const double change = spin_of(commands[i]) - spin_of(commands[first]);
@@ -101,21 +138,25 @@ std::vector<DrawnDelay> drawn_delays(std::vector<double> acted_s, double period_
   std::ranges::sort(acted_s);
   const auto acted = [&](double seconds) {
     const auto end = std::ranges::upper_bound(acted_s, seconds + kStep_s / 2);
-    return static_cast<double>(end - acted_s.begin()) / static_cast<double>(acted_s.size());
+    return static_cast<double>(end - acted_s.begin());
   };
-  double before = 0;
-  double sum = 0;
+  std::vector<Level> levels;
   const int last = std::max(0, static_cast<int>(std::ceil(acted_s.back() / kStep_s)));
   for (int step = 0; step <= last; ++step) {
-    const double all = acted(step * kStep_s + period_s);
-    const double arrived = all == 0 ? 0 : std::max(before, acted(step * kStep_s) / all);
-    if (arrived - before < kLeastProbability) continue;
-    drawn.push_back({step * kStep_s, arrived - before});
-    sum += arrived - before;
-    before = arrived;
+    // Within a period the same commands are counted at each step.
+    const double share = kStep_s / period_s;
+    levels.push_back(
+        {step, share * acted(step * kStep_s), share * acted(step * kStep_s + period_s)});
+  }
+  join_levels(levels);
+  double before = 0;
+  for (const Level& level : levels) {
+    if (level.arrived() - before < kLeastProbability) continue;
+    drawn.push_back({level.step * kStep_s, level.arrived() - before});
+    before = level.arrived();
   }
   for (DrawnDelay& delay : drawn)
-    delay.probability /= sum;
+    delay.probability /= before;
   return drawn;
 }
 

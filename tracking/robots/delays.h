@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,9 +16,9 @@ namespace swarmsmith {
 /// delays is as late as the robot. One that comes late delays those after it, so they are not what
 /// is drawn for a command; see `drawn_delays`.
 ///
-/// As slip_of; `turn_gain` is its result.
+/// As slip_of; `turn_gain` is its result. A latency that is not known is up to 0.5 s.
 std::vector<double> delays_of(std::span<const TimedCommand> commands, std::span<const Sample> seen,
-                              double latency_s, double turn_gain,
+                              std::optional<double> latency_s, double turn_gain,
                               const std::function<bool(double, double)>& is_free);
 
 /// A delay with its probability.
@@ -29,8 +30,8 @@ struct DrawnDelay {
 /// The law of what is drawn for each command, in steps of 10 ms, when commands come each
 /// `period_s`, keep their order, and those that changed something acted after `acted_s`: a command
 /// has acted by then when it and all before it have arrived, E(x) = F(x) F(x + period) ..., so F(x)
-/// = E(x) / E(x + period). Steps that hold less than one in a hundred are left out. Empty for
-/// nothing.
+/// = E(x) / E(x + period). Steps that chance can have made are joined, those that hold less than
+/// one in a hundred are left out. Empty for nothing.
 std::vector<DrawnDelay> drawn_delays(std::vector<double> acted_s, double period_s);
 
 }  // namespace swarmsmith

@@ -33,6 +33,8 @@ constexpr double kBlock_s = 2;
 constexpr std::size_t kLeastIntervals = 50;
 constexpr double kLargestError_s = 0.02;
 constexpr double kLeastSurprise = 10;
+/// A limit that explains more than this is more than chance, though it may be no limit.
+constexpr double kLeastDoubt = 2;
 /// What is commanded below this over a whole run is standing: metres and radians.
 constexpr double kLeastWay_m = 0.05;
 constexpr double kLeastTurn_rad = 0.5;
@@ -188,7 +190,7 @@ class Followed {
   /// The limit at which the surprise is least, by golden sections.
   double best_limit(double shift_s) const {
     constexpr double kGolden = 0.6180339887498949;
-    constexpr int kSections = 12;
+    constexpr int kSections = 9;
     if (!is_limited_) return limits_.back();
     const auto surprise = [&](double logarithm) {
       return seen_.surprise(seen_.fit(Response(commands_, values_, std::exp(logarithm)), shift_s));
@@ -324,17 +326,27 @@ Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
     best.is_beyond = std::ranges::max(surprises) - best.surprise > kLeastSurprise;
     return best;
   }
-  way.settle(best.shift_s);
-  turn.settle(best.shift_s);
+  // A shift has its own best limit, and the valley of both is narrower than the steps above.
+  const auto settled = [&](double shift_s) {
+    way.settle(shift_s);
+    turn.settle(shift_s);
+    return way.fine(shift_s) + turn.fine(shift_s);
+  };
+  best.surprise = settled(best.shift_s);
+  for (const double step : {kStep_s, kStep_s / 2, kFineStep_s}) {
+    const double middle_s = best.shift_s;
+    for (const double shift_s : {middle_s - step, middle_s + step}) {
+      const double surprise = settled(shift_s);
+      if (surprise < best.surprise) best = {.shift_s = shift_s, .surprise = surprise};
+    }
+  }
   for (const double step : {kStep_s, kFineStep_s, kFineStep_s}) {
-    const auto at = [&](double by_s) {
-      return way.fine(best.shift_s + by_s) + turn.fine(best.shift_s + by_s);
-    };
+    const auto at = [&](double by_s) { return settled(best.shift_s + by_s); };
     best.surprise = at(0);
     const Parabola curve = parabola(at(-step), best.surprise, at(step), step);
-    best.shift_s += curve.off;
     // Between frames a curve may be flat that bends over a whole frame.
     if (curve.curvature > 0) best.curvature = curve.curvature;
+    if (step == kFineStep_s) best.shift_s += curve.off;
   }
   return best;
 }
@@ -366,7 +378,8 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
   // each other's part: a limit must be worth it.
   const Shift unlimited = best_shift(way, turn, false);
   const Shift limited = best_shift(way, turn, true);
-  const bool is_limited = unlimited.surprise - limited.surprise > kLeastSurprise;
+  const double worth = unlimited.surprise - limited.surprise;
+  const bool is_limited = worth > kLeastSurprise;
   way.limit(is_limited);
   turn.limit(is_limited);
   const Shift& best = is_limited ? limited : unlimited;
@@ -404,6 +417,9 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
         1000 * latency.error_s, 1000 * kLargestError_s);
     return latency;
   }
+  // How long treads take to their speed cannot be told, then, and may be a part of the latency.
+  if (!is_limited && worth > kLeastDoubt && !limited.is_beyond)
+    latency.error_s = std::hypot(latency.error_s, limited.shift_s - unlimited.shift_s);
   latency.seconds = best.shift_s;
   return latency;
 }

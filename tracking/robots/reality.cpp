@@ -116,8 +116,10 @@ Reality reality_of(const RobotOfRun& of, const Latency& latency) {
   const std::vector<TimedCommand> commands = commands_of(of.log.record);
   Slip slip = slip_of(commands, samples, latency.seconds, is_free);
   std::vector<double> delays_s;
-  if (latency.seconds && slip.turn.gain)
-    delays_s = delays_of(commands, samples, *latency.seconds, *slip.turn.gain, is_free);
+  // One that varies much is not told as a number, but single commands tell it.
+  const bool follows = latency.agreement.value_or(0) >= kLeastAgreement && !latency.beyond;
+  if (follows && slip.turn.gain)
+    delays_s = delays_of(commands, samples, latency.seconds, *slip.turn.gain, is_free);
   return {.latency = latency,
           .slip = std::move(slip),
           .delays_s = std::move(delays_s),

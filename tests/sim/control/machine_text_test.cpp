@@ -29,6 +29,16 @@ TEST(MachineText, ReadsTheExampleOfTheGrammar) {
   EXPECT_EQ(machine, expected);
 }
 
+TEST(MachineText, HasAMegabyteAtMost) {
+  const std::string machine = "--nstates 1 --s0 1";
+  const std::string longest = machine + std::string((1U << 20U) - machine.size(), ' ');
+  EXPECT_TRUE(parse_controller(longest, watermelon()));
+  const auto longer = parse_controller(longest + " ", watermelon());
+  ASSERT_FALSE(longer);
+  EXPECT_EQ(longer.error().message,
+            "control software has at most 1048576 characters, and this text has 1048577");
+}
+
 TEST(MachineText, ReadsEveryModule) {
   const Machine machine = parsed(
       "--nstates 4 --s0 2 --att0 1.48 --n0 4 "

@@ -31,7 +31,7 @@ Scene scene_of(const Lab& lab, const RecordedRun& run, const FilmWish& wish) {
   });
   scene.arena = arena_of(run.mission, run.instance);
   for (std::size_t i = 0; i < run.poses.size(); ++i)
-    scene.robots.push_back(filmed(lab.robots.at(i), Path(run.poses[i])));
+    scene.robots.push_back(filmed(lab.robots.at(i), Path(run.poses[i], 0, run.step_s)));
   if (wish.swap_s != kForever_s) {
     for (std::size_t i = 0; i < 2; ++i) {
       scene.robots.at(i).swap_s = wish.swap_s;
@@ -124,10 +124,11 @@ void write_robot_log(const RecordedRun& run, std::size_t robot, const std::strin
 std::string trajectory_csv(const RecordedRun& run) {
   std::string text(kTrajectoryColumns);
   text += kCsvLineEnd;
+  const auto stride = static_cast<int>(std::lround(kControlPeriod_s / run.step_s));
   for (int cycle = 0; cycle <= run.mission.cycles; ++cycle) {
     for (std::size_t robot = 0; robot < run.poses.size(); ++robot) {
       append_pose_cells(text, cycle, static_cast<int>(robot),
-                        run.poses[robot][static_cast<std::size_t>(cycle)]);
+                        run.poses[robot][static_cast<std::size_t>(cycle * stride)]);
       text += kCsvLineEnd;
     }
   }

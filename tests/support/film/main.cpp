@@ -98,6 +98,7 @@ int run(int argc, char** argv) {
   run_app->add_option("--trajectory", film.run.trajectory, "a recorded one, in place of --machine");
   double latency_ms = 0;
   run_app->add_option("--latency-ms", latency_ms, "from command to treads");
+  run_app->add_flag("--every-step", film.run.every_step, "the simulator's motion between cycles");
   run_app->add_flag("--robot-logs", film.robot_logs, "what robots would have written");
   run_app->add_option("--camera-clock", film.camera_clock,
                       "a sidecar with clock_s: when frames are taken");

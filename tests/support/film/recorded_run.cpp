@@ -10,6 +10,7 @@
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/trajectory_csv.h"
+#include "tests/support/stepwise_run.h"
 
 namespace swarmsmith::film {
 namespace {
@@ -57,6 +58,24 @@ Expected<RecordedRun> run_of_trajectory(const RunWish& wish, const Mission& miss
   return run;
 }
 
+void record_stepwise(const SimulationSetup& setup, RecordedRun& run) {
+  StepwiseRun steps = run_stepwise(setup);
+  const auto cycles = static_cast<std::size_t>(run.mission.cycles);
+  for (std::size_t i = 0; i < steps.poses.size(); ++i) {
+    steps.decided[i].resize(cycles);
+    steps.neighbours[i].resize(cycles);
+  }
+  for (std::size_t cycle = 0; cycle < cycles; ++cycle) {
+    for (const auto& decided : steps.decided)
+      run.trajectory.poses.push_back(decided[cycle].pose);
+  }
+  run.poses = std::move(steps.poses);
+  run.step_s = StepwiseRun::kStep_s;
+  run.decided = std::move(steps.decided);
+  run.neighbours = std::move(steps.neighbours);
+  run.score = score_of(run.mission, run.instance, run.trajectory);
+}
+
 }  // namespace
 
 Expected<RecordedRun> record_run(const RunWish& wish, const std::string& designs) {
@@ -98,6 +117,11 @@ Expected<RecordedRun> record_run(const RunWish& wish, const std::string& designs
   run.decided.resize(robots);
   run.neighbours.resize(robots);
   run.trajectory.robots = run.mission.robots;
+  const SimulationSetup setup{*machine, **flavour, *profile, longer, run.instance, wish.seed};
+  if (wish.every_step) {
+    record_stepwise(setup, run);
+    return run;
+  }
   const Recorder recorder(
       [&](const Snapshot& now) {
         for (std::size_t i = 0; i < robots; ++i) {
@@ -110,7 +134,7 @@ Expected<RecordedRun> record_run(const RunWish& wish, const std::string& designs
         }
       },
       Sensors(Sensor::Neighbours));
-  simulate({*machine, **flavour, *profile, longer, run.instance, wish.seed}, recorder);
+  simulate(setup, recorder);
   run.score = score_of(run.mission, run.instance, run.trajectory);
   return run;
 }

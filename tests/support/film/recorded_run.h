@@ -21,6 +21,7 @@ struct RecordedRun {
   /// A robot's poses from the start on, some cycles beyond the mission's end, since real robots do
   /// not freeze there.
   std::vector<std::vector<Pose>> poses;
+  double step_s = 0.1;  ///< from one of those to the next
   /// What ran; empty of a run that somebody else recorded.
   std::string machine;
   std::string flavour;
@@ -40,6 +41,9 @@ struct RunWish {
   std::optional<double> seconds;  ///< instead of the mission's duration
   /// From each command to the treads, at a steady control period; 0: timing as the profile has it.
   double latency_s = 0;
+  /// Poses of each step of the simulator, 10 ms: the film has its motion between control cycles,
+  /// too. The run is not the one that the seed gives without it.
+  bool every_step = false;
   /// A trajectory that somebody else recorded, as CSV, in place of machine and profile; the seed is
   /// that of its patches.
   std::string trajectory;

@@ -122,11 +122,14 @@ class RobotLogs(unittest.TestCase):
         mean_s = sum(float(delay["time"].removesuffix(" ms")) * delay["probability"]
                      for delay in told["timing"]["delays"]) / 1000
         self.assertLess(abs(mean_s - LATENCY_S), 0.02)
+        whole = must(TRACK.with_name("swarmsmith"), "profile", lab)  # the program that designs takes it
+        self.assertEqual(tomllib.loads(whole.stdout)["timing"]["delays"], told["timing"]["delays"])
         unknown = [figure["name"] for figure in made["figures"] if figure["mean"] is None]
         for name in unknown:
             self.assertIn(f"# {name}: left as in `rvr`", lab.read_text())
         for words, said in ((("r1", "-o", lab), "is there already"),
                             (("r1", "-o", self.folder / "rvr.toml"), "is built in"),
+                            (("r1", "r1"), "r1: is named twice"), ((self.log,), "name its arena file"),
                             (("r7",), "r7"), (("r1", "--base", "mars"), "mars")):
             done = call(TRACK, "profile", *words, "--store", self.store)
             self.assertNotEqual(done.returncode, 0, done.stdout)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/files/profile_file.h"
+#include "tests/support/long_runs.h"
 #include "tests/tracking/profile/virtual_lab.h"
 
 namespace swarmsmith {
@@ -68,6 +69,37 @@ TEST(LabProfile, GivesAKnownLaboratoryBack) {
   }
 }
 
+/// Commands act when they do, however often the camera looks, and whatever treads make of them.
+TEST(LabProfile, GivesALatencyBackAtEachFrameRate) {
+  struct Treads {
+    double way, turn, noise_rad;
+  };
+  const std::vector<Treads> all{{1, 1, 0.003}, {0.85, 0.7, 0.003}, {1, 0.8, 0.01}, {0.9, 1.15, 0}};
+  const auto rates = times<std::vector<double>>({15, 30}, {15, 25, 30, 60});
+  std::int64_t seed = 1;
+  for (const int sub_steps : times<std::vector<int>>({10}, {10, 20, 35})) {
+    for (const double rate_hz : rates) {
+      for (const Treads& treads : times<std::vector<Treads>>({all[1]}, all)) {
+        VirtualLab lab{.truth = rvr_profile(), .rate_hz = rate_hz, .noise_rad = treads.noise_rad};
+        lab.truth.timing.delays = {{sub_steps, 1}};
+        lab.truth.treads = {.way = treads.way, .turn = treads.turn};
+        const auto robots = lab.run(++seed);
+        const LabProfile made = lab_profile({.robots = robots, .base = "rvr", .program = "test"});
+        SCOPED_TRACE(made.text);
+        const Profile found = profile_of(made);
+        EXPECT_NEAR(mean_delay_ms(found), 10 * sub_steps, 0.1 * 10 * sub_steps);
+        EXPECT_NEAR(found.treads.way, treads.way, 0.1 * std::fabs(1 - treads.way) + 0.001);
+        EXPECT_NEAR(found.treads.turn, treads.turn, 0.1 * std::fabs(1 - treads.turn) + 0.001);
+        // What a run says of itself.
+        for (const MeasuredRobot& robot : robots) {
+          ASSERT_TRUE(robot.reality.latency.seconds) << robot.reality.latency.reason;
+          EXPECT_NEAR(1000 * *robot.reality.latency.seconds, 10 * sub_steps, sub_steps);
+        }
+      }
+    }
+  }
+}
+
 TEST(LabProfile, GivesALatencyBackThatVariesFromCommandToCommand) {
   using Delays = std::vector<ControlTiming::Delay>;
   for (const Delays& delays :
@@ -126,6 +158,32 @@ TEST(LabProfile, WhoPushesAWallDoesNotSlip) {
   const Profile found = profile_of(measured(lab, 8));
   EXPECT_NEAR(found.treads.way, 0.95, 0.01);
   EXPECT_NEAR(found.treads.turn, 0.9, 0.02);
+}
+
+TEST(LabProfile, APushIsNoSlip) {
+  VirtualLab lab{.truth = rvr_profile(), .pushed_m = 0.3};
+  lab.truth.timing.delays = {{20, 1}};
+  lab.truth.treads = {.way = 0.85, .turn = 0.8};
+  const LabProfile made = measured(lab, 2);
+  const Profile found = profile_of(made);
+  EXPECT_NEAR(found.treads.way, 0.85, 0.015);
+  EXPECT_NEAR(found.treads.turn, 0.8, 0.002);
+  EXPECT_NEAR(mean_delay_ms(found), 200, 5);
+}
+
+/// Also of one run, of which one robot's log is there.
+TEST(LabProfile, OfOneRobotInOneRunSaysSo) {
+  VirtualLab lab{.truth = rvr_profile()};
+  lab.truth.timing.delays = {{20, 1}};
+  lab.truth.treads = {.way = 0.85, .turn = 0.8};
+  std::vector<MeasuredRobot> robots = lab.run(1);
+  robots.resize(1);
+  const LabProfile made = lab_profile({.robots = robots, .base = "rvr", .program = "test"});
+  const Profile found = profile_of(made);
+  EXPECT_NEAR(found.treads.way, 0.85, 0.005);
+  EXPECT_EQ(found.treads.way_sd, 0);
+  EXPECT_NEAR(mean_delay_ms(found), 200, 5);
+  EXPECT_EQ(figure(made, "latency").basis, "of 1 robot in 1 run");
 }
 
 TEST(LabProfile, AHeadingThatIsOffCostsTheNeighboursAndNoMore) {

@@ -5,8 +5,9 @@
 
 #include "base/rng.h"
 #include "sim/control/machine_text.h"
-#include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/film/path.h"
+#include "tests/support/stepwise_run.h"
 
 namespace swarmsmith {
 namespace {
@@ -25,41 +26,50 @@ Recorded recorded(const VirtualLab& lab, const Mission& mission, std::int64_t se
   const auto machine = parse_machine(lab.machine, flavour);
   const auto instance = instance_of(mission, seed);
   if (!machine || !instance) throw std::runtime_error("no such machine or start");
+  const StepwiseRun steps = run_stepwise({*machine, flavour, lab.truth, mission, *instance, seed});
   Recorded run;
   run.tracked.trajectory.robots = mission.robots;
-  run.tracked.robots.resize(static_cast<std::size_t>(mission.robots));
-  run.logs.resize(run.tracked.robots.size());
+  run.tracked.robots.resize(steps.poses.size());
+  run.logs.resize(steps.poses.size());
   Rng noise(static_cast<std::uint64_t>(seed) + 1000);
-  const Recorder recorder(
-      [&](const Snapshot& now) {
-        for (std::size_t i = 0; i < now.robots.size(); ++i) {
-          const RobotRecord& record = now.robots[i];
-          TrackedRobot& robot = run.tracked.robots[i];
-          Sample sample;
-          sample.time_s = now.cycle * 0.1;
-          sample.frame = now.cycle;
-          sample.pose = {record.pose.x + noise.normal(0, lab.noise_m),
-                         record.pose.y + noise.normal(0, lab.noise_m),
-                         record.pose.theta + noise.normal(lab.heading_off_rad, lab.noise_rad)};
-          robot.samples.push_back(sample);
-          if (now.cycle == 0) {
-            run.tracked.starts.push_back(sample.pose);
-            continue;
-          }
-          robot.cycles.push_back(CycleKind::Measured);
-          run.tracked.trajectory.poses.push_back(sample.pose);
-          LogRow& row = run.logs[i].record.rows.emplace_back();
-          row.cycle = now.cycle;
-          row.clock_s = kBegin_s + now.cycle * 0.1;
-          row.sensed.time_s = now.cycle * 0.1;
-          row.state = record.state;
-          row.command = record.command;
-          row.sensed.neighbours = record.readings->neighbours;
-          row.age_ms[index_of(Feed::Neighbours)] = 0;
-        }
-      },
-      Sensors(Sensor::Neighbours));
-  simulate({*machine, flavour, lab.truth, mission, *instance, seed}, recorder);
+  const auto seen = [&](const Pose& pose, double time_s) {
+    const double pushed_m = lab.pushed_m * std::clamp(time_s - 60, 0.0, 1.0);
+    return Pose{pose.x + pushed_m + noise.normal(0, lab.noise_m),
+                pose.y + noise.normal(0, lab.noise_m),
+                pose.theta + noise.normal(lab.heading_off_rad, lab.noise_rad)};
+  };
+  // The first frame comes at any time.
+  const double first_s = noise.uniform(0, 1) / lab.rate_hz;
+  for (std::size_t i = 0; i < steps.poses.size(); ++i) {
+    const film::Path path(steps.poses[i], 0, StepwiseRun::kStep_s);
+    TrackedRobot& robot = run.tracked.robots[i];
+    for (std::int64_t frame = 0; first_s + static_cast<double>(frame) / lab.rate_hz < path.end_s();
+         ++frame) {
+      Sample sample;
+      sample.time_s = first_s + static_cast<double>(frame) / lab.rate_hz;
+      sample.frame = frame;
+      sample.pose = seen(path.at(sample.time_s), sample.time_s);
+      robot.samples.push_back(sample);
+    }
+    run.tracked.starts.push_back(seen(steps.poses[i].front(), 0));
+    robot.cycles.assign(steps.decided[i].size(), CycleKind::Measured);
+    for (std::size_t cycle = 1; cycle <= steps.decided[i].size(); ++cycle) {
+      const RobotRecord& decided = steps.decided[i][cycle - 1];
+      LogRow& row = run.logs[i].record.rows.emplace_back();
+      row.cycle = static_cast<std::int64_t>(cycle);
+      row.clock_s = kBegin_s + kControlPeriod_s * static_cast<double>(cycle);
+      row.sensed.time_s = row.clock_s - kBegin_s;
+      row.state = decided.state;
+      row.command = decided.command;
+      row.sensed.neighbours = steps.neighbours[i][cycle - 1];
+      row.age_ms[index_of(Feed::Neighbours)] = 0;
+    }
+  }
+  for (int cycle = 0; cycle < mission.cycles; ++cycle) {
+    for (const auto& decided : steps.decided)
+      run.tracked.trajectory.poses.push_back(
+          seen(decided[static_cast<std::size_t>(cycle)].pose, kControlPeriod_s * (cycle + 1)));
+  }
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     const std::string name = "rvr" + std::to_string(i + 1);
     run.tracked.robots[i].name = name;

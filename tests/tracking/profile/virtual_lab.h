@@ -10,15 +10,17 @@
 namespace swarmsmith {
 
 /// A laboratory of which the truth is known: the simulator with a profile, and a camera that sees
-/// its robots ten times a second with the noise of a good one.
+/// its robots between control cycles, at its own rate, with the noise of a good one.
 struct VirtualLab {
   Profile truth;
   /// Explores, and turns where something is ahead.
   std::string machine = "--nstates 1 --s0 0 --rwm0 30";
   std::string mission = "aggregation";
+  double rate_hz = 15;
   double noise_m = 0.0005;
   double noise_rad = 0.003;
   double heading_off_rad = 0;
+  double pushed_m = 0;        ///< so far robots are pushed along x in the second after 60 s
   bool tells_latency = true;  ///< it takes most of the time; all else can do without
 
   /// A run's robots, measured.

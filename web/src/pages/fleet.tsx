@@ -1,7 +1,7 @@
 import { h } from "preact";
 import { Canvas, Pen } from "../canvas";
 import { command, Empty, pairs, Panel, state_word, store_word, Table } from "../components";
-import { count, duration, number, percent, whole, words } from "../format";
+import { count, duration, number, percent, when, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { History, Quarantine, SlotTimes, Status, Worker } from "../types";
@@ -95,9 +95,9 @@ function workers_table(workers: Worker[], is_running: boolean) {
 
 function quarantine_table(quarantine: Quarantine[]) {
   return quarantine.length > 0 && <div>
-    <Table<Quarantine> name="q" caption="In quarantine: these get nothing" rows={quarantine} row_class={() => "bad"} columns={[
+    <Table<Quarantine> name="q" caption="In quarantine" rows={quarantine} row_class={() => "bad"} columns={[
       { key: "who", show: ({ who, worker }) => worker ? `${who}, worker ${worker}` : who },
-      "since", { key: "reason", label: "because" }, { key: "workers", label: "here" }]} />
+      { key: "since", show: ({ since }) => when(since) }, { key: "reason", label: "because" }, { key: "workers", label: "connected" }]} />
     <p><small><code>swarmsmith forgive {store_word()} KEY|HOST</code> lets them work again.</small></p></div>;
 }
 
@@ -105,7 +105,7 @@ export function Fleet({ live: { status, running } }: PageProps) {
   const launcher = status?.launcher;
   return <div>
     <h1>Fleet</h1>
-    {!running && <Empty>No campaign runs here. Below are the workers of before, as the store knows them.</Empty>}
+    {!running && <Empty>No campaign runs here: these are the workers that the store knows.</Empty>}
     {status && running && pairs("panel facts", [
       ...(["workers", "slots", "leased", "ready", "done", "failed", "requeued", "lost_workers", "uncommitted"] as const)
         .map((name): [string, string, string?] => [words(name), whole(status[name]), kCounts[name]]),
