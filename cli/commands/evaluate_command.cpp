@@ -249,6 +249,9 @@ Run declare_evaluate(Options& options) {
   options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's or the file's)");
+  options.choice("--turn-clock", arguments->turn_clock, {"cycles", "seconds"},
+                 "What turns of exploration are measured in (default: as the candidate or the file "
+                 "says, else cycles)");
   options.text("--profile PROFILE|FILE", arguments->profile,
                "Simulator profile: rvr, argos3, pseudo-reality, thesis-robots or a file (default: "
                "the candidate's or the file's, else rvr)");

@@ -21,6 +21,7 @@ namespace swarmsmith::cli {
 namespace {
 
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
+constexpr const char* kTurnClock = "--turn-clock";
 
 /// The same text is another machine under another flavour: nobody guesses which one is meant. A
 /// candidate's method has a say in its flavour's constants; another flavour has its own.
@@ -37,8 +38,22 @@ Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMach
   }
   const auto known = find_flavour(name);
   if (!known) return Unexpected(known.error());
-  if (name != named.flavour || !named.turn_clock) return **known;
-  return find_flavour(name, *named.turn_clock);
+  std::optional<TurnClock> clock;
+  if (name == named.flavour) clock = named.turn_clock;
+  if (name == named.flavour && named.candidate && !clock) clock = (**known).exploration.turn_clock;
+  if (!arguments.turn_clock.empty()) {
+    const TurnClock wanted = arguments.turn_clock == name_of(TurnClock::Seconds)
+                                 ? TurnClock::Seconds
+                                 : TurnClock::Cycles;
+    if (clock && wanted != *clock) {
+      return bad_input("the machine was designed with the turn clock " +
+                           std::string(name_of(*clock)) + "; leave the flag out",
+                       kTurnClock);
+    }
+    clock = wanted;
+  }
+  if (!clock) return **known;
+  return find_flavour(name, *clock);
 }
 
 /// A candidate's own mission may have been changed by its file; the flag names a built-in one, or a
@@ -169,7 +184,10 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   std::string where = named.candidate ? to_string(named.candidate) : named.place;
   if (where.empty()) where = "MACHINE";
   auto flavour = flavour_of(arguments, named);
-  if (!flavour) return bad_input(flavour.error().message, "--flavour");
+  if (!flavour) {
+    const Error& error = flavour.error();
+    return bad_input(error.message, error.where == kTurnClock ? kTurnClock : "--flavour");
+  }
   job.flavour = std::move(*flavour);
   auto controller = parse_controller(named.text, job.flavour);
   if (!controller)

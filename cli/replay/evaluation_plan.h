@@ -19,6 +19,7 @@ namespace swarmsmith::cli {
 struct EvaluateArguments {
   std::string machine;
   std::string flavour;
+  std::string turn_clock;
   std::string profile;
   std::string mission;
   std::string campaign;

@@ -123,6 +123,16 @@ std::string DriverWatch::why_behind() const {
   return {};
 }
 
+void DriverWatch::note_obeyed(const DrivenMessage& driven, TimePoint until) {
+  const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
+  const bool is_late = driven.arrival.at - until > limits_.hold;
+  // A prompt act before does not excuse one that is late. However late it is, it counts the same,
+  // so that one alone does not end the run.
+  obeyed_ = is_late && !stands ? std::min(obeyed_, driven.arrival.at - limits_.hold - kDelayStep)
+                               : std::max(obeyed_, until);
+  if (stands) stopped_ = driven.arrival.at;
+}
+
 void DriverWatch::note_said(const DrivenMessage& driven) {
   TimePoint until = TimePoint::max();
   for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
@@ -132,7 +142,7 @@ void DriverWatch::note_said(const DrivenMessage& driven) {
   }
 }
 
-std::string DriverWatch::why_never_done(TimePoint now) const {
+std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint now) const {
   // The last command whose time is over; all like it count.
   const Commanded* last = nullptr;
   TimePoint until = TimePoint::max();
@@ -142,7 +152,7 @@ std::string DriverWatch::why_never_done(TimePoint now) const {
     until = command->from;
     if (is_over) break;
   }
-  if (last == nullptr || last->said) return {};
+  if (last == nullptr || last->said) return std::nullopt;
   Duration sum{};
   int times = 0;
   for (std::size_t i = 0; i + 1 < commands_.size(); ++i) {
@@ -150,14 +160,20 @@ std::string DriverWatch::why_never_done(TimePoint now) const {
     const bool is_it =
         same(command.left_mps, last->left_mps) && same(command.right_mps, last->right_mps);
     if (!is_it || command.from < begun_ || now - commands_[i + 1].from <= limits_.hold) continue;
-    if (command.said) return {};
+    if (command.said) {
+      sum = {};
+      times = 0;
+      continue;
+    }
     sum += commands_[i + 1].from - command.from;
     ++times;
   }
-  if (sum <= limits_.give_up) return {};
-  return fmt::format("{} never does {}, which was commanded {} times, for {:.1f} s in all", driver_,
-                     speeds(last->left_mps, last->right_mps), times,
-                     std::chrono::duration<double>(sum).count());
+  // One that looks five times a second misses half of what is commanded for 0.1 s.
+  if (sum <= limits_.give_up) return std::nullopt;
+  return Trouble{changed_, true, sum > 2 * limits_.give_up,
+                 fmt::format("{} does not do {}, which was commanded {} times, for {:.1f} s in all",
+                             driver_, speeds(last->left_mps, last->right_mps), times,
+                             std::chrono::duration<double>(sum).count())};
 }
 
 void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
@@ -180,7 +196,7 @@ void DriverWatch::hear(const DrivenMessage& driven) {
     compare_changes(driven);
     last_ = driven;
     strange_ = until || stands ? 0 : strange_ + 1;
-    if (until) obeyed_ = std::max(obeyed_, *until);
+    if (until) note_obeyed(driven, *until);
     return;
   }
   extend(second_, driven.sender, driven.arrival.at);
@@ -215,6 +231,7 @@ void DriverWatch::begin(TimePoint start) {
   begun_ = obeyed_ = replaced_ = start;
   unobeyed_since_ = unobeyed_at_ = {};
   unobeyed_ = unobeyed_before_ = {};
+  held_.reset();
   strange_ = 0;
   longest_off_ = {};
   forget_changes();
@@ -248,8 +265,9 @@ std::string DriverWatch::why_not_obeyed(TimePoint now) const {
   const auto until = commanded_until(*last_);
   if (stands && (!until || now - *until > limits_.give_up)) return told + "it holds them";
   if (until) {
-    return told + fmt::format("it is {:.2f} s behind",
-                              std::chrono::duration<double>(last_->arrival.at - *until).count());
+    return told + fmt::format("it is {:.2f} s behind{}",
+                              std::chrono::duration<double>(last_->arrival.at - *until).count(),
+                              stands ? ", or holds them" : "");
   }
   if (same(last_->left_mps, wanted.left_mps)) return told + "only the left one obeys";
   if (same(last_->right_mps, wanted.right_mps)) return told + "only the right one obeys";
@@ -286,11 +304,24 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now) {
+  auto trouble = trouble_of_obedience(now);
+  if (trouble) {
+    if (!held_) held_ = now;
+  } else if (held_ && stopped_ > *held_) {
+    held_.reset();
+  } else if (held_) {
+    // A late driver says now and then what fits. Whether it follows is seen by the stop.
+    trouble = Trouble{obeyed_, true, false, why_not_obeyed(now)};
+  }
+  return trouble;
+}
+
+std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_obedience(TimePoint now) {
   constexpr int kStrange = 3;
   if (auto why = why_behind(); !why.empty()) return Trouble{changed_, true, true, std::move(why)};
-  if (auto why = why_never_done(now); !why.empty())
-    return Trouble{changed_, true, true, std::move(why)};
-  if (now - obeyed_ <= limits_.hold) return std::nullopt;
+  auto missed = trouble_of_not_done(now);
+  if (missed && missed->ends) return missed;
+  if (now - obeyed_ <= limits_.hold) return missed;
   if (now - unobeyed_at_ > kSpell) unobeyed_ = unobeyed_before_ = {};
   if (unobeyed_since_ != obeyed_) unobeyed_before_ += unobeyed_;
   unobeyed_since_ = obeyed_;

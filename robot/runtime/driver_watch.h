@@ -89,14 +89,16 @@ class DriverWatch {
                                     TimePoint now) const;
   std::optional<Trouble> trouble_of_silent_kind(TimePoint now) const;
   std::optional<Trouble> trouble_of_driver(TimePoint now);
+  std::optional<Trouble> trouble_of_obedience(TimePoint now);
   Commanded commanded_at(TimePoint time) const;
   void forget_changes();
+  void note_obeyed(const DrivenMessage& driven, TimePoint until);
   void note_said(const DrivenMessage& driven);
   void compare_changes(const DrivenMessage& driven);
   std::string why_behind() const;
   std::string why_behind(const Follows& follows) const;
-  /// Speeds that were commanded again and again, each time for a moment, and that it never says.
-  std::string why_never_done(TimePoint now) const;
+  /// Speeds that were commanded again and again, each time for a moment, and that it does not say.
+  std::optional<Trouble> trouble_of_not_done(TimePoint now) const;
   bool listens(const std::string& name) const;
   bool is_quiet(TimePoint now) const;
   static void extend(std::optional<Spell>& spell, const std::string& name, TimePoint at);
@@ -117,7 +119,9 @@ class DriverWatch {
   /// Robots have few speeds, which come again and again, so that a late one may look like a prompt
   /// one. What tells is when they change: soon, where few late ones fit; later, where most do.
   std::array<Follows, 2> follows_;
-  TimePoint changed_{};  ///< the last time
+  TimePoint changed_{};            ///< the last time
+  std::optional<TimePoint> held_;  ///< since then the treads are to stand, until the driver says so
+  TimePoint stopped_{};            ///< when it last said that they stand, as was commanded
 
   Duration longest_off_{};
   int strange_ = 0;  ///< so often in succession it said what was never commanded

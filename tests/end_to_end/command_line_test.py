@@ -87,6 +87,17 @@ class CommandLine(ProgramTest):
                      *EXPLORE)
         self.assertEqual(again.stdout, done.stdout)
 
+    def test_evaluate_measures_turns_by_the_clock_that_is_named(self):
+        words = ("--profile", "pseudo-reality", "--mission", "grid_exploration", "--seeds", "1-3", "--json")
+        scores = [call("evaluate", *EXPLORE, "--flavour", "watermelon", *words, *clock).stdout
+                  for clock in ((), ("--turn-clock", "cycles"), ("--turn-clock", "seconds"))]
+        self.assertEqual(scores[0], scores[1])
+        self.assertNotEqual(scores[0], scores[2])
+        (self.folder / "best.fsm").write_text('#: format = 1\n#: flavour = "watermelon"\n#: turn_clock = "cycles"\n' + " ".join(EXPLORE) + "\n")
+        other = call("evaluate", self.folder / "best.fsm", *words, "--turn-clock", "seconds")
+        self.assertEqual(other.returncode, 2)
+        self.assertIn("--turn-clock: the machine was designed with the turn clock cycles", other.stderr)
+
     def test_init_check_and_help_work_in_an_empty_folder(self):
         self.assertEqual(call("init", "mine", cwd=self.folder).returncode, 0)
         self.assertEqual(call("check", "mine/campaign.toml", cwd=self.folder).returncode, 0)

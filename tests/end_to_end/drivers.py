@@ -6,9 +6,10 @@ by libzmq's C interface. Neither has code of ours in it.
 `treads` does what a driver must: obeys one publisher, stops after 300 ms without a command, and says what the treads do.
 It prints what they do, "T LEFT RIGHT", by CLOCK_MONOTONIC. A line on its input spoils it: `slow SECONDS`; `half` (the
 right tread stands), `reversed`, `weak` (half of the speed), `foreign` (obeys another one), `stuck` (does the last command
-for ever); `invented` (says what was never commanded, and does what was); or `operator` (over ZeroMQ: says another hello and
-hears no speeds any more). `quiet` is such a driver that does not say what the treads do. `second` says that it drives them,
-too; `joystick` sends speeds of its own, over ROS. `SWARMSMITH_DRIVER` is its name in ROS.
+for ever), `deaf` (hears no speeds), `stutters` (does nothing for 0.6 s, again and again); `invented` (says what was never
+commanded, and does what was); or `operator` (over ZeroMQ: says another hello and hears no speeds any more). `quiet` is
+such a driver that does not say what the treads do. `second` says that it drives them, too; `joystick` sends speeds of its
+own, over ROS. `SWARMSMITH_DRIVER` is its name in ROS.
 """
 import ctypes
 import os
@@ -217,6 +218,8 @@ class Treads:
 
     def turn(self):
         for sender, left, right in self.way.speeds():
+            if self.fault == "deaf":
+                continue
             self.heard[sender] = time.monotonic()
             self.waiting.append((time.monotonic() + self.late_s, (left, right)))
         now = time.monotonic()
@@ -254,6 +257,9 @@ def main():
             way.driven(*treads.said())
         while drives and time.monotonic() < due:
             treads.turn()
+        if treads.fault == "stutters" and count % 8 == 0:
+            time.sleep(0.6)
+            due = time.monotonic()
         time.sleep(max(0, due - time.monotonic()))
 
 

@@ -312,8 +312,8 @@ void write_checks(HtmlPage& page, const ReportedRun& run) {
                   .columns = {{"Outcome"},
                               {"Check"},
                               {"Of"},
-                              {"Number", true},
-                              {"Limit", true},
+                              {"Number"},  // with words, which may wrap
+                              {"Limit"},
                               {"What it catches; why it could not run"}},
                   .rows = {}};
   for (const auto outcome : {Check::Outcome::Failed, Check::Outcome::Warned, Check::Outcome::NotRun,

@@ -17,6 +17,10 @@ constexpr Question kDriver{"driver watched", "s",
                            "contradicted or late"};
 constexpr Question kEnd{"end of the robot's log", "s", "a node that died, a file that was cut"};
 constexpr Question kClock{"clock of the robot", "ms", "a robot that began earlier or later"};
+constexpr Question kLatency{"latency of the treads", "ms",
+                            "treads that act late, whatever their driver says"};
+constexpr Question kWay{"way of what was told", "% off",
+                        "treads of another speed, whatever their driver says"};
 constexpr Question kMotion{"motion as commanded", "",
                            "logs or tags that were swapped, a robot that was held, a wrong start"};
 
@@ -54,9 +58,22 @@ Check driver_check(const RobotLog& log) {
                 : answered(kDriver, robot, outcome);
 }
 
+void ask_treads(const std::string& robot, const Reality& reality, std::vector<Check>& checks) {
+  const auto outcome = [](bool is_wrong) { return is_wrong ? Outcome::Warned : Outcome::Passed; };
+  const Latency& latency = reality.latency;
+  checks.push_back(latency.seconds ? answered(kLatency, robot, outcome(is_late(latency)),
+                                              1000 * *latency.seconds, 1000 * kLateTreads_s)
+                                   : not_asked(kLatency, robot, latency.reason));
+  const Gain& way = reality.slip.way;
+  checks.push_back(way.gain ? answered(kWay, robot, outcome(is_off(way)),
+                                       100 * std::fabs(*way.gain - 1), 100 * kWayOff)
+                            : not_asked(kWay, robot, way.reason));
+}
+
 /// All that is asked of one robot that has a log.
-void ask(const RobotLog& log, const std::optional<Latency>& latency, const RunLog& run,
-         const std::vector<Issue>& issues, std::vector<Check>& checks) {
+void ask(const RobotLog& log, const std::optional<Latency>& latency,
+         const std::optional<Reality>& reality, const RunLog& run, const std::vector<Issue>& issues,
+         std::vector<Check>& checks) {
   const std::string& robot = log.robot;
   const RunRecord& record = log.record;
   const double last_s = record.rows.empty() ? 0 : record.rows.back().sensed.time_s;
@@ -77,6 +94,7 @@ void ask(const RobotLog& log, const std::optional<Latency>& latency, const RunLo
   } else {
     checks.push_back(not_asked(kMotion, robot, latency ? latency->reason : "it has no commands"));
   }
+  if (reality) ask_treads(robot, *reality, checks);
 }
 
 void ask_node(const std::string& robot, const RobotLog* log, const RobotNote* note,
@@ -120,12 +138,13 @@ std::vector<Check> checks_of_logs(const TrackedRun& run, const Observations& obs
       checks.push_back(not_asked(kOwnLog, robot, none));
     }
     if (has_log) {
-      ask(*own, i < findings.latencies.size() ? findings.latencies[i] : std::nullopt, log,
-          findings.issues, checks);
+      ask(*own, i < findings.latencies.size() ? findings.latencies[i] : std::nullopt,
+          i < findings.reality.size() ? findings.reality[i] : std::nullopt, log, findings.issues,
+          checks);
       continue;
     }
     const std::string why = kept == Outcome::Warned ? "its log cannot be read" : none;
-    for (const Question& question : {kDriver, kEnd, kClock, kMotion})
+    for (const Question& question : {kDriver, kEnd, kClock, kMotion, kLatency, kWay})
       checks.push_back(not_asked(question, robot, why));
   }
   return checks;

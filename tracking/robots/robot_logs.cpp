@@ -42,8 +42,9 @@ class Judge {
     const Latency latency = judge_motion(known);
     const auto number = static_cast<std::size_t>(&known.robot - tracked_.robots.data());
     findings_.latencies.emplace_back(latency);
-    findings_.reality.emplace_back(
+    const Reality& reality = *findings_.reality.emplace_back(
         reality_of({tracked_, run_.mission, number, *known.log}, latency));
+    judge_treads(known, reality);
   }
 
   /// Once all robots were judged: all of them see the same film.
@@ -168,6 +169,22 @@ class Judge {
     return latency;
   }
 
+  /// What a driver says of them may be wrong.
+  void judge_treads(const Known& known, const Reality& reality) {
+    if (is_late(reality.latency)) {
+      add(IssueCode::MotionUnlikeLog, known,
+          fmt::format("it moves {:.0f} ms after its commands (at most {:.0f} ms); is its driver "
+                      "busy, or the start of the run wrong?",
+                      1000 * *reality.latency.seconds, 1000 * kLateTreads_s));
+    }
+    if (is_off(reality.slip.way)) {
+      add(IssueCode::MotionUnlikeLog, known,
+          fmt::format("it drives {:.0f} % of the way that its treads are told ({:.0f} to {:.0f} % "
+                      "are usual); is its driver's scale right?",
+                      100 * *reality.slip.way.gain, 100 * (1 - kWayOff), 100 * (1 + kWayOff)));
+    }
+  }
+
   const RunLog& run_;
   const TrackedRun& tracked_;
   RobotFindings& findings_;
@@ -186,6 +203,14 @@ Issue foreign_issue(const RobotLog& log, const std::string& what) {
 }
 
 }  // namespace
+
+bool is_late(const Latency& latency) {
+  return latency.seconds && *latency.seconds - 3 * latency.error_s > kLateTreads_s;
+}
+
+bool is_off(const Gain& way) {
+  return way.gain && std::fabs(*way.gain - 1) - 3 * way.error > kWayOff;
+}
 
 std::optional<Issue> misfit_of(const RobotLog& log, const RunLog& run,
                                const std::optional<RanMachine>& machine) {

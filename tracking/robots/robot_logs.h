@@ -39,6 +39,14 @@ inline constexpr double kInvalidShare = 0.05;
 inline constexpr double kDriverOff_s = 0.3;
 inline constexpr double kDriverGone_s = 1.0;
 
+/// Treads act so late at most: what their driver may take, and what hides between two frames.
+inline constexpr double kLateTreads_s = 0.35;
+/// They drive so much less or more than they were told at most: they slip, or their scale is wrong.
+inline constexpr double kWayOff = 0.3;
+/// Whether they are beyond that for sure, errors taken off.
+bool is_late(const Latency& latency);
+bool is_off(const Gain& way);
+
 /// What follows from the robots' logs and from what `start` noted of their nodes.
 struct RobotFindings {
   std::vector<std::optional<Latency>> latencies;  ///< as the tracked robots; none without a log

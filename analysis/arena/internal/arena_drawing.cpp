@@ -121,6 +121,12 @@ void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, st
   const auto tail = simplified(std::span(track).subspan(first), kTolerance);
   if (tail.size() > 1) svg.line(tail, stroked(contrast_of(color), 0.25));
   constexpr double kSecondsDot = 0.55;
+  // A robot's number is not written over.
+  const auto is_on_robot = [&](const PagePoint& place) {
+    return std::ranges::any_of(picture.robots, [&](const PicturedRobot& robot) {
+      return apart(place, view.on(robot.poses.back(), {0, 0})) < body + kSecondsDot;
+    });
+  };
   std::optional<PagePoint> before;
   const auto every = static_cast<std::size_t>(picture.cycles_a_mark);
   for (std::size_t cycle = every; cycle < track.size(); cycle += every) {
@@ -128,9 +134,21 @@ void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, st
     // Who stands has one dot.
     if (before && apart(*before, at) < 4 * kSecondsDot) continue;
     before = at;
+    if (is_on_robot(at)) continue;
     svg.circle(at, kSecondsDot, {.fill = "#ffffff", .stroke = color, .width = 0.3, .dashes = {}});
-    svg.text({at.x + 1.5 * kSecondsDot, at.y - kSecondsDot}, std::to_string(cycle / kCyclesASecond),
-             {.size = 0.75 * kTextSize, .bold = true, .fill = std::string(kInk)});
+    const std::string text = std::to_string(cycle / kCyclesASecond);
+    const double size = 0.75 * kTextSize;
+    const double half = 0.3 * size * static_cast<double>(text.size());
+    for (const double side : {1.0, -1.0}) {
+      const PagePoint middle{at.x + side * (1.5 * kSecondsDot + half), at.y - kSecondsDot};
+      if (is_on_robot({middle.x, middle.y - 0.36 * size})) continue;
+      svg.text(middle, text,
+               {.size = size,
+                .anchor = TextStyle::Anchor::Middle,
+                .bold = true,
+                .fill = std::string(kInk)});
+      break;
+    }
   }
 }
 

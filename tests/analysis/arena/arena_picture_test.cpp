@@ -69,6 +69,30 @@ TEST(ArenaPicture, DrawsRobotsSolidAtTheEndAndHollowAtTheStart) {
   EXPECT_THAT(span, HasSubstr("d=\"M61.75 47.4"));
 }
 
+TEST(ArenaPicture, WritesTimesBesideRobotsAndNotOverTheirNumbers) {
+  ArenaPicture picture = picture_of(square());
+  picture.body = BoxOutline{0.2, 0.2};
+  picture.cycles_a_mark = 50;
+  PicturedRobot drives;
+  for (int i = 0; i <= 100; ++i)
+    drives.poses.push_back({0.008 * i - 0.5, 0, 0});
+  picture.robots = {drives};
+  const std::string text = draw(picture);
+  EXPECT_THAT(text, HasSubstr(">5</text>"));
+  EXPECT_THAT(text, Not(HasSubstr(">10</text>"))) << "it ends there";
+
+  // Another one stands where the first one's time would be.
+  picture.robots.push_back({{{-0.5 + 0.4 + 0.13, 0, 0}}, ""});
+  const std::string beside = draw(picture);
+  const auto x_of = [](const std::string& drawn) {
+    const std::string before = drawn.substr(0, drawn.find(">5</text>"));
+    const auto at = before.rfind("<text x=\"");
+    return std::stod(before.substr(at + 9));
+  };
+  ASSERT_THAT(beside, HasSubstr(">5</text>"));
+  EXPECT_LT(x_of(beside), x_of(text));
+}
+
 TEST(ArenaPicture, DrawsWhatStandsInTheArena) {
   ArenaPicture picture = picture_of(square());
   picture.arena.obstacles = {{CircleOutline{0.1}, {-0.5, 0, 0}}};

@@ -134,7 +134,7 @@ TEST_F(RobotLogsTest, AreAskedTheSameOfEachRobotWithNumbersAndLimits) {
   Observations seen;
   seen.logs = logs;
   const std::vector<Check> checks = checks_of_logs(run, seen, log, judged());
-  EXPECT_EQ(checks.size(), 12U);
+  EXPECT_EQ(checks.size(), 16U);
   const Check* motion = check_of(checks, "motion as commanded", "rvr1");
   ASSERT_NE(motion, nullptr);
   EXPECT_EQ(motion->outcome, Check::Outcome::Passed);
@@ -187,9 +187,10 @@ TEST_F(RobotLogsTest, ThatAreNotThereOrNotOfThisRunAreSaid) {
   logs.clear();
   log.notes[1].verdict.reset();
   const std::vector<Check> checks = checks_of_logs(run, seen, log, judged());
-  EXPECT_EQ(checks.size(), 12U);
-  for (const char* name : {"log of this run", "end of the robot's log", "clock of the robot",
-                           "motion as commanded", "robot's own verdict", "driver watched"}) {
+  EXPECT_EQ(checks.size(), 16U);
+  for (const char* name :
+       {"log of this run", "end of the robot's log", "clock of the robot", "motion as commanded",
+        "robot's own verdict", "driver watched", "latency of the treads", "way of what was told"}) {
     const Check* of_first = check_of(checks, name, "rvr1");
     ASSERT_NE(of_first, nullptr) << name;
     EXPECT_EQ(of_first->outcome, Check::Outcome::NotRun) << name;
@@ -273,6 +274,47 @@ TEST_F(RobotLogsTest, SwappedLogsAreSeenInTheMotion) {
   EXPECT_THAT(found.issues, ElementsAre(Is(IssueCode::MotionUnlikeLog, "rvr1", "swapped"),
                                         Is(IssueCode::MotionUnlikeLog, "rvr2", "swapped")));
   EXPECT_FALSE(found.latencies[0]->seconds);
+}
+
+TEST_F(RobotLogsTest, TreadsThatActLateAreSeenWhateverTheirDriverSays) {
+  run.robots[0] = moved_by(logs[0], 0.33);
+  EXPECT_THAT(judged().issues, IsEmpty());
+  run.robots[0] = moved_by(logs[0], 0.6);
+  Observations seen;
+  seen.logs = logs;
+  const RobotFindings found = judged();
+  EXPECT_THAT(found.issues, ElementsAre(Is(IssueCode::MotionUnlikeLog, "rvr1",
+                                           "ms after its commands (at most "
+                                           "350 ms)")));
+  const std::vector<Check> checks = checks_of_logs(run, seen, log, found);
+  const Check* late = check_of(checks, "latency of the treads", "rvr1");
+  ASSERT_NE(late, nullptr);
+  EXPECT_EQ(late->outcome, Check::Outcome::Warned);
+  EXPECT_NEAR(late->value.value(), 600, 10);
+  EXPECT_EQ(check_of(checks, "latency of the treads", "rvr2")->outcome, Check::Outcome::Passed);
+}
+
+TEST_F(RobotLogsTest, TreadsOfAnotherSpeedAreSeenWhateverTheirDriverSays) {
+  for (LogRow& row : logs[0].record.rows) {
+    row.command.left_mps *= 2;
+    row.command.right_mps *= 2;
+  }
+  run.starts = {{0, 0, 0}, {9, 9, 0}};  // far from each other: both are free
+  run.trajectory.robots = 2;
+  for (int i = 0; i < kCycles; ++i)
+    run.trajectory.poses.insert(run.trajectory.poses.end(), run.starts.begin(), run.starts.end());
+  Observations seen;
+  seen.logs = logs;
+  const RobotFindings found = judged();
+  EXPECT_THAT(found.issues,
+              ElementsAre(Is(IssueCode::MotionUnlikeLog, "rvr1",
+                             "it drives 50 % of the way that its treads are told (70 to 130 %")));
+  const std::vector<Check> checks = checks_of_logs(run, seen, log, found);
+  const Check* way = check_of(checks, "way of what was told", "rvr1");
+  ASSERT_NE(way, nullptr);
+  EXPECT_EQ(way->outcome, Check::Outcome::Warned);
+  EXPECT_NEAR(way->value.value(), 50, 1);
+  EXPECT_EQ(check_of(checks, "way of what was told", "rvr2")->outcome, Check::Outcome::Passed);
 }
 
 TEST_F(RobotLogsTest, MotionBeforeItsCommandsAsksForTheStart) {
