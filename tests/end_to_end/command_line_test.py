@@ -93,7 +93,8 @@ class CommandLine(ProgramTest):
                   for clock in ((), ("--turn-clock", "cycles"), ("--turn-clock", "seconds"))]
         self.assertEqual(scores[0], scores[1])
         self.assertNotEqual(scores[0], scores[2])
-        (self.folder / "best.fsm").write_text('#: format = 1\n#: flavour = "watermelon"\n#: turn_clock = "cycles"\n' + " ".join(EXPLORE) + "\n")
+        head = '#: format = 1\n#: flavour = "watermelon"\n#: turn_clock = "cycles"\n'
+        (self.folder / "best.fsm").write_text(head + " ".join(EXPLORE) + "\n")
         other = call("evaluate", self.folder / "best.fsm", *words, "--turn-clock", "seconds")
         self.assertEqual(other.returncode, 2)
         self.assertIn("--turn-clock: the machine was designed with the turn clock cycles", other.stderr)
