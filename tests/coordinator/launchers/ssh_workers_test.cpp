@@ -118,7 +118,9 @@ TEST_F(Ssh, AHostOfAnotherBuildIsLeftAlone) {
   SshWorkers workers =
       start("echo x >>" + log + "\ntest $host = old && exit 7\n" + kConnected + "exec cat\n",
             {{"old"}, {"new"}});
-  ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 1 && starts() == 2; }));
+  ASSERT_TRUE(eventually(workers, [&] {
+    return workers.status().running == 1 && starts() == 2 && !workers.status().note.empty();
+  }));
   EXPECT_THAT(workers.status().note,
               HasSubstr("old: the worker there and the coordinator are different builds"));
   EXPECT_EQ(trouble_of(workers), "");
