@@ -37,29 +37,27 @@ Expected<RobotSetup> robot_of(const Rig& rig, const std::string& name) {
                              rig.file));
 }
 
-std::string offset_json(const OffsetCalibration& calibration, const std::string& file) {
+JsonObject offset_json(const OffsetCalibration& calibration, const std::string& file) {
   return JsonObject()
-             .add("file", file)
-             .add("robot", calibration.robot)
-             .add("tag", calibration.tag)
-             .add("x_m", calibration.offset.x_m)
-             .add("y_m", calibration.offset.y_m)
-             .add("has_yaw", calibration.has_yaw)
-             .add("yaw_rad", calibration.offset.yaw_rad)
-             .add("rms_m", calibration.rms_m)
-             .add("sigma_x_m", calibration.sigma_x_m)
-             .add("sigma_y_m", calibration.sigma_y_m)
-             .add("drift_m_s", calibration.drift_m_s)
-             .add("turned_rad", calibration.turned_rad)
-             .add("samples", calibration.samples)
-             .text() +
-         "\n";
+      .add("file", file)
+      .add("robot", calibration.robot)
+      .add("tag", calibration.tag)
+      .add("x_m", calibration.offset.x_m)
+      .add("y_m", calibration.offset.y_m)
+      .add("has_yaw", calibration.has_yaw)
+      .add("yaw_rad", calibration.offset.yaw_rad)
+      .add("rms_m", calibration.rms_m)
+      .add("sigma_x_m", calibration.sigma_x_m)
+      .add("sigma_y_m", calibration.sigma_y_m)
+      .add("drift_m_s", calibration.drift_m_s)
+      .add("turned_rad", calibration.turned_rad)
+      .add("samples", calibration.samples);
 }
 
-/// Offset of the spin, yaw of the straight run.
-Expected<OffsetCalibration> solve(const Arguments& arguments, const Rig& rig,
-                                  const CameraSetup& camera, const RobotSetup& robot,
-                                  Output& output) {
+/// Of one of the robot's tags: offset of the spin, yaw of the straight run.
+Expected<OffsetCalibration> solve_tag(const Arguments& arguments, const Rig& rig,
+                                      const CameraSetup& camera, const RobotSetup& robot,
+                                      Output& output) {
   const auto named = [](Error error, const std::string& video) {
     if (error.where.empty()) error.where = video;
     return Unexpected(std::move(error));
@@ -82,6 +80,27 @@ Expected<OffsetCalibration> solve(const Arguments& arguments, const Rig& rig,
   return calibration;
 }
 
+/// Of all of its tags, from the same films.
+Expected<OffsetCalibration> solve(const Arguments& arguments, const Rig& rig,
+                                  const CameraSetup& camera, const RobotSetup& robot,
+                                  Output& output) {
+  auto calibration = solve_tag(arguments, rig, camera, robot, output);
+  for (const RobotSetup& tag : robot.more_tags) {
+    if (!calibration) return calibration;
+    auto more = solve_tag(arguments, rig, camera, tag, output);
+    if (!more) return more;
+    calibration->more_tags.push_back(std::move(*more));
+  }
+  return calibration;
+}
+
+/// Lets all of the robot's tags have the same date.
+void date(OffsetCalibration& calibration) {
+  calibration.made = utc_now();
+  for (OffsetCalibration& tag : calibration.more_tags)
+    tag.made = calibration.made;
+}
+
 ExitCode run(const Arguments& arguments, Output& output) {
   if (arguments.reverse && arguments.straight.empty()) {
     return fail(output, ExitCode::Usage, "--reverse applies to a straight run: --straight VIDEO");
@@ -100,10 +119,18 @@ ExitCode run(const Arguments& arguments, Output& output) {
                                   robot->name + ".offset.toml\", or use -o FILE",
                               rig->file)});
   }
+  if (!robot->more_tags.empty() && arguments.straight.empty()) {
+    return fail(output, ExitCode::Usage,
+                "robot \"" + robot->name + "\" has " + tags_text(*robot) +
+                    ", which must agree on its heading: film a straight run, --straight VIDEO");
+  }
   auto calibration = solve(arguments, *rig, *camera, *robot, output);
   if (!calibration) return fail_all(output, {calibration.error()});
-  calibration->made = utc_now();
+  date(*calibration);
   if (!output.json) output.out << report_text(*calibration);
+  for (const OffsetCalibration& tag : calibration->more_tags) {
+    if (!output.json) output.out << report_text(tag);
+  }
   std::vector<Error> faults = faults_of(*calibration);
   for (Error& fault : faults)
     fault.where = arguments.spin;
@@ -113,7 +140,14 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const std::string file = arguments.file.empty() ? made : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
-  if (output.json) output.out << offset_json(*calibration, file);
+  if (output.json) {
+    JsonObject answer = offset_json(*calibration, file);
+    std::vector<JsonObject> more;
+    for (const OffsetCalibration& tag : calibration->more_tags)
+      more.push_back(offset_json(tag, file));
+    if (!more.empty()) answer.add("more_tags", more);
+    output.out << answer.text() << "\n";
+  }
   print_cautions(output, cautions_of(*calibration));
   print_note(output, "wrote " + file);
   return ExitCode::Done;

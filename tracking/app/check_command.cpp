@@ -53,7 +53,8 @@ Part place_of(const Rig& rig, const CameraSetup& camera) {
 Part offset_part_of(const Rig& rig, const RobotSetup& robot) {
   Part part = part_of(rig, robot.offset_file);
   if (!part.is_there) return part;
-  const OffsetCalibration& offset = rig.offsets.at(robot.offset_file);
+  const OffsetCalibration* const own = of_tag(rig.offsets.at(robot.offset_file), robot.tag);
+  const OffsetCalibration& offset = own == nullptr ? rig.offsets.at(robot.offset_file) : *own;
   part.text = fmt::format("({}, {}), RMS {}{}", millimetres(offset.offset.x_m),
                           millimetres(offset.offset.y_m), millimetres(offset.rms_m),
                           offset.has_yaw ? "" : ", heading not calibrated");
@@ -126,10 +127,18 @@ Inventory inventory_of(const Rig& rig) {
     all.text += fmt::format("robot {}: tag {}, edge {}, height {}\n", robot.name, robot.tag,
                             millimetres(robot.edge_m), millimetres(robot.height_m)) +
                 line_of("offset", offset);
-    all.robots.push_back(JsonObject()
-                             .add("name", robot.name)
-                             .add("tag", robot.tag)
-                             .add("offset", part_json(offset)));
+    JsonObject answer;
+    answer.add("name", robot.name).add("tag", robot.tag).add("offset", part_json(offset));
+    std::vector<JsonObject> more;
+    for (const RobotSetup& tag : robot.more_tags) {
+      const Part part = offset_part_of(rig, tag);
+      more.push_back(JsonObject().add("tag", tag.tag).add("offset", part_json(part)));
+      all.text += fmt::format("  also tag {}, edge {}, height {}\n", tag.tag,
+                              millimetres(tag.edge_m), millimetres(tag.height_m)) +
+                  line_of("offset", part);
+    }
+    if (!more.empty()) answer.add("more_tags", more);
+    all.robots.push_back(std::move(answer));
   }
   return all;
 }

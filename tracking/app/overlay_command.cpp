@@ -121,14 +121,14 @@ std::vector<OverlayTag> tags_of(const DrawnRun& run, std::int64_t frame, double 
                                 std::size_t& next) {
   const std::vector<Sighting>& all = run.observations.sightings;
   const auto camera = static_cast<int>(run.camera);
+  const std::vector<RobotSetup> robots = each_tag(run.rig.robots);
   std::vector<OverlayTag> tags;
   while (next < all.size() &&
          (all[next].camera < camera || (all[next].camera == camera && all[next].frame < frame)))
     ++next;
   for (; next < all.size() && all[next].camera == camera && all[next].frame == frame; ++next) {
     const bool is_robot =
-        std::any_of(run.rig.robots.begin(), run.rig.robots.end(),
-                    [&](const RobotSetup& robot) { return robot.tag == all[next].tag; });
+        std::ranges::find(robots, all[next].tag, &RobotSetup::tag) != robots.end();
     tags.push_back({all[next].tag, all[next].corners,
                     is_robot ? OverlayTag::Kind::Robot : OverlayTag::Kind::Unknown});
   }

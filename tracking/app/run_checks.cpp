@@ -112,7 +112,7 @@ std::vector<Error> faults_of_rig(const Rig& rig, const Mission& mission,
                  rig.file));
   }
   if (takes_tags_for_centres) return errors;
-  for (const RobotSetup& robot : rig.robots) {
+  for (const RobotSetup& robot : each_tag(rig.robots)) {
     if (rig.offset_of(robot)) continue;
     const std::string file = robot.offset_file.empty() ? "" : " " + robot.offset_file;
     errors.push_back(
@@ -130,7 +130,7 @@ std::vector<int> other_tags(const Rig& rig, const RunLog& log) {
   std::vector<int> tags;
   if (log.start.sync != RunStart::Sync::None) tags.push_back(log.start.sync_tag);
   if (log.robots.empty()) return tags;
-  for (const RobotSetup& robot : rig.robots) {
+  for (const RobotSetup& robot : each_tag(rig.robots)) {
     if (std::ranges::find(log.robots, robot.name) == log.robots.end()) tags.push_back(robot.tag);
   }
   return tags;

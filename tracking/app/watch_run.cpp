@@ -20,7 +20,7 @@ ObserveOptions observe_options(const RunPlan& plan) {
     options.search.expected.insert(reference.tag);
     options.search.still.insert(reference.tag);
   }
-  for (const RobotSetup& robot : plan.rig.robots)
+  for (const RobotSetup& robot : each_tag(plan.rig.robots))
     options.search.expected.insert(robot.tag);
   for (const int tag : other_tags(plan.whole_rig, plan.log))
     options.search.expected.insert(tag);
@@ -32,10 +32,11 @@ ObserveOptions observe_options(const RunPlan& plan) {
 
 /// Where the robots stand in a frame, as far as their tags are seen.
 std::vector<Point> robots_in(const std::vector<Detection>& seen, const Rig& rig, const View& view) {
+  const std::vector<RobotSetup> tags = each_tag(rig.robots);
   std::vector<Point> robots;
   for (const Detection& detection : seen) {
-    const auto robot = std::ranges::find(rig.robots, detection.tag, &RobotSetup::tag);
-    if (robot == rig.robots.end()) continue;
+    const auto robot = std::ranges::find(tags, detection.tag, &RobotSetup::tag);
+    if (robot == tags.end()) continue;
     const TagPose tag = tag_pose(view, detection.corners, robot->edge_m, robot->height_m);
     robots.push_back(robot_pose(tag.pose, rig.offset_of(*robot).value_or(TagOffset{})).position());
   }

@@ -23,7 +23,7 @@ constexpr double kReferenceSeen_s = 1;
 
 TagSearchOptions options_of(const Rig& rig) {
   TagSearchOptions options;
-  for (const RobotSetup& robot : rig.robots)
+  for (const RobotSetup& robot : each_tag(rig.robots))
     options.expected.insert(robot.tag);
   for (const ReferenceTag& reference : rig.references) {
     options.expected.insert(reference.tag);
@@ -33,7 +33,7 @@ TagSearchOptions options_of(const Rig& rig) {
 }
 
 OverlayTag::Kind kind_of(const Rig& rig, int tag) {
-  for (const RobotSetup& robot : rig.robots)
+  for (const RobotSetup& robot : each_tag(rig.robots))
     if (robot.tag == tag) return OverlayTag::Kind::Robot;
   for (const ReferenceTag& reference : rig.references)
     if (reference.tag == tag) return OverlayTag::Kind::Reference;
@@ -125,11 +125,17 @@ LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, doubl
 
 void LiveTracker::place(std::size_t robot, const std::vector<Detection>& seen, double time_s,
                         LiveState& state) {
-  const RobotSetup& setup = rig_.robots[robot];
   Known& known = known_[robot];
-  // The surest of two, which come first; that there are two is told as an issue.
-  const auto found = std::find_if(seen.begin(), seen.end(),
-                                  [&](const Detection& each) { return each.tag == setup.tag; });
+  const std::vector<RobotSetup> tags = each_tag(rig_.robots[robot]);
+  // The surest of two, which come first; that there are two is told as an issue. Of several tags
+  // of the robot's own, the first that is seen.
+  const auto tag_seen = [&](const RobotSetup& tag) {
+    return std::ranges::find(seen, tag.tag, &Detection::tag);
+  };
+  const auto shown_tag = std::ranges::find_if(
+      tags, [&](const RobotSetup& tag) { return tag_seen(tag) != seen.end(); });
+  const RobotSetup& setup = shown_tag == tags.end() ? tags.front() : *shown_tag;
+  const auto found = tag_seen(setup);
   if (found != seen.end()) {
     known.seen_s = time_s;
     if (view_.has_value()) {

@@ -10,6 +10,7 @@
 
 #include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/known_errors.h"
+#include "tracking/motion/internal/robot_tags.h"
 #include "tracking/motion/internal/robot_track.h"
 #include "tracking/motion/internal/robot_travel.h"
 #include "tracking/motion/repeats.h"
@@ -84,18 +85,20 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
   return cameras;
 }
 
-Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
+Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, const Rig& rig,
                                    const TrackOptions& options, TrackedRun& run) {
   const auto found = rig.offsets.find(setup.offset_file);
   std::string reason = fmt::format("{} has no offset calibration", setup.name);
   if (found != rig.offsets.end()) {
-    const OffsetCalibration& offset = found->second;
-    if (offset.tag == setup.tag) {
-      run.checks.push_back(answered(kOffset, setup.name, Check::Outcome::Passed,
-                                    1000 * offset.rms_m, 1000 * OffsetLimits{}.rms_m));
-      return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m), true,
-                         offset.has_yaw};
+    const OffsetCalibration* const own = of_tag(found->second, setup.tag);
+    if (own != nullptr) {
+      const TaggedRobot robot{setup, own->offset,  std::max(own->sigma_x_m, own->sigma_y_m),
+                              true,  own->has_yaw, is_another};
+      run.checks.push_back(answered(kOffset, robot.subject(), Check::Outcome::Passed,
+                                    1000 * own->rms_m, 1000 * OffsetLimits{}.rms_m));
+      return robot;
     }
+    const OffsetCalibration& offset = found->second;
     reason = fmt::format("the offset calibration `{}` of {} is of tag {}, and it carries tag {}",
                          setup.offset_file, setup.name, offset.tag, setup.tag);
   }
@@ -113,6 +116,28 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
                         {},
                         {}});
   return TaggedRobot{setup, {}};
+}
+
+/// The robot once for each of its tags. Those of several must say where it is and where it heads.
+Expected<std::vector<TaggedRobot>> tagged_robots(const RobotSetup& setup, const Rig& rig,
+                                                 const TrackOptions& options, TrackedRun& run) {
+  TrackOptions asked = options;
+  if (!setup.more_tags.empty()) asked.takes_tags_for_centres = false;
+  std::vector<TaggedRobot> tags;
+  for (const RobotSetup& tag : each_tag(setup)) {
+    auto robot = tagged_robot(tag, !tags.empty(), rig, asked, run);
+    if (!robot) return Unexpected(robot.error());
+    if (!setup.more_tags.empty() && !robot->has_yaw) {
+      return Unexpected(
+          error_of(IssueCode::NoOffset,
+                   fmt::format("{} has {}, and no straight run told how tag {} is turned; make its "
+                               "calibration with `calibrate robot --spin FILE --straight FILE`",
+                               setup.name, tags_text(setup), tag.tag),
+                   rig.file));
+    }
+    tags.push_back(std::move(*robot));
+  }
+  return tags;
 }
 
 /// Numbers of the run's sightings by their tag.
@@ -141,7 +166,7 @@ SightingsByTag sightings_of(const Observations& observations,
 void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOptions& options,
                   TrackedRun& run) {
   std::set<int> known(options.other_tags.begin(), options.other_tags.end());
-  for (const RobotSetup& robot : rig.robots)
+  for (const RobotSetup& robot : each_tag(rig.robots))
     known.insert(robot.tag);
   for (const ReferenceTag& reference : rig.references)
     known.insert(reference.tag);
@@ -164,7 +189,7 @@ std::string causes(const Observations& observations, const Rig& rig) {
   for (const Issue& issue : observations.issues) {
     if (issue.code == IssueCode::FilmOdd) text += ". Note: " + issue.text;
   }
-  for (const RobotSetup& robot : rig.robots) {
+  for (const RobotSetup& robot : each_tag(rig.robots)) {
     std::map<std::pair<int, std::int64_t>, int> frames;
     for (const Sighting& seen : observations.sightings) {
       if (seen.tag == robot.tag) ++frames[{seen.camera, seen.frame}];
@@ -186,7 +211,7 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
   const auto of = [&](Sample::Use use) {
     return std::ranges::count(samples.samples, use, &Sample::use);
   };
-  const std::string who = fmt::format("{} (tag {})", robot.setup.name, robot.setup.tag);
+  const std::string who = fmt::format("{} ({})", robot.setup.name, tags_text(robot.setup));
   if (frames.frames == 0 || frames.from_s > kFirstLook_s) {
     return error_of(
         IssueCode::VideoTruncated,
@@ -240,6 +265,22 @@ bool is_seen_early(const RobotSamples& samples) {
   return std::ranges::any_of(samples.samples, [](const Sample& sample) {
     return sample.use == Sample::Use::Used && sample.time_s <= kFirstLook_s;
   });
+}
+
+/// All tags of all robots that were seen, with their own samples.
+std::vector<SeenTag> seen_tags(const std::vector<TaggedRobot>& robots,
+                               const std::vector<std::vector<OneOfTags>>& several,
+                               const TrackedRun& run) {
+  std::vector<SeenTag> tags;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const TrackedRobot& tracked = run.robots[i];
+    if (several[i].empty()) tags.push_back({&robots[i], i, tracked.samples, tracked.mean_scale});
+    for (const OneOfTags& one : several[i]) {
+      if (!one.samples.samples.empty())
+        tags.push_back({&one.tag, i, one.samples.samples, one.samples.scale});
+    }
+  }
+  return tags;
 }
 
 /// The robots' poses, instant by instant.
@@ -338,24 +379,34 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   list_unknown(sightings, rig, options, run);
   std::vector<TaggedRobot> robots;
   std::vector<RobotTrack> tracks;
+  std::vector<std::vector<OneOfTags>> several;  ///< of each robot; none where it has one tag
   for (const RobotSetup& setup : rig.robots) {
-    const Expected<TaggedRobot> robot = tagged_robot(setup, rig, options, run);
-    if (!robot) return Unexpected(robot.error());
-    const auto seen = sightings.find(setup.tag);
-    RobotSamples samples =
-        samples_of(*robot, observations.sightings,
-                   seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
-                   arena, options);
+    const auto tags = tagged_robots(setup, rig, options, run);
+    if (!tags) return Unexpected(tags.error());
+    const TaggedRobot* const robot = &tags->front();
+    const auto samples_by = [&](const TaggedRobot& tag) {
+      const auto seen = sightings.find(tag.setup.tag);
+      return samples_of(tag, observations.sightings,
+                        seen == sightings.end() ? std::vector<std::size_t>{} : seen->second,
+                        *cameras, arena, options);
+    };
+    std::vector<OneOfTags>& each = several.emplace_back();
+    for (const TaggedRobot& tag : *tags) {
+      if (tags->size() > 1) each.push_back({tag, samples_by(tag)});
+    }
+    RobotSamples samples = each.empty() ? samples_by(*robot) : fused_samples(each, *cameras, rig);
     if (!is_seen_early(samples)) {
       Error error = missing(*robot, samples, frames, spans_text(observations, *cameras),
                             causes(observations, rig));
-      error.message += tilt_clause(setup, samples.samples, observations.sightings, *cameras);
+      const auto& of_first = each.empty() ? samples.samples : each.front().samples.samples;
+      error.message += tilt_clause(setup, of_first, observations.sightings, *cameras);
       return Unexpected(std::move(error));
     }
     tracks.push_back(track_of(*robot, samples, *cameras, options));
     run.robots.push_back(tracked_robot(*robot, std::move(samples), tracks.back(), frames, options,
                                        run.issues, run.checks));
     robots.push_back(*robot);
+    if (!each.empty()) judge_agreement(each, *cameras, rig, run);
   }
   join(tracks, options.span.cycles, run);
   Findings of_speeds;
@@ -363,10 +414,11 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   std::ranges::move(of_speeds.issues, std::back_inserter(run.issues));
   std::ranges::move(of_speeds.checks, std::back_inserter(run.checks));
   judge_lenses(rig, arena, run);
+  const std::vector<SeenTag> tags = seen_tags(robots, several, run);
   const std::vector<TagEvidence> evidence =
-      judge_tags(robots, observations, *cameras, rig, options.limits, run);
+      judge_tags(tags, observations, *cameras, rig, options.limits, run);
   judge_travel(robots, tracks, arena, options, run);
-  add_known_errors(robots, evidence, *cameras, rig, run);
+  add_known_errors(tags, evidence, *cameras, rig, run);
   return run;
 }
 

@@ -12,7 +12,8 @@
 
 namespace swarmsmith {
 
-/// A robot's centre at one instant, from one sighting.
+/// A robot's centre at one instant, from one sighting, or from those of several tags of its in one
+/// picture.
 struct Sample {
   double time_s = 0;  ///< of the run: 0 is its start
   int camera = 0;
@@ -22,6 +23,7 @@ struct Sample {
   double residual_m = 0;  ///< of the tag, TagPose
   enum class Use { Used, Outlier, Duplicate, BadFit, Outside } use = Use::Used;
   std::size_t sighting = 0;  ///< that it was made of, by its number in the observations
+  std::vector<std::size_t> more_sightings = {};  ///< of the robot's other tags
 };
 
 /// How a robot's pose at a control cycle was obtained.

@@ -189,6 +189,24 @@ PlaceCalibration::Seen read_seen(TableReader& table) {
   return seen;
 }
 
+/// What an offset calibration says of one tag.
+void read_tag(TableReader& table, OffsetCalibration& calibration) {
+  calibration.tag = count_of(table, "tag");
+  calibration.edge_m = number_of(table, "edge", kPositive);
+  calibration.height_m = number_of(table, "height", kNotNegative);
+  calibration.offset.x_m = number_of(table, "x", kAny);
+  calibration.offset.y_m = number_of(table, "y", kAny);
+  need(table, "has_yaw");
+  calibration.has_yaw = table.boolean("has_yaw").value_or(false);
+  calibration.offset.yaw_rad = number_of(table, "yaw_rad", {-7, 7});
+  calibration.rms_m = number_of(table, "rms_m", kNotNegative);
+  calibration.sigma_x_m = number_of(table, "sigma_x_m", kNotNegative);
+  calibration.sigma_y_m = number_of(table, "sigma_y_m", kNotNegative);
+  calibration.drift_m_s = number_of(table, "drift_m_s", kNotNegative);
+  calibration.turned_rad = number_of(table, "turned_rad", kNotNegative);
+  calibration.samples = count_of(table, "samples");
+}
+
 }  // namespace
 
 OrComplaints<CameraCalibration> parse_camera_calibration(std::string_view text,
@@ -255,20 +273,14 @@ OrComplaints<OffsetCalibration> parse_offset_calibration(std::string_view text,
   if (!read_head(root, "offset")) return tl::unexpected(read.errors());
   calibration.made = text_of(root, "made");
   calibration.robot = text_of(root, "robot");
-  calibration.tag = count_of(root, "tag");
-  calibration.edge_m = number_of(root, "edge", kPositive);
-  calibration.height_m = number_of(root, "height", kNotNegative);
-  calibration.offset.x_m = number_of(root, "x", kAny);
-  calibration.offset.y_m = number_of(root, "y", kAny);
-  need(root, "has_yaw");
-  calibration.has_yaw = root.boolean("has_yaw").value_or(false);
-  calibration.offset.yaw_rad = number_of(root, "yaw_rad", {-7, 7});
-  calibration.rms_m = number_of(root, "rms_m", kNotNegative);
-  calibration.sigma_x_m = number_of(root, "sigma_x_m", kNotNegative);
-  calibration.sigma_y_m = number_of(root, "sigma_y_m", kNotNegative);
-  calibration.drift_m_s = number_of(root, "drift_m_s", kNotNegative);
-  calibration.turned_rad = number_of(root, "turned_rad", kNotNegative);
-  calibration.samples = count_of(root, "samples");
+  read_tag(root, calibration);
+  for (TableReader& table : root.tables("more_tags")) {
+    OffsetCalibration& tag = calibration.more_tags.emplace_back();
+    tag.robot = calibration.robot;
+    tag.made = calibration.made;
+    read_tag(table, tag);
+    table.finish();
+  }
   root.finish();
   return read.finish(std::move(calibration));
 }

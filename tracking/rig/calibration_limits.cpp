@@ -210,7 +210,14 @@ std::vector<Error> faults_of(const OffsetCalibration& calibration, const OffsetL
                 fmt::format("the centre crept at {}/s, limit {}/s; turn on level ground, both "
                             "treads equally fast",
                             millimetres(calibration.drift_m_s), millimetres(limits.drift_m_s)));
-  return faults.take();
+  std::vector<Error> all = faults.take();
+  for (const OffsetCalibration& tag : calibration.more_tags) {
+    for (Error& fault : faults_of(tag, limits)) {
+      fault.message += fmt::format(" (tag {})", tag.tag);
+      all.push_back(std::move(fault));
+    }
+  }
+  return all;
 }
 
 std::vector<std::string> cautions_of(const OffsetCalibration& calibration) {

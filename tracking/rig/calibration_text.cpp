@@ -34,6 +34,27 @@ std::vector<double> pairs_of(const std::vector<ImagePoint>& points) {
   return pairs;
 }
 
+/// Of one tag of a robot.
+std::string tag_lines(const OffsetCalibration& calibration) {
+  constexpr double kOneDegree = kPi / 180;
+  return line("tag", std::to_string(calibration.tag)) +
+         line("edge", number_text(calibration.edge_m)) +
+         line("height", number_text(calibration.height_m), "of the tag above the floor") +
+         line("x", number_text(calibration.offset.x_m), "from the robot's centre to the tag's") +
+         line("y", number_text(calibration.offset.y_m)) +
+         line("has_yaw", flag_text(calibration.has_yaw), "a straight run was filmed") +
+         line("yaw_rad", number_text(calibration.offset.yaw_rad),
+              fmt::format("the tag's heading minus the robot's: {:.2f} degrees",
+                          calibration.offset.yaw_rad / kOneDegree)) +
+         line("rms_m", number_text(calibration.rms_m), "at most 0.002") +
+         line("sigma_x_m", number_text(calibration.sigma_x_m), "at most 0.0005") +
+         line("sigma_y_m", number_text(calibration.sigma_y_m)) +
+         line("drift_m_s", number_text(calibration.drift_m_s), "of the centre; at most 0.005") +
+         line("turned_rad", number_text(calibration.turned_rad),
+              fmt::format("{:.0f} degrees; at least 300", calibration.turned_rad / kOneDegree)) +
+         line("samples", std::to_string(calibration.samples), "at least 60");
+}
+
 }  // namespace
 
 std::string calibration_text(const CameraCalibration& calibration) {
@@ -102,28 +123,15 @@ std::string calibration_text(const PlaceCalibration& calibration) {
 }
 
 std::string calibration_text(const OffsetCalibration& calibration) {
-  constexpr double kOneDegree = kPi / 180;
-  return head(
-             "Where a robot's tag sits on it, made by `swarmsmith track calibrate robot`. It "
-             "holds until the\n# tag is moved. Lengths in metres, in the tag's own axes.",
-             "offset", calibration.made) +
-         line("robot", quoted_text(calibration.robot)) +
-         line("tag", std::to_string(calibration.tag)) +
-         line("edge", number_text(calibration.edge_m)) +
-         line("height", number_text(calibration.height_m), "of the tag above the floor") +
-         line("x", number_text(calibration.offset.x_m), "from the robot's centre to the tag's") +
-         line("y", number_text(calibration.offset.y_m)) +
-         line("has_yaw", flag_text(calibration.has_yaw), "a straight run was filmed") +
-         line("yaw_rad", number_text(calibration.offset.yaw_rad),
-              fmt::format("the tag's heading minus the robot's: {:.2f} degrees",
-                          calibration.offset.yaw_rad / kOneDegree)) +
-         line("rms_m", number_text(calibration.rms_m), "at most 0.002") +
-         line("sigma_x_m", number_text(calibration.sigma_x_m), "at most 0.0005") +
-         line("sigma_y_m", number_text(calibration.sigma_y_m)) +
-         line("drift_m_s", number_text(calibration.drift_m_s), "of the centre; at most 0.005") +
-         line("turned_rad", number_text(calibration.turned_rad),
-              fmt::format("{:.0f} degrees; at least 300", calibration.turned_rad / kOneDegree)) +
-         line("samples", std::to_string(calibration.samples), "at least 60");
+  std::string text = head(
+                         "Where a robot's tag sits on it, made by `swarmsmith track calibrate "
+                         "robot`. It holds until the\n# tag is moved. Lengths in metres, in the "
+                         "tag's own axes.",
+                         "offset", calibration.made) +
+                     line("robot", quoted_text(calibration.robot)) + tag_lines(calibration);
+  for (const OffsetCalibration& tag : calibration.more_tags)
+    text += "\n[[more_tags]]\n" + tag_lines(tag);
+  return text;
 }
 
 }  // namespace swarmsmith

@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 51> kNames = {"E_VIDEO_UNREADABLE",
+constexpr std::array<std::string_view, 52> kNames = {"E_VIDEO_UNREADABLE",
                                                      "E_VIDEO_TRUNCATED",
                                                      "E_CALIB_SIZE",
                                                      "E_CALIB_QUALITY",
@@ -60,8 +60,9 @@ constexpr std::array<std::string_view, 51> kNames = {"E_VIDEO_UNREADABLE",
                                                      "W_FILM_ODD",
                                                      "E_FILM_SPEED",
                                                      "W_TAG_PLACE",
-                                                     "W_PUSHED"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::PushedDoubtful) + 1);
+                                                     "W_PUSHED",
+                                                     "E_TAGS_DISAGREE"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::TagsDisagree) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

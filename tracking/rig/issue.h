@@ -65,6 +65,7 @@ enum class IssueCode {
   FilmTooFast,       ///< the film runs at another speed than the robots' own logs say
   TagPlaceDoubtful,  ///< a warning: a tag may sit a little otherwise than calibrated
   PushedDoubtful,    ///< a warning: a robot may have been pushed
+  TagsDisagree,      ///< tags of one robot are not where its calibration has them
 };
 
 /// "E_GAP".

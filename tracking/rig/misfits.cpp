@@ -25,7 +25,7 @@ void check_place(const Rig& rig, const CameraSetup& camera, std::vector<Error>& 
                               camera.place_file));
   }
   const double height_m = place->second.place.centre().z;
-  for (const RobotSetup& robot : rig.robots) {
+  for (const RobotSetup& robot : each_tag(rig.robots)) {
     if (robot.height_m < height_m) continue;
     errors.push_back(error_of(IssueCode::Config,
                               "`height` of robot \"" + robot.name + "\" must be below camera \"" +
@@ -38,7 +38,8 @@ void check_place(const Rig& rig, const CameraSetup& camera, std::vector<Error>& 
 void check_offset(const Rig& rig, const RobotSetup& robot, std::vector<Error>& errors) {
   const auto found = rig.offsets.find(robot.offset_file);
   if (found == rig.offsets.end()) return;
-  const OffsetCalibration& offset = found->second;
+  const OffsetCalibration* const own = of_tag(found->second, robot.tag);
+  const OffsetCalibration& offset = own == nullptr ? found->second : *own;
   std::string differences;
   const auto compare = [&](const std::string& what, bool equal, const std::string& made_for,
                            const std::string& now) {
@@ -130,7 +131,7 @@ std::vector<Error> misfits(const Rig& rig) {
   std::vector<Error> errors;
   for (const CameraSetup& camera : rig.cameras)
     check_place(rig, camera, errors);
-  for (const RobotSetup& robot : rig.robots)
+  for (const RobotSetup& robot : each_tag(rig.robots))
     check_offset(rig, robot, errors);
   return errors;
 }

@@ -1,5 +1,6 @@
 #include "tracking/rig/rig.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace swarmsmith {
@@ -36,7 +37,38 @@ std::optional<View> Rig::view_of(const CameraSetup& camera) const {
 std::optional<TagOffset> Rig::offset_of(const RobotSetup& robot) const {
   const auto found = offsets.find(robot.offset_file);
   if (found == offsets.end()) return std::nullopt;
-  return found->second.offset;
+  if (const OffsetCalibration* const own = of_tag(found->second, robot.tag)) return own->offset;
+  // Of a robot with one tag, whose number is asked elsewhere.
+  const bool is_first = std::ranges::find(robots, robot.tag, &RobotSetup::tag) != robots.end();
+  return is_first ? std::optional(found->second.offset) : std::nullopt;
+}
+
+std::vector<RobotSetup> each_tag(const RobotSetup& robot) {
+  std::vector<RobotSetup> tags{robot};
+  tags.insert(tags.end(), robot.more_tags.begin(), robot.more_tags.end());
+  return tags;
+}
+
+std::vector<RobotSetup> each_tag(std::span<const RobotSetup> robots) {
+  std::vector<RobotSetup> tags;
+  for (const RobotSetup& robot : robots) {
+    tags.push_back(robot);
+    tags.insert(tags.end(), robot.more_tags.begin(), robot.more_tags.end());
+  }
+  return tags;
+}
+
+std::string tags_text(const RobotSetup& robot) {
+  std::string text = (robot.more_tags.empty() ? "tag " : "tags ") + std::to_string(robot.tag);
+  for (const RobotSetup& tag : robot.more_tags)
+    text += ", " + std::to_string(tag.tag);
+  return text;
+}
+
+const OffsetCalibration* of_tag(const OffsetCalibration& calibration, int tag) {
+  if (calibration.tag == tag) return &calibration;
+  const auto found = std::ranges::find(calibration.more_tags, tag, &OffsetCalibration::tag);
+  return found == calibration.more_tags.end() ? nullptr : &*found;
 }
 
 }  // namespace swarmsmith

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,9 +56,17 @@ struct RobotSetup {
   double height_m = 0;            ///< of the tag's plane above the floor
   std::string offset_file;        ///< of its OffsetCalibration; empty: none
   double height_error_m = 0.001;  ///< one sigma
+  /// That it carries besides, each as if the robot carried it alone: its name, its file.
+  std::vector<RobotSetup> more_tags = {};
 
   friend bool operator==(const RobotSetup&, const RobotSetup&) = default;
 };
+
+/// The robot once for each tag that it carries, its first one first.
+std::vector<RobotSetup> each_tag(const RobotSetup& robot);
+std::vector<RobotSetup> each_tag(std::span<const RobotSetup> robots);
+/// "tag 1", "tags 1, 11".
+std::string tags_text(const RobotSetup& robot);
 
 /// A file that a program made, with a digest of its text and the date from which it holds.
 struct CalibrationFile {
@@ -114,7 +123,11 @@ struct OffsetCalibration {
   double turned_rad = 0;
   int samples = 0;
   std::string made;
+  std::vector<OffsetCalibration> more_tags = {};  ///< of the same robot, found at the same time
 };
+
+/// What the calibration of a robot says of one of its tags; null when it has none of that tag.
+const OffsetCalibration* of_tag(const OffsetCalibration& calibration, int tag);
 
 /// The arena file, with the calibrations that it names, all read and checked.
 struct Rig {
@@ -133,6 +146,7 @@ struct Rig {
 
   /// Nothing when a calibration is missing.
   std::optional<View> view_of(const CameraSetup& camera) const;
+  /// Of one of `each_tag`.
   std::optional<TagOffset> offset_of(const RobotSetup& robot) const;
 };
 

@@ -98,10 +98,8 @@ ReferenceTag read_reference(TableReader& table, Reading& reading) {
   return reference;
 }
 
-RobotSetup read_robot(TableReader& table, Reading& reading, const std::vector<std::string>& taken) {
-  RobotSetup robot;
-  robot.name = table.text("name").value_or("");
-  check_name(table, robot.name, taken);
+/// What each tag of a robot has of its own.
+void read_tag_of(TableReader& table, Reading& reading, RobotSetup& robot) {
   robot.tag = read_tag(table, reading, "robot \"" + robot.name + "\"");
   robot.edge_m = need(table, "edge", kEdge);
   robot.height_m = need(table, "height", kTagHeight);
@@ -113,8 +111,21 @@ RobotSetup read_robot(TableReader& table, Reading& reading, const std::vector<st
     table.complain("height", "`height` must be below the camera, whose `height` begins at " +
                                  number_text(least) + " m; this is " + number_text(robot.height_m));
   }
-  robot.offset_file = table.text("offset").value_or("");
   robot.height_error_m = table.number("height_error", kLengthError).value_or(robot.height_error_m);
+}
+
+RobotSetup read_robot(TableReader& table, Reading& reading, const std::vector<std::string>& taken) {
+  RobotSetup robot;
+  robot.name = table.text("name").value_or("");
+  check_name(table, robot.name, taken);
+  read_tag_of(table, reading, robot);
+  robot.offset_file = table.text("offset").value_or("");
+  for (TableReader& more : table.tables("more_tags")) {
+    RobotSetup tag{.name = robot.name, .offset_file = robot.offset_file};
+    read_tag_of(more, reading, tag);
+    more.finish();
+    robot.more_tags.push_back(std::move(tag));
+  }
   table.finish();
   return robot;
 }

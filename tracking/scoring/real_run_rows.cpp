@@ -149,12 +149,16 @@ void add_samples(const RunToStore& run, RealRunRows& rows) {
   }
   for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
     for (const Sample& sample : run.tracked.robots[i].samples) {
-      RealSampleRow& row = rows.samples.at(sample.sighting);
-      row.robot = static_cast<std::int64_t>(i);
-      row.x = sample.pose.x;
-      row.y = sample.pose.y;
-      row.theta = sample.pose.theta;
-      row.use = static_cast<std::int64_t>(sample.use);
+      const auto note = [&](std::size_t sighting) {
+        RealSampleRow& row = rows.samples.at(sighting);
+        row.robot = static_cast<std::int64_t>(i);
+        row.x = sample.pose.x;
+        row.y = sample.pose.y;
+        row.theta = sample.pose.theta;
+        row.use = static_cast<std::int64_t>(sample.use);
+      };
+      note(sample.sighting);
+      std::ranges::for_each(sample.more_sightings, note);
     }
   }
 }

@@ -42,7 +42,10 @@ struct FilmWish {
   bool duplicate = false;      ///< robot 1's tag lies on the floor once more
   bool sync = false;           ///< tag 99 beside the arena is hidden at the start
   bool sidecar = true;
-  bool measured_layout = false;        ///< the log names no patches
+  bool measured_layout = false;      ///< the log names no patches
+  double cover_from_s = kForever_s;  ///< paper lies on robot 1's first tag
+  double cover_until_s = kForever_s;
+  double second_moved_m = 0;           ///< robot 1's second tag since it was calibrated
   std::vector<int> hidden_references;  ///< floor tags that something lies on
   bool robot_logs = false;             ///< each robot writes a log of what it commanded
   /// Somebody else's sidecar with `clock_s`, which says when frames are taken, and the run's start

@@ -83,8 +83,12 @@ void film_lab(const LabWish& wish, const std::string& folder) {
       Scene scene = empty_scene(lab);
       scene.robots.push_back(
           filmed(robot, spin_path({above.x * 0.8 + 0.15, 0.2}, 2.2, 8, {0.0011, -0.0007})));
+      if (robot.second_tag >= 0)
+        scene.robots.push_back(filmed_second(robot, scene.robots.front().path));
       film.clip(robot.name + ".spin", scene, 8);
-      scene.robots.back() = filmed(robot, straight_path({above.x - 0.2, -0.45, 1.3}, 0.9, 4.5));
+      scene.robots = {filmed(robot, straight_path({above.x - 0.2, -0.45, 1.3}, 0.9, 4.5))};
+      if (robot.second_tag >= 0)
+        scene.robots.push_back(filmed_second(robot, scene.robots.front().path));
       film.clip(robot.name + ".straight", scene, 4.5);
     }
   }

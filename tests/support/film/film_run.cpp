@@ -38,6 +38,12 @@ Scene scene_of(const Lab& lab, const RecordedRun& run, const FilmWish& wish) {
       scene.robots[i].other_tag = scene.robots.at(1 - i).tag;
     }
   }
+  scene.robots.front().covered_from_s = wish.cover_from_s;
+  scene.robots.front().covered_until_s = wish.cover_until_s;
+  for (std::size_t i = 0; lab.robots.front().second_tag >= 0 && i < run.poses.size(); ++i) {
+    scene.robots.push_back(filmed_second(lab.robots.at(i), scene.robots[i].path));
+    if (i == 0) scene.robots.back().offset.x_m += wish.second_moved_m;
+  }
   if (wish.duplicate) scene.tags.push_back({scene.robots.front().tag, {-0.55, 0.62, 1}});
   if (wish.sync) scene.tags.push_back({kSyncTag, sync_place(lab), 0.1, 0, -kForever_s, 0});
   for (const ArmWish& arm : wish.arms) {
@@ -141,10 +147,11 @@ std::string text_of_file(const std::string& file) {
   return std::move(*text);
 }
 
-std::string truth_csv(const Scene& scene, const std::vector<ShotFrame>& frames) {
+std::string truth_csv(const Scene& scene, std::size_t robots,
+                      const std::vector<ShotFrame>& frames) {
   std::string text = "frame,time_s,robot,x,y,theta\n";
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
+    for (std::size_t robot = 0; robot < robots; ++robot) {
       const Pose pose = scene.robots[robot].path.at(frames[i].true_s);
       text += fmt::format("{},{:.6f},{},{:.7f},{:.7f},{:.7f}\n", i, frames[i].true_s, robot, pose.x,
                           pose.y, pose.theta);
@@ -199,7 +206,7 @@ std::string film_run(const LabWish& lab_wish, const FilmWish& wish, const std::s
                 : frames_of(schedule, rng);
     const VirtualCamera camera(scene, shooting, seed + i);
     write_clip(camera, frames, file, lab_wish.form, wish.rate_hz, wish.sidecar && !is_told);
-    if (i == 0) write_text(beside(".truth.csv"), truth_csv(scene, frames));
+    if (i == 0) write_text(beside(".truth.csv"), truth_csv(scene, run.poses.size(), frames));
   }
 
   std::string mission = run.mission.name;

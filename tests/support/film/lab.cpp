@@ -78,6 +78,16 @@ nlohmann::json json_of(const Pose& pose) {
   return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
 }
 
+/// Across the robot's centre from the first, and turned by a quarter.
+void mount_second(LabRobot& robot) {
+  constexpr double kBehind_m = 0.125;
+  const double length = std::hypot(robot.offset.x_m, robot.offset.y_m);
+  const double x = -kBehind_m * robot.offset.x_m / length;
+  const double y = -kBehind_m * robot.offset.y_m / length;
+  robot.second_tag = robot.tag + 20;
+  robot.second_offset = {y, -x, robot.offset.yaw_rad + 90 * kDegree};
+}
+
 }  // namespace
 
 Lab lab_of(const LabOptions& options) {
@@ -113,7 +123,9 @@ Lab lab_of(const LabOptions& options) {
         k < offsets.size() ? offsets[k]
                            : TagOffset{mounting.uniform(-0.07, 0.07), mounting.uniform(-0.07, 0.07),
                                        mounting.uniform(-3, 3)};
-    lab.robots.push_back({fmt::format("rvr{}", i + 1), i + 1, 0.10, 0.20, offset});
+    LabRobot& robot = lab.robots.emplace_back();
+    robot = {fmt::format("rvr{}", i + 1), i + 1, 0.10, 0.20, offset};
+    if (options.two_tags) mount_second(robot);
   }
   return lab;
 }
@@ -138,6 +150,9 @@ std::string arena_toml(const Lab& lab, const Shooting& shooting) {
         "\n[[robot]]\nname = \"{0}\"\ntag = {1}\nedge = {2:g}\nheight = {3:g}\n"
         "offset = \"{0}.offset.toml\"\n",
         robot.name, robot.tag, robot.edge_m, robot.height_m);
+    if (robot.second_tag < 0) continue;
+    text += fmt::format("[[robot.more_tags]]\ntag = {}\nedge = {:g}\nheight = {:g}\n",
+                        robot.second_tag, robot.second_edge_m, robot.second_height_m);
   }
   return text;
 }
@@ -198,6 +213,17 @@ FilmedRobot filmed(const LabRobot& robot, Path path) {
   made.height_m = robot.height_m;
   made.offset = robot.offset;
   made.path = std::move(path);
+  return made;
+}
+
+FilmedRobot filmed_second(const LabRobot& robot, Path path) {
+  FilmedRobot made;
+  made.tag = robot.second_tag;
+  made.edge_m = robot.second_edge_m;
+  made.height_m = robot.second_height_m;
+  made.offset = robot.second_offset;
+  made.path = std::move(path);
+  made.side_m = 0;
   return made;
 }
 

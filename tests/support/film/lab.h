@@ -23,6 +23,10 @@ struct LabRobot {
   double edge_m = 0.10;
   double height_m = 0.20;
   TagOffset offset;
+  int second_tag = -1;  ///< behind the first, on a mast; -1: none
+  double second_edge_m = 0.10;
+  double second_height_m = 0.23;
+  TagOffset second_offset;
 };
 
 struct Lab {
@@ -45,6 +49,7 @@ struct LabOptions {
   double survey_sigma_m = 0;     ///< of each coordinate of a reference tag
   LabLens lens = LabLens::Wide;  ///< of one camera
   bool chessboard = false;       ///< in place of a board with markers
+  bool two_tags = false;         ///< on each robot
 };
 
 /// Lens, place, tags and offsets of a seed.
@@ -59,6 +64,8 @@ std::string truth_json(const Lab& lab);
 /// The empty arena with the reference tags.
 Scene empty_scene(const Lab& lab);
 FilmedRobot filmed(const LabRobot& robot, Path path);
+/// Its second tag alone, as a plate without a body.
+FilmedRobot filmed_second(const LabRobot& robot, Path path);
 
 /// A robot that turns on the spot for so long, while its treads creep.
 Path spin_path(Point centre, double turns, double seconds, Point creep_m_s);

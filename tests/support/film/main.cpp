@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
   lab_app->add_option("--lens", lab.lab.lens, "wide, narrow or fisheye")
       ->transform(CLI::CheckedTransformer(kLenses));
   lab_app->add_flag("--chessboard", lab.lab.chessboard, "in place of a board with markers");
+  lab_app->add_flag("--two-tags", lab.lab.two_tags, "on each robot");
   lab_app->add_option("--fps", lab.rate_hz);
   lab_app->add_option("--views", lab.views, "of the calibration board");
   declare_camera(*lab_app, lab);
@@ -86,6 +87,8 @@ int run(int argc, char** argv) {
   FilmWish film;
   std::vector<std::string> arms;
   std::vector<std::string> drops;
+  std::string cover;
+  double second_moved_mm = 0;
   double seconds = 0;
   double jitter_ms = 0;
   bool no_sidecar = false;
@@ -117,6 +120,8 @@ int run(int argc, char** argv) {
   run_app->add_option("--jitter-ms", jitter_ms, "sigma of when frames are taken");
   run_app->add_flag("--count-stamps", film.faults.counts_frames, "stamps are frame / rate");
   run_app->add_option("--arm", arms, "ROBOT:FROM:UNTIL, an arm covers it");
+  run_app->add_option("--cover", cover, "FROM:UNTIL, paper lies on robot 1's first tag");
+  run_app->add_option("--second-moved-mm", second_moved_mm, "robot 1's second tag");
   run_app->add_option("--bump", film.bump_s, "the camera is moved then");
   run_app->add_option("--swap", film.swap_s, "robots 1 and 2 swap tags then");
   run_app->add_flag("--duplicate", film.duplicate, "robot 1's tag also lies on the floor");
@@ -165,6 +170,12 @@ int run(int argc, char** argv) {
     const auto n = numbers_of(word, 2);
     film.faults.drops.push_back({n[0], n[1]});
   }
+  if (!cover.empty()) {
+    const auto n = numbers_of(cover, 2);
+    film.cover_from_s = n[0];
+    film.cover_until_s = n[1];
+  }
+  film.second_moved_m = second_moved_mm / 1000;
   std::printf("%s\n", film_run(there, film, name, designs).c_str());
   return 0;
 }

@@ -39,6 +39,8 @@ struct FilmedRobot {
   double body_height_m = 0.11;
   int other_tag = 0;  ///< what it carries from `swap_s` on, as if a person swapped two
   double swap_s = kForever_s;
+  double covered_from_s = kForever_s;  ///< white paper lies on its tag
+  double covered_until_s = kForever_s;
 };
 
 /// An arm between the camera and the floor, for a while.

@@ -88,6 +88,7 @@ struct VirtualCamera::Stage {
   Shooting shooting;
   std::shared_ptr<const LensMap> lens;
   std::map<int, CellPicture> pictures;  ///< by tag
+  CellPicture paper;                    ///< that lies on a tag
   std::vector<std::int8_t> noise;
   Rng noise_rows{0};
   std::vector<Backdrop> backdrops;  ///< before and after a bump
@@ -105,6 +106,10 @@ struct VirtualCamera::Stage {
     for (const FilmedRobot& robot : scene.robots) {
       know(robot.tag);
       if (robot.swap_s != kForever_s) know(robot.other_tag);
+      if (robot.covered_from_s != kForever_s) {
+        paper = tag_picture(scene.family, robot.tag);
+        std::ranges::fill(paper.gray, std::uint8_t{255});
+      }
     }
     fill_noise(Rng(seed).split("noise"));
     backdrops.push_back(backdrop_from(shooting.view.place));
@@ -209,7 +214,9 @@ Painted VirtualCamera::Stage::painted(const FilmedTag& tag) const {
 }
 
 Painted VirtualCamera::Stage::painted(const FilmedRobot& robot, double time_s) const {
-  const CellPicture& picture = pictures.at(time_s < robot.swap_s ? robot.tag : robot.other_tag);
+  const bool is_covered = robot.covered_from_s <= time_s && time_s < robot.covered_until_s;
+  const CellPicture& picture =
+      is_covered ? paper : pictures.at(time_s < robot.swap_s ? robot.tag : robot.other_tag);
   const auto cell = static_cast<float>(robot.edge_m / (picture.width - 2 * picture.border));
   constexpr float kRim_m = 0.004F;
   return {{&picture, static_cast<float>(robot.height_m), cell,

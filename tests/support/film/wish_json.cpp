@@ -13,6 +13,7 @@ std::string wish_json(const LabWish& wish) {
                                {"survey_sigma", wish.lab.survey_sigma_m},
                                {"lens", static_cast<int>(wish.lab.lens)},
                                {"chessboard", wish.lab.chessboard},
+                               {"two_tags", wish.lab.two_tags},
                                {"rate", wish.rate_hz},
                                {"exposure", wish.exposure_s},
                                {"readout", wish.readout_s},
@@ -33,7 +34,8 @@ LabWish wish_from_truth(const std::string& truth) {
               json.at("robots"),
               json.at("survey_sigma"),
               static_cast<LabLens>(json.at("lens").get<int>()),
-              json.at("chessboard")};
+              json.at("chessboard"),
+              json.value("two_tags", false)};
   wish.rate_hz = json.at("rate");
   wish.exposure_s = json.at("exposure");
   wish.readout_s = json.at("readout");

@@ -33,6 +33,7 @@ def must(program, *words):
 
 class FilmedLab:
     """Folder `lab` with arena.toml and its calibrations; clips are filmed when first asked for."""
+    WISHES = ()  # of `film lab`
 
     def __init__(self):
         if not (TRACK.exists() and FILM.exists()):
@@ -44,7 +45,7 @@ class FilmedLab:
 
     def kept(self):
         """The lab that everybody copies."""
-        key = hashlib.sha256(FILM.read_bytes() + TRACK.read_bytes()).hexdigest()[:24]
+        key = hashlib.sha256(FILM.read_bytes() + TRACK.read_bytes()).hexdigest()[:24] + "".join(self.WISHES)
         cache = BIN.parent / "filmed_labs"
         cache.mkdir(exist_ok=True)
         with (cache / "lock").open("w") as lock:
@@ -54,9 +55,9 @@ class FilmedLab:
                     self.make(pathlib.Path(folder) / "lab").rename(cache / key)
         return cache / key
 
-    @staticmethod
-    def make(lab):
-        must(FILM, "lab", lab, "--size", "960x540", "--robots", "3", "--fps", "15")
+    @classmethod
+    def make(cls, lab):
+        must(FILM, "lab", lab, "--size", "960x540", "--robots", "3", "--fps", "15", *cls.WISHES)
         must(TRACK, "calibrate", "camera", lab / "ceiling.board", "--board", BOARD,
              "--camera", "ceiling", "-o", lab / "ceiling.camera.toml")
         arena = lab / "arena.toml"

@@ -211,6 +211,75 @@ TEST(RigFile, RefusesATagThatIsThereTwice) {
               ElementsAre(HasSubstr("E_DUPLICATE_ID: tag 100 is on the floor at (1, 0.2)")));
 }
 
+constexpr char kMoreTags[] = R"([[robot.more_tags]]
+tag = 11
+edge = 0.08
+height = 0.15
+height_error = 0.002
+)";
+
+/// The arena file in which rvr1 carries two tags.
+std::string arena_with_two_tags(const std::string& more = kMoreTags) {
+  std::string text = kArena;
+  const std::string before = "[[robot]]\nname = \"rvr2\"";
+  return text.insert(text.find(before), more);
+}
+
+OffsetCalibration two_offsets() {
+  OffsetCalibration both = offset_calibration();
+  OffsetCalibration second = both;
+  second.tag = 11;
+  second.edge_m = 0.08;
+  second.height_m = 0.15;
+  second.offset = {-0.06, 0.01, 1.5};
+  both.more_tags = {second};
+  return both;
+}
+
+TEST(RigFile, LetsARobotCarrySeveralTags) {
+  auto texts = calibrations();
+  texts["rvr1.offset.toml"] = calibration_text(two_offsets());
+  const auto rig = parse_rig(arena_with_two_tags(), "arena.toml", files(texts));
+  ASSERT_TRUE(rig) << to_string(rig.error().front());
+  ASSERT_EQ(rig->robots.size(), 2U);
+  EXPECT_EQ(tags_text(rig->robots[0]), "tags 1, 11");
+  EXPECT_EQ(tags_text(rig->robots[1]), "tag 2");
+  const std::vector<RobotSetup> tags = each_tag(rig->robots);
+  ASSERT_EQ(tags.size(), 3U);
+  EXPECT_EQ(tags[1].name, "rvr1");
+  EXPECT_EQ(tags[1].tag, 11);
+  EXPECT_EQ(tags[1].edge_m, 0.08);
+  EXPECT_EQ(tags[1].height_m, 0.15);
+  EXPECT_EQ(tags[1].height_error_m, 0.002);
+  EXPECT_EQ(rig->offset_of(tags[0]), offset_calibration().offset);
+  EXPECT_EQ(rig->offset_of(tags[1]), (TagOffset{-0.06, 0.01, 1.5}));
+  EXPECT_THAT(misfits(*rig), IsEmpty());
+  const OffsetCalibration& read = rig->offsets.at("rvr1.offset.toml");
+  EXPECT_EQ(calibration_text(read), calibration_text(two_offsets()));
+}
+
+TEST(RigFile, RefusesTagsOfOneRobotThatDoNotFit) {
+  const auto said = [](const std::string& more) {
+    const auto rig = parse_rig(arena_with_two_tags(more), "arena.toml", files({}));
+    return rig ? std::vector<std::string>{} : sentences_of(rig.error());
+  };
+  const std::string size = "edge = 0.08\nheight = 0.15\n";
+  EXPECT_THAT(said("[[robot.more_tags]]\ntag = 2\n" + size),
+              ElementsAre(HasSubstr("E_DUPLICATE_ID: tag 2 is on robot \"rvr1\" and on robot ")));
+  EXPECT_THAT(said("[[robot.more_tags]]\ntag = 1\n" + size),
+              ElementsAre(HasSubstr("E_DUPLICATE_ID: tag 1 is on robot \"rvr1\"")));
+  EXPECT_THAT(said("[[robot.more_tags]]\n" + size), ElementsAre(HasSubstr("needs a `tag`")));
+  EXPECT_THAT(said("[[robot.more_tags]]\ntag = 11\nedge = 0.08\nheight = 1.6\n"),
+              ElementsAre(HasSubstr("must be below the camera")));
+  EXPECT_THAT(said("[[robot.more_tags]]\ntag = 11\nname = \"a\"\n" + size),
+              ElementsAre(HasSubstr("name")));
+  // Calibrated before it had the second one.
+  const auto rig = parse_rig(arena_with_two_tags(), "arena.toml", files(calibrations()));
+  ASSERT_TRUE(rig);
+  EXPECT_THAT(sentences_of(misfits(*rig)), ElementsAre(HasSubstr("tag 1 and not 11")));
+  EXPECT_EQ(rig->offset_of(rig->robots[0].more_tags.front()), std::nullopt);
+}
+
 TEST(RigFile, NeedsACamera) {
   EXPECT_THAT(complaints_about("format = 1\n"),
               ElementsAre(AllOf(HasSubstr("E_CONFIG: "), HasSubstr("no [[camera]]"))));

@@ -27,11 +27,10 @@ double variance_of(const TaggedRobot& robot, const TagEvidence& evidence,
 
 }  // namespace
 
-void add_known_errors(const std::vector<TaggedRobot>& robots,
-                      const std::vector<TagEvidence>& evidence,
+void add_known_errors(const std::vector<SeenTag>& tags, const std::vector<TagEvidence>& evidence,
                       std::span<const TrackedCamera> cameras, const Rig& rig, TrackedRun& run) {
   const int cycles = run.trajectory.instants();
-  for (std::size_t i = 0; i < robots.size(); ++i) {
+  for (std::size_t i = 0; i < run.robots.size(); ++i) {
     TrackedRobot& robot = run.robots[i];
     double sum = 0;
     for (int cycle = 0; cycle < cycles; ++cycle) {
@@ -41,8 +40,14 @@ void add_known_errors(const std::vector<TaggedRobot>& robots,
       const double speed = hypot(at.x - before.x, at.y - before.y) / kControlPeriod_s;
       // Which camera saw it best is not worth asking: they differ little.
       double variance = 0;
-      for (const TrackedCamera& camera : cameras)
-        variance = std::max(variance, variance_of(robots[i], evidence[i], camera, rig, at, speed));
+      // Of several tags the worst counts, as if it were alone.
+      for (std::size_t t = 0; t < tags.size(); ++t) {
+        if (tags[t].robot != i) continue;
+        for (const TrackedCamera& camera : cameras) {
+          variance =
+              std::max(variance, variance_of(*tags[t].tag, evidence[t], camera, rig, at, speed));
+        }
+      }
       Scatter& sigma = robot.sigmas[static_cast<std::size_t>(cycle)];
       sigma.sigma_m = std::sqrt(square(sigma.sigma_m) + variance);
       sum += variance;

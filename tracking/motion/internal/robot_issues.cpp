@@ -51,7 +51,7 @@ class Complaints {
 
   void add(IssueCode code, const std::string& text, std::optional<double> from = {},
            std::optional<double> to = {}) {
-    issues_.push_back({code, fmt::format("{} (tag {}) {}", robot_.name, robot_.tag, text),
+    issues_.push_back({code, fmt::format("{} ({}) {}", robot_.name, tags_text(robot_), text),
                        robot_.name, from, to});
   }
 

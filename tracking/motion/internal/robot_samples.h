@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tracking/geometry/view.h"
@@ -24,7 +25,13 @@ struct TaggedRobot {
   TagOffset offset;
   double offset_sigma_m = 0;  ///< of one axis, from its calibration; 0 without one
   bool has_offset = false;
-  bool has_yaw = false;  ///< a straight run told the heading
+  bool has_yaw = false;     ///< a straight run told the heading
+  bool is_another = false;  ///< not the first tag of its robot
+
+  /// Whom checks of the tag are about.
+  std::string subject() const {
+    return is_another ? setup.name + " tag " + std::to_string(setup.tag) : setup.name;
+  }
 };
 
 /// What was made of a robot's sightings.

@@ -144,21 +144,20 @@ Cause cause_of(std::span<const Sample> samples, double scale,
 /// The robot of which a tag is asked about, with what its samples say.
 struct Look {
   const TaggedRobot& robot;
-  const TrackedRobot& tracked;
+  const SeenTag& seen;
   double scale = 1;     ///< against the floor tags
   double sigma = 0;     ///< of the scale's mean
   double height_m = 0;  ///< of the camera
   double reach_m = 0;   ///< how far it went from the point below the camera
 };
 
-Look look_at(const TaggedRobot& robot, const TrackedRobot& tracked, double floor,
-             std::span<const TrackedCamera> cameras) {
-  Look look{.robot = robot, .tracked = tracked, .scale = tracked.mean_scale / floor};
+Look look_at(const SeenTag& seen, double floor, std::span<const TrackedCamera> cameras) {
+  Look look{.robot = *seen.tag, .seen = seen, .scale = seen.mean_scale / floor};
   double squares = 0;
   double count = 0;
-  for (const Sample& sample : tracked.samples) {
+  for (const Sample& sample : seen.samples) {
     if (sample.use != Sample::Use::Used) continue;
-    squares += (sample.scale - tracked.mean_scale) * (sample.scale - tracked.mean_scale);
+    squares += (sample.scale - seen.mean_scale) * (sample.scale - seen.mean_scale);
     ++count;
     const Point3 centre = cameras[static_cast<std::size_t>(sample.camera)].view.place.centre();
     look.height_m = centre.z;
@@ -183,8 +182,7 @@ std::string size_text(const Look& look, double floor, double limit, Cause cause,
   std::string text = fmt::format(
       "measures {:.4f} m along its edge, declared are {:.4f} m ({:+.1f} %, limit {:.0f} %; floor "
       "tags {:+.1f} %): ",
-      look.tracked.mean_scale * setup.edge_m, setup.edge_m, 100 * off, 100 * limit,
-      100 * (floor - 1));
+      look.seen.mean_scale * setup.edge_m, setup.edge_m, 100 * off, 100 * limit, 100 * (floor - 1));
   if (cause == Cause::Height) return text + is_height + ", as two cameras show; measure it again";
   if (cause == Cause::Edge) return text + is_edge + ", as two cameras show; measure it again";
   text += "either " + is_height + ", or " + is_edge + "; ";
@@ -207,14 +205,13 @@ double judge_size(const Look& look, double floor, bool all_alike,
   const double off = std::fabs(look.scale - 1);
   const double warn = std::max(limits.scale_warning, 3 * look.sigma);
   Check check{.name = "size of the tag",
-              .subject = setup.name,
+              .subject = look.robot.subject(),
               .value = 100 * off,
               .limit = 100 * limits.scale_tolerance,
               .unit = "%",
               .catches = "a wrong height, or another tag",
               .reason = {}};
-  const Cause cause =
-      off > warn ? cause_of(look.tracked.samples, look.scale, cameras) : Cause::Open;
+  const Cause cause = off > warn ? cause_of(look.seen.samples, look.scale, cameras) : Cause::Open;
   // An edge moves no place, only what is known of the height.
   const bool fails = off > limits.scale_tolerance && cause != Cause::Edge;
   if (fails) check.outcome = Check::Outcome::Failed;
@@ -234,10 +231,11 @@ double judge_size(const Look& look, double floor, bool all_alike,
   return cause == Cause::Edge ? 0 : off * (look.height_m - setup.height_m);
 }
 
-double judge_tilt(const RobotSetup& setup, const std::optional<TagTilt>& tilt, TrackedRun& run) {
+double judge_tilt(const TaggedRobot& robot, const std::optional<TagTilt>& tilt, TrackedRun& run) {
+  const RobotSetup& setup = robot.setup;
   const double limit = tilt_limit(setup);
   Check check{.name = "tilt of the tag",
-              .subject = setup.name,
+              .subject = robot.subject(),
               .value = {},
               .limit = limit / kDegree,
               .unit = "degrees",
@@ -321,21 +319,20 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
                  2 * strain_sigma / place / std::sqrt(std::min(count, kDegreesOfFreedom))};
 }
 
-std::vector<TagEvidence> judge_tags(const std::vector<TaggedRobot>& robots,
+std::vector<TagEvidence> judge_tags(const std::vector<SeenTag>& tags,
                                     const Observations& observations,
                                     std::span<const TrackedCamera> cameras, const Rig& rig,
                                     const TrackLimits& limits, TrackedRun& run) {
   const double floor = floor_scale(observations, cameras, rig);
   std::vector<Look> looks;
-  for (std::size_t i = 0; i < robots.size(); ++i)
-    looks.push_back(look_at(robots[i], run.robots[i], floor, cameras));
+  for (const SeenTag& tag : tags)
+    looks.push_back(look_at(tag, floor, cameras));
   const bool all_alike = are_alike(looks);
   std::vector<TagEvidence> evidence;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    const double height_off = judge_size(looks[i], floor, all_alike, cameras, limits, run);
-    const auto tilt =
-        tilt_of(robots[i].setup, run.robots[i].samples, observations.sightings, cameras);
-    evidence.push_back({height_off, judge_tilt(robots[i].setup, tilt, run)});
+  for (const Look& look : looks) {
+    const double height_off = judge_size(look, floor, all_alike, cameras, limits, run);
+    const auto tilt = tilt_of(look.robot.setup, look.seen.samples, observations.sightings, cameras);
+    evidence.push_back({height_off, judge_tilt(look.robot, tilt, run)});
   }
   return evidence;
 }

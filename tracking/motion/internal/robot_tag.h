@@ -33,9 +33,17 @@ struct TagEvidence {
   double tilt_rad = 0;      ///< that it leans
 };
 
-/// Asks of each robot whether its tag has the size that its height makes of it (E_TAG_SIZE,
+/// One tag of one robot, and what was seen of it.
+struct SeenTag {
+  const TaggedRobot* tag = nullptr;
+  std::size_t robot = 0;  ///< its number in the run
+  std::span<const Sample> samples;
+  double mean_scale = 1;
+};
+
+/// Asks of each tag whether it has the size that its height makes of it (E_TAG_SIZE,
 /// W_TAG_SIZE) and lies level (W_TILTED).
-std::vector<TagEvidence> judge_tags(const std::vector<TaggedRobot>& robots,
+std::vector<TagEvidence> judge_tags(const std::vector<SeenTag>& tags,
                                     const Observations& observations,
                                     std::span<const TrackedCamera> cameras, const Rig& rig,
                                     const TrackLimits& limits, TrackedRun& run);

@@ -51,6 +51,23 @@ void measure_way(TagWay& tag, const std::vector<double>& times) {
   }
 }
 
+/// The robots as if each carried one tag alone: the one that the camera saw most.
+std::vector<RobotSetup> with_one_tag(const Observations& observations, int camera,
+                                     std::span<const RobotSetup> robots) {
+  std::vector<RobotSetup> made;
+  for (const RobotSetup& robot : robots) {
+    const std::vector<RobotSetup> tags = each_tag(robot);
+    const auto times_seen = [&](const RobotSetup& tag) {
+      return std::ranges::count_if(observations.sightings, [&](const Sighting& seen) {
+        return seen.camera == camera && seen.tag == tag.tag;
+      });
+    };
+    const bool is_plain = tags.size() == 1;
+    made.push_back(is_plain ? robot : *std::ranges::max_element(tags, {}, times_seen));
+  }
+  return made;
+}
+
 }  // namespace
 
 double corners_moved(const TagCorners& from, const TagCorners& to) {
@@ -64,7 +81,8 @@ double corners_moved(const TagCorners& from, const TagCorners& to) {
 }
 
 std::vector<TagWay> tag_ways(const Observations& observations, int camera,
-                             std::span<const RobotSetup> robots) {
+                             std::span<const RobotSetup> all_robots) {
+  const std::vector<RobotSetup> robots = with_one_tag(observations, camera, all_robots);
   const std::size_t frames =
       observations.cameras.at(static_cast<std::size_t>(camera)).frame_times.size();
   std::vector<TagWay> ways(robots.size());

@@ -24,7 +24,7 @@ struct TagWay {
   bool is_seen(std::size_t frame) const { return seen[frame] != nullptr; }
 };
 
-/// Of all robots that the camera saw.
+/// Of all robots that the camera saw; of several tags of one robot, the one that it saw most.
 std::vector<TagWay> tag_ways(const Observations& observations, int camera,
                              std::span<const RobotSetup> robots);
 
