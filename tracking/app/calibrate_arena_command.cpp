@@ -16,6 +16,7 @@
 #include "tracking/detection/tag_detector.h"
 #include "tracking/rig/lens_reach.h"
 #include "tracking/rig/rig_file.h"
+#include "tracking/video/other_size.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -47,7 +48,8 @@ Expected<std::vector<std::vector<TagLook>>> looks_of(const Arguments& arguments,
           error_of(IssueCode::CalibrationSize,
                    fmt::format("calibration {}x{}, video {}x{}; film at the size that "
                                "was calibrated",
-                               model.size.width, model.size.height, size.width, size.height),
+                               model.size.width, model.size.height, size.width, size.height) +
+                       why_other_size(frames.info(), model.size),
                    source.word));
     }
     const std::int64_t known = std::min(frames.info().expected_frames, kFrames);

@@ -16,6 +16,7 @@
 #include "tracking/motion/repeats.h"
 #include "tracking/motion/track_run.h"
 #include "tracking/observing/observe.h"
+#include "tracking/video/other_size.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -120,7 +121,8 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
   if (size != view->camera.size) {
     return Unexpected(error_of(IssueCode::CalibrationSize,
                                "calibration " + text_of(view->camera.size) + ", video " +
-                                   text_of(size) + "; film at the size that was calibrated",
+                                   text_of(size) + "; film at the size that was calibrated" +
+                                   why_other_size((*frames)->info(), view->camera.size),
                                video));
   }
   auto sidecar = sidecar_of(video);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "base/text/csv.h"
 #include "base/text/json.h"
@@ -13,6 +14,7 @@
 #include "sim/mission/trajectory_csv.h"
 #include "tracking/app/commands.h"
 #include "tracking/detection/tag_detector.h"
+#include "tracking/observing/other_family.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith::cli {
@@ -39,6 +41,7 @@ struct Finds {
   std::map<int, SeenTag> tags;
   std::string csv = "frame,time_s,file,tag,hamming,margin,edge_px,u,v,u0,v0,u1,v1,u2,v2,u3,v3\n";
   bool is_mirrored = false;
+  std::vector<std::string> notes;
 };
 
 double median(std::vector<double> values) {
@@ -94,6 +97,7 @@ Expected<Finds> look(const Words& words, Output& output) {
   }
   const std::int64_t every = words.every.value_or(1);
   Finds finds;
+  std::optional<std::string> family;  // that was found in place of the one that was asked for
   Counter counter(output, "looked at", "pictures");
   for (std::int64_t done = 1;; ++done) {
     const auto more = (*source)->next();
@@ -103,12 +107,23 @@ Expected<Finds> look(const Words& words, Output& output) {
     const Frame& frame = (*source)->frame();
     if (frame.number % every != 0) continue;
     const std::vector<Detection> seen = detector->find(frame.gray, 1);
-    if (finds.frames == 0 && seen.empty()) finds.is_mirrored = is_mirrored(*detector, frame.gray);
+    if (finds.frames == 0 && seen.empty()) {
+      finds.is_mirrored = is_mirrored(*detector, frame.gray);
+      family = other_family(words.family, frame.gray);
+    }
     add(finds, frame, seen);
   }
   if (finds.frames == 0) {
     return Unexpected(error_of(IssueCode::VideoUnreadable, "no frame could be read", words.source));
   }
+  finds.notes = (*source)->info().oddities;
+  if (finds.tags.empty() && family) finds.notes.push_back(*family);
+  if (const std::int64_t damaged = (*source)->damaged_frames(); damaged > 0)
+    finds.notes.push_back(fmt::format("{} pictures of it are damaged and were left out", damaged));
+  if ((*source)->info().is_truncated)
+    finds.notes.emplace_back(
+        "it ends before its own header says; copy it again, or check how its "
+        "recording ended");
   return finds;
 }
 
@@ -127,6 +142,7 @@ void print(const Finds& finds, Output& output) {
     output.out << JsonObject()
                       .add("frames", finds.frames)
                       .add("mirrored", finds.is_mirrored)
+                      .add("notes", finds.notes)
                       .add("tags", json_list(finds.tags, tag_json))
                       .text()
                << "\n";
@@ -140,6 +156,8 @@ void print(const Finds& finds, Output& output) {
   }
   if (finds.tags.empty()) output.out << "  none\n";
   if (finds.is_mirrored) print_note(output, kMirroredAdvice);
+  for (const std::string& note : finds.notes)
+    print_note(output, "note: " + note);
   constexpr double kSmall_px = 24;
   std::string small;
   for (const auto& [tag, seen] : finds.tags) {

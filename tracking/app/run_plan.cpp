@@ -8,6 +8,7 @@
 #include "tracking/app/run_store.h"
 #include "tracking/rig/rig_file.h"
 #include "tracking/scoring/run_patches.h"
+#include "tracking/video/other_size.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -153,11 +154,13 @@ OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
       const auto text = [](ImageSize of) {
         return std::to_string(of.width) + "x" + std::to_string(of.height);
       };
-      return refused(error_of(
-          IssueCode::CalibrationSize,
-          "calibration " + camera.model_file + " is for " + text(size) + ", the video has " +
-              text(info.size) + "; film at the picture size of the calibration, or calibrate again",
-          files.videos[i].string()));
+      return refused(
+          error_of(IssueCode::CalibrationSize,
+                   "calibration " + camera.model_file + " is for " + text(size) +
+                       ", the video has " + text(info.size) +
+                       "; film at the picture size of the calibration, or calibrate again" +
+                       why_other_size(info, size),
+                   files.videos[i].string()));
     }
     std::optional<std::vector<double>> times;
     if (!files.times[i].empty()) {

@@ -35,9 +35,11 @@ std::string report_text(const CameraSolution& solution, std::span<const BoardVie
       "{} x {} pixels; fx {:.2f}, fy {:.2f}{}, centre ({:.2f}, {:.2f})\n", model.size.width,
       model.size.height, model.fx, model.fy, sigma, model.cx, model.cy);
   text += fmt::format(
-      "RMS {:.3f} px over {} views, worst {:.3f} px; hull of the corners {:.0f} % of "
-      "the frame\n\n",
-      calibration.rms_px, calibration.views, calibration.worst_view_px, calibration.coverage * 100);
+      "RMS {:.3f} px ({}; limit {:.2f} px, {}) over {} views, worst {:.3f} px ({}); hull of the "
+      "corners {:.0f} % of the frame\n\n",
+      calibration.rms_px, on_the_floor(calibration.rms_px, model), rms_limit_px(model),
+      on_the_floor(rms_limit_px(model), model), calibration.views, calibration.worst_view_px,
+      on_the_floor(calibration.worst_view_px, model), calibration.coverage * 100);
   text += "Corners in each ninth of the frame:\n";
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column)
@@ -61,15 +63,18 @@ std::string report_text(const CameraSolution& solution, std::span<const BoardVie
 
 std::string report_text(const PlaceCalibration& calibration) {
   const Point3 centre = calibration.place.centre();
+  const double limit_px = rms_limit_px(calibration);
+  const double scale = pixels_per_metre(calibration);
   std::string text = fmt::format(
-      "Camera at ({:.3f}, {:.3f}), {:.3f} m above the floor\nRMS {:.3f} px over {} floor tags, "
-      "which "
-      "cover {:.0f} % of the arena that it sees\n\n    tag  RMS px  off when left out\n",
-      centre.x, centre.y, centre.z, calibration.rms_px, calibration.tags.size(),
-      calibration.coverage * 100);
+      "Camera at ({:.3f}, {:.3f}), {:.3f} m above the floor\nRMS {:.3f} px ({}; limit {:.2f} px, "
+      "{}) over {} floor tags, which cover {:.0f} % of the arena that it sees; left out, a tag may "
+      "be {} off\n\n    tag  RMS px  on the floor  off when left out\n",
+      centre.x, centre.y, centre.z, calibration.rms_px,
+      on_the_floor(calibration.rms_px, calibration), limit_px, on_the_floor(limit_px, calibration),
+      calibration.tags.size(), calibration.coverage * 100, millimetres(PlaceLimits{}.left_out_m));
   for (const PlaceCalibration::Seen& seen : calibration.tags) {
-    text += fmt::format("{:7}  {:6.3f}  {:>17}\n", seen.tag.tag, seen.rms_px,
-                        millimetres(seen.left_out_m));
+    text += fmt::format("{:7}  {:6.3f}  {:>12}  {:>17}\n", seen.tag.tag, seen.rms_px,
+                        millimetres(seen.rms_px / scale), millimetres(seen.left_out_m));
   }
   return text;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tracking/geometry/tag_family.h"
+#include "tracking/observing/other_family.h"
 #include "tracking/observing/reference_medians.h"
 
 namespace swarmsmith {
@@ -126,7 +127,8 @@ std::string listed(const std::vector<int>& tags) {
   return text + (tags.size() > kMost ? ", ..." : "");
 }
 
-/// Tags of other families in a picture, a sentence.
+}  // namespace
+
 std::optional<std::string> other_family(const std::string& own, const GrayImage& image) {
   constexpr double kSureMargin = 40;
   for (const TagFamily& family : known_tag_families()) {
@@ -146,6 +148,8 @@ std::optional<std::string> other_family(const std::string& own, const GrayImage&
   }
   return std::nullopt;
 }
+
+namespace {
 
 /// Frames in which the first tag is looked for in other ways, when there was none yet.
 bool is_to_doubt(std::int64_t frame) {

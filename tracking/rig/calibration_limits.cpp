@@ -24,8 +24,16 @@ class Faults {
   std::vector<Error> errors_;
 };
 
-/// What pixels are on a floor, for people; the camera need not hang yet.
+/// The camera need not hang yet.
 constexpr double kFloor_m = 2.5;
+
+/// " (0.80 mm on the floor)".
+std::string in_brackets(double pixels, const PlaceCalibration& calibration) {
+  const std::string text = on_the_floor(pixels, calibration);
+  return text.empty() ? text : " (" + text + ")";
+}
+
+}  // namespace
 
 std::string on_the_floor(double pixels, const CameraModel& model) {
   return fmt::format("{} on a floor {} m below", millimetres(kFloor_m * pixels / model.fx),
@@ -34,10 +42,8 @@ std::string on_the_floor(double pixels, const CameraModel& model) {
 
 std::string on_the_floor(double pixels, const PlaceCalibration& calibration) {
   const double scale = pixels_per_metre(calibration);
-  return scale > 0 ? fmt::format(" ({} on the floor)", millimetres(pixels / scale)) : "";
+  return scale > 0 ? millimetres(pixels / scale) + " on the floor" : "";
 }
-
-}  // namespace
 
 std::string millimetres(double metres) {
   return fmt::format("{:.2f} mm", metres * 1000);
@@ -110,9 +116,10 @@ std::vector<std::string> cautions_of(const CameraCalibration& calibration,
   const double good_px = std::max(limits.least_px / 2, limits.good_rms_rad * calibration.model.fx);
   if (calibration.rms_px > good_px) {
     cautions.push_back(fmt::format(
-        "RMS {:.3f} px ({}) is above {:.2f} px: the board may not be flat, or pictures "
+        "RMS {:.3f} px ({}) is above {:.2f} px ({}): the board may not be flat, or pictures "
         "are blurred",
-        calibration.rms_px, on_the_floor(calibration.rms_px, calibration.model), good_px));
+        calibration.rms_px, on_the_floor(calibration.rms_px, calibration.model), good_px,
+        on_the_floor(good_px, calibration.model)));
   }
   if (calibration.coverage < limits.good_coverage) {
     cautions.push_back(fmt::format(
@@ -150,16 +157,18 @@ std::vector<Error> faults_of(const PlaceCalibration& calibration, const PlaceLim
                                         calibration.worst_tag, millimetres(off));
   const double most_px = rms_limit_px(calibration, limits);
   if (!(calibration.rms_px <= most_px)) {
-    faults.add_if(true, IssueCode::Extrinsics,
-                  fmt::format("floor tags fit with RMS {:.3f} px{}, limit {:.2f} px; {}: survey it "
-                              "again (x, y, angle), and check that the camera's calibration is of "
-                              "this focus and zoom",
-                              calibration.rms_px, on_the_floor(calibration.rms_px, calibration),
-                              most_px, worst));
+    faults.add_if(
+        true, IssueCode::Extrinsics,
+        fmt::format("floor tags fit with RMS {:.3f} px{}, limit {:.2f} px{}; {}: survey it "
+                    "again (x, y, angle), and check that the camera's calibration is of "
+                    "this focus and zoom",
+                    calibration.rms_px, in_brackets(calibration.rms_px, calibration), most_px,
+                    in_brackets(most_px, calibration), worst));
   } else {
     faults.add_if(!(calibration.worst_left_out_m <= limits.left_out_m), IssueCode::Extrinsics,
-                  fmt::format("{}, limit {} (RMS {:.3f} px); survey it again (x, y, angle)", worst,
-                              millimetres(limits.left_out_m), calibration.rms_px));
+                  fmt::format("{}, limit {} (RMS {:.3f} px{}); survey it again (x, y, angle)",
+                              worst, millimetres(limits.left_out_m), calibration.rms_px,
+                              in_brackets(calibration.rms_px, calibration)));
   }
   const double height = calibration.place.centre().z;
   faults.add_if(!(height >= limits.least_height_m && height <= limits.most_height_m),
@@ -176,10 +185,10 @@ std::vector<std::string> cautions_of(const PlaceCalibration& calibration,
   const double good_px = limits.good_share * rms_limit_px(calibration, limits);
   if (calibration.rms_px <= good_px) return {};
   return {
-      fmt::format("RMS {:.3f} px{} is above {:.2f} px (good ones have 0.05 px): survey tag {} "
+      fmt::format("RMS {:.3f} px{} is above {:.2f} px{}; good ones have 0.05 px: survey tag {} "
                   "again",
-                  calibration.rms_px, on_the_floor(calibration.rms_px, calibration), good_px,
-                  calibration.worst_tag)};
+                  calibration.rms_px, in_brackets(calibration.rms_px, calibration), good_px,
+                  in_brackets(good_px, calibration), calibration.worst_tag)};
 }
 
 std::vector<Error> faults_of(const OffsetCalibration& calibration, const OffsetLimits& limits) {

@@ -70,6 +70,11 @@ double rms_limit_px(const CameraModel& model, const CameraLimits& limits = {});
 double rms_limit_px(const PlaceCalibration& calibration, const PlaceLimits& limits = {});
 double pixels_per_metre(const PlaceCalibration& calibration);
 
+/// What pixels are on a floor, for people: "1.20 mm on a floor 2.5 m below"; "0.80 mm on the
+/// floor", empty without tags.
+std::string on_the_floor(double pixels, const CameraModel& model);
+std::string on_the_floor(double pixels, const PlaceCalibration& calibration);
+
 /// A length as people read it: "3.2 mm".
 std::string millimetres(double metres);
 

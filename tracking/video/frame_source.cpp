@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "tracking/video/internal/bag_file.h"
+#include "tracking/video/internal/bag_parts.h"
 #include "tracking/video/internal/bag_word.h"
 #include "tracking/video/internal/camera_word.h"
 #include "tracking/video/internal/chapters.h"
@@ -38,6 +39,7 @@ std::optional<BagParts> parts_of_bag(const std::string& word) {
 
 Expected<std::unique_ptr<FrameSource>> FrameSource::open(const std::string& word) {
   std::error_code ignored;
+  if (const auto parts = check_bag_parts(word); !parts) return Unexpected(parts.error());
   if (std::filesystem::is_directory(word, ignored)) {
     if (const auto chapters = chapters_in(word)) return open_chapters(word, *chapters, {});
     return open_image_folder(word);
@@ -49,7 +51,10 @@ Expected<std::unique_ptr<FrameSource>> FrameSource::open(const std::string& word
     if (bag->kind == BagWord::Kind::Sqlite) return open_rosbag2(*bag);
     return open_bag(*bag);
   }
-  if (const auto parts = parts_of_bag(word)) return open_chapters(word, parts->files, parts->topic);
+  if (const auto parts = parts_of_bag(word)) {
+    if (const auto whole = check_bag_parts(parts->folder); !whole) return Unexpected(whole.error());
+    return open_chapters(word, parts->files, parts->topic);
+  }
   return open_video_file(word);
 }
 

@@ -9,22 +9,22 @@
 #include <utility>
 
 namespace swarmsmith {
-namespace {
-
-std::string little(std::uint64_t value, std::size_t size) {
+std::string little_endian(std::uint64_t value, std::size_t size) {
   std::string bytes;
   for (std::size_t i = 0; i < size; ++i)
     bytes += static_cast<char>(value >> 8 * i & 0xFF);
   return bytes;
 }
 
-std::string text_of(const std::string& text) {
-  return little(text.size(), 4) + text;
+std::string counted_text(const std::string& text) {
+  return little_endian(text.size(), 4) + text;
 }
 
-std::string record(int opcode, const std::string& content) {
-  return std::string(1, static_cast<char>(opcode)) + little(content.size(), 8) + content;
+std::string mcap_record(int opcode, const std::string& content) {
+  return std::string(1, static_cast<char>(opcode)) + little_endian(content.size(), 8) + content;
 }
+
+namespace {
 
 /// Fields of a message, one after the other.
 struct Message {
@@ -35,7 +35,7 @@ struct Message {
   void number(std::uint64_t value) {
     while (is_cdr && bytes.size() % 4 != 0)
       bytes += '\0';
-    std::string four = little(value, 4);
+    std::string four = little_endian(value, 4);
     if (is_big_endian) four = std::string(four.rbegin(), four.rend());
     bytes += four;
   }
@@ -67,7 +67,9 @@ struct Message {
   }
 };
 
-std::string packed(const std::string& packing, const std::string& bytes) {
+}  // namespace
+
+std::string packed_bytes(const std::string& packing, const std::string& bytes) {
   std::string into;
   if (packing == "zstd") {
     into.resize(ZSTD_compressBound(bytes.size()));
@@ -80,10 +82,6 @@ std::string packed(const std::string& packing, const std::string& bytes) {
   }
   return into;
 }
-
-constexpr const char* kMagic = "\x89MCAP0\r\n";
-
-}  // namespace
 
 std::string cdr_of(const BagImage& image, bool is_big_endian) {
   Message message{.bytes = {}, .is_cdr = true, .is_big_endian = is_big_endian};
@@ -111,8 +109,8 @@ WrittenMcap::WrittenMcap(std::string packing, int messages_a_chunk, std::string 
     : packing_(std::move(packing)),
       most_(messages_a_chunk),
       encoding_(std::move(encoding)),
-      bytes_(kMagic) {
-  bytes_ += record(1, text_of("ros2") + text_of("test"));
+      bytes_(kMcapMagic) {
+  bytes_ += mcap_record(1, counted_text("ros2") + counted_text("test"));
 }
 
 void WrittenMcap::add(const std::string& topic, const std::string& type, BagTime recorded,
@@ -122,13 +120,15 @@ void WrittenMcap::add(const std::string& topic, const std::string& type, BagTime
     const int number = static_cast<int>(channels_.size()) + 1;
     channels_[topic] = number;
     const auto id = static_cast<std::uint64_t>(number);
-    into += record(3, little(id, 2) + text_of(type) + text_of("ros2msg") + text_of("uint8 x"));
-    into += record(
-        4, little(id, 2) + little(id, 2) + text_of(topic) + text_of(encoding_) + little(0, 4));
+    into += mcap_record(3, little_endian(id, 2) + counted_text(type) + counted_text("ros2msg") +
+                               counted_text("uint8 x"));
+    into += mcap_record(4, little_endian(id, 2) + little_endian(id, 2) + counted_text(topic) +
+                               counted_text(encoding_) + little_endian(0, 4));
   }
   const auto time = static_cast<std::uint64_t>(recorded);
-  into += record(5, little(static_cast<std::uint64_t>(channels_[topic]), 2) + little(0, 4) +
-                        little(time, 8) + little(time, 8) + message);
+  into += mcap_record(5, little_endian(static_cast<std::uint64_t>(channels_[topic]), 2) +
+                             little_endian(0, 4) + little_endian(time, 8) + little_endian(time, 8) +
+                             message);
   if (packing_ == "bare") {
     bytes_ += into;
     return;
@@ -139,20 +139,23 @@ void WrittenMcap::add(const std::string& topic, const std::string& type, BagTime
 
 void WrittenMcap::close_chunk() {
   if (chunk_.empty()) return;
-  const std::string inside = packed(packing_, chunk_);
+  const std::string inside = packed_bytes(packing_, chunk_);
   const auto crc =
       crc32(0, reinterpret_cast<const Bytef*>(chunk_.data()), static_cast<uInt>(chunk_.size()));
-  bytes_ += record(6, little(0, 8) + little(0, 8) + little(chunk_.size(), 8) + little(crc, 4) +
-                          text_of(packing_ == "none" ? "" : packing_) + little(inside.size(), 8) +
-                          inside);
-  bytes_ += record(7, little(1, 2) + little(0, 4));  // an index, which nobody needs
+  bytes_ +=
+      mcap_record(6, little_endian(0, 8) + little_endian(0, 8) + little_endian(chunk_.size(), 8) +
+                         little_endian(crc, 4) + counted_text(packing_ == "none" ? "" : packing_) +
+                         little_endian(inside.size(), 8) + inside);
+  bytes_ +=
+      mcap_record(7, little_endian(1, 2) + little_endian(0, 4));  // an index, which nobody needs
   chunk_.clear();
   in_chunk_ = 0;
 }
 
 std::string WrittenMcap::finished() {
   close_chunk();
-  return bytes_ + record(15, little(0, 4)) + record(2, little(0, 20)) + kMagic;
+  return bytes_ + mcap_record(15, little_endian(0, 4)) + mcap_record(2, little_endian(0, 20)) +
+         kMcapMagic;
 }
 
 WrittenDb3::WrittenDb3(const std::string& path) {

@@ -14,6 +14,14 @@ std::string cdr_of(const BagPacked& image);
 /// As ROS 1 does.
 std::string ros1_of(const BagImage& image);
 
+/// Of which an MCAP file is made.
+inline constexpr const char* kMcapMagic = "\x89MCAP0\r\n";
+std::string little_endian(std::uint64_t value, std::size_t size);
+std::string counted_text(const std::string& text);
+std::string mcap_record(int opcode, const std::string& content);
+/// `packing`: zstd or lz4; else as they are.
+std::string packed_bytes(const std::string& packing, const std::string& bytes);
+
 /// An MCAP file with a chunk for each so many messages; `packing`: none, zstd, lz4, or "bare" for
 /// no chunks. Its bytes, as they are so far, can be taken at any time: a recorder that is killed.
 class WrittenMcap {
@@ -46,9 +54,10 @@ class WrittenDb3 {
   WrittenDb3& operator=(const WrittenDb3&) = delete;
   void add(const std::string& topic, const std::string& type, BagTime recorded,
            const std::string& message);
+  /// SQL, with a blob for its `?`.
+  void run(const std::string& text, const std::string* blob = nullptr);
 
  private:
-  void run(const std::string& text, const std::string* blob = nullptr);
   void* base_ = nullptr;
   std::map<std::string, int> topics_;
 };

@@ -52,24 +52,35 @@ std::map<int, TagCorners> calibrated_corners(const Rig& rig, const std::string& 
   return corners;
 }
 
+TagCorners turned_by_half(TagCorners corners, ImageSize size) {
+  for (ImagePoint& corner : corners)
+    corner = {size.width - 1 - corner.u, size.height - 1 - corner.v};
+  return corners;
+}
+
 /// How far the floor tags stand from where they were, by the spans of looks.
 struct Span {
   double time_s = 0;  ///< of the run, the span's middle
   int tags = 0;  ///< seen, that were somewhere before; 0 when half of them contradict the others
   double shift_px = 0;
+  double turned_px = 0;  ///< the same, if the picture is turned by half
 };
 
 std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& camera, const Rig& rig,
                            double duration_s, double limit_px) {
   std::map<int, TagCorners> was = calibrated_corners(rig, camera.name);
   std::map<double, std::vector<double>> shifts;
+  std::map<double, double> turned;  // the largest
   std::vector<ReferenceLook> looks = record.references;
   std::ranges::sort(looks, [](const ReferenceLook& a, const ReferenceLook& b) {
     return std::pair(a.time_s, a.tag) < std::pair(b.time_s, b.tag);
   });
   for (const ReferenceLook& look : looks) {
     const auto [before, is_first] = was.emplace(look.tag, look.corners);
-    if (!is_first) shifts[look.time_s].push_back(shift_of(before->second, look.corners));
+    if (is_first) continue;
+    shifts[look.time_s].push_back(shift_of(before->second, look.corners));
+    double& most = turned[look.time_s];
+    most = std::max(most, shift_of(turned_by_half(before->second, record.size), look.corners));
   }
   constexpr double kMargin_s = 5;
   std::vector<Span> spans;
@@ -82,7 +93,7 @@ std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& came
     // Half of them moved, and half did not: a robot stands on some, or they were kicked. Nobody can
     // tell which, so that none of them is a witness.
     const bool is_even = lower <= limit_px && of_tags[tags / 2] > limit_px;
-    spans.push_back({time, is_even ? 0 : static_cast<int>(tags), lower});
+    spans.push_back({time, is_even ? 0 : static_cast<int>(tags), lower, turned[clock]});
   }
   return spans;
 }
@@ -105,11 +116,16 @@ std::optional<Issue> moved(const std::vector<Span>& spans, const std::string& ca
       first == spans.begin()
           ? fmt::format("before {:.1f} s", std::max(0.0, first->time_s))
           : fmt::format("between {:.1f} s and {:.1f} s", std::prev(first)->time_s, first->time_s);
+  constexpr double kNear_px = 20;
+  const bool is_turned = worst->tags >= 2 && worst->turned_px < std::min(kNear_px, worst->shift_px);
   return Issue{
       IssueCode::CameraMoved,
       fmt::format("camera {} moved {}: from then on its floor tags are elsewhere, most {:.1f} px "
-                  "at {:.1f} s (limit {:.1f} px); fix the camera, calibrate its place again",
-                  camera, since, worst->shift_px, worst->time_s, limit_px),
+                  "at {:.1f} s (limit {:.1f} px); {}",
+                  camera, since, worst->shift_px, worst->time_s, limit_px,
+                  is_turned ? "its pictures are turned by 180 degrees: take the file as the camera "
+                              "wrote it, or hang it as it was"
+                            : "fix the camera, calibrate its place again"),
       {},
       first->time_s,
       {}};

@@ -46,6 +46,8 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
   Codec codec(avcodec_alloc_context3(found));
   int code = avcodec_parameters_to_context(codec.get(), &about);
   codec->thread_count = 1;
+  // Else what a film crops on its left is rounded to what is quick to read.
+  codec->flags |= AV_CODEC_FLAG_UNALIGNED;
   codec->pkt_timebase = time_base;
   codec->max_pixels = most_pixels(about.codec_id);
   codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;

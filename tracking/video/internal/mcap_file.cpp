@@ -31,39 +31,51 @@ struct Channel {
   std::int64_t messages = 0;
 };
 
+/// As ROS 2 allows for topics (DDS).
+constexpr std::size_t kLongestName = 255;
+
 /// What a file has: its channels by number.
 struct Contents {
   std::map<std::uint16_t, Channel> channels;
   std::map<std::uint16_t, std::string> schemas;
 
-  void take(const Record& record) {
+  /// False for a record that cannot be.
+  bool take(const Record& record) {
     mcap::Fields fields(record.content);
     if (record.opcode == Opcode::Schema) {
       const auto id = static_cast<std::uint16_t>(fields.number(2));
-      schemas[id] = fields.text();
+      std::string& name = schemas[id];
+      name = fields.text();
+      return !fields.has_ended() && name.size() <= kLongestName;
     } else if (record.opcode == Opcode::Channel) {
       const auto id = static_cast<std::uint16_t>(fields.number(2));
       Channel channel;
       channel.type = schemas[static_cast<std::uint16_t>(fields.number(2))];
       channel.topic = fields.text();
       channel.encoding = fields.text();
+      if (fields.has_ended() || channel.topic.size() > kLongestName ||
+          channel.encoding.size() > kLongestName)
+        return false;
       // A channel is said again in the summary.
       channels.try_emplace(id, std::move(channel));
     } else if (record.opcode == Opcode::Message) {
       const auto found = channels.find(static_cast<std::uint16_t>(fields.number(2)));
       if (found != channels.end()) ++found->second.messages;
+      return !fields.has_ended();
     }
+    return true;
   }
 };
 
 class McapMessages final : public MessageReader {
  public:
   McapMessages(av::ByteStream bytes, std::string name, std::vector<std::uint16_t> channels,
-               std::int64_t count)
+               std::int64_t count, bool is_cut)
       : records_(std::move(bytes), name),
         name_(std::move(name)),
         channels_(std::move(channels)),
-        count_(count) {}
+        count_(count),
+        is_cut_(is_cut) {}
 
   Expected<std::optional<RecordedMessage>> next() override {
     while (true) {
@@ -78,7 +90,7 @@ class McapMessages final : public MessageReader {
       const std::uint64_t time = fields.number(8);
       fields.number(8);  // when it was published
       const std::string_view data = fields.rest();
-      if (fields.has_ended()) return unreadable("a message of it is too short", name_);
+      if (fields.has_ended()) return records_.damaged("a message that is too short");
       bytes_.assign(data.begin(), data.end());
       // Decoders and scalers read a little beyond the end.
       bytes_.resize(data.size() + AV_INPUT_BUFFER_PADDING_SIZE);
@@ -89,12 +101,14 @@ class McapMessages final : public MessageReader {
   }
   void rewind() override { records_.rewind(); }
   std::int64_t count() const override { return count_; }
+  bool is_cut() const override { return is_cut_; }
 
  private:
   mcap::Records records_;
   std::string name_;
   std::vector<std::uint16_t> channels_;
   std::int64_t count_;
+  bool is_cut_;
   std::vector<std::uint8_t> bytes_;
 };
 
@@ -106,16 +120,28 @@ Expected<std::unique_ptr<FrameSource>> open_mcap(const BagWord& word) {
   if (!first) return Unexpected(first.error());
   mcap::Records records(std::move(*first), word.file);
   Contents contents;
-  while (true) {
+  std::optional<Error> damage;
+  while (!damage) {
     const auto record = records.next();
-    // What can be read up to there is read again, and then the damage is told with its place.
-    if (!record && contents.channels.empty()) return Unexpected(record.error());
+    if (!record) damage = record.error();
     if (!record || !*record) break;
-    contents.take(**record);
+    if (!contents.take(**record))
+      damage =
+          records.damaged("a record before this place is too short, or its names too long").value();
   }
   std::map<std::string, std::string> types;
   for (const auto& [id, channel] : contents.channels) {
     if (channel.messages > 0) types[channel.topic] = channel.type;
+  }
+  // What can be read up to there is read again, and then the damage is told with its place.
+  if (damage &&
+      std::ranges::none_of(types, has_ros_images, [](const auto& topic) { return topic.second; }))
+    return Unexpected(*damage);
+  if (types.empty() && records.is_cut()) {
+    return unreadable(
+        "ends before its first message: the recording was not ended properly, or the "
+        "file is not whole; copy it again",
+        word.file);
   }
   const auto topic = image_topic(types, word);
   if (!topic) return Unexpected(topic.error());
@@ -132,16 +158,17 @@ Expected<std::unique_ptr<FrameSource>> open_mcap(const BagWord& word) {
     count += channel.messages;
   }
   if (encoding != "cdr" && encoding != "ros1") {
-    return unreadable("topic " + *topic + " has messages in the encoding `" + encoding +
+    return unreadable("topic " + *topic + " has messages in the encoding `" + shortened(encoding) +
                           "`, which is not read; cdr (ROS 2) and ros1 are",
                       word.file);
   }
   auto second = av::ByteStream::reading(word.file);
   if (!second) return Unexpected(second.error());
-  return open_recorded(
-      word.file + (word.topic.empty() ? "" : ":" + word.topic),
-      std::make_unique<McapMessages>(std::move(*second), word.file, std::move(ids), count),
-      encoding == "cdr" ? MessageForm::Cdr : MessageForm::Ros1, is_packed_type(types[*topic]));
+  return open_recorded(word.file + (word.topic.empty() ? "" : ":" + word.topic),
+                       std::make_unique<McapMessages>(std::move(*second), word.file, std::move(ids),
+                                                      count, records.is_cut()),
+                       encoding == "cdr" ? MessageForm::Cdr : MessageForm::Ros1,
+                       is_packed_type(types[*topic]));
 }
 
 }  // namespace swarmsmith

@@ -12,6 +12,7 @@ extern "C" {
 #include <utility>
 
 #include "tracking/rig/issue.h"
+#include "tracking/video/internal/ros_image.h"
 
 namespace swarmsmith::mcap {
 namespace {
@@ -19,6 +20,10 @@ namespace {
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 constexpr std::int64_t kHead = 9;  // opcode and length
 constexpr std::uint64_t kMostBytes = std::uint64_t{512} << 20;
+/// What a few bytes may expand to, and beyond it what each packed byte may: even pictures of one
+/// colour stay below, in chunks as recorders close them.
+constexpr std::uint64_t kMostOfFew = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMostOfEach = 50;
 
 bool unpack_lz4(std::string_view packed, std::string& into) {
   LZ4F_dctx* context = nullptr;
@@ -118,11 +123,17 @@ Expected<std::optional<Record>> Records::next_outside() {
                      static_cast<int>(count)) == static_cast<int>(count);
   };
   if (at_ == 0) {
+    if (bytes_.size() == 0)
+      return Unexpected(error_of(IssueCode::VideoUnreadable, "the file is empty", name_));
     if (!read(0, kMagic.size()) || record_ != kMagic) return damaged("it is no MCAP file");
     at_ = static_cast<std::int64_t>(kMagic.size());
   }
+  if (is_over_) return std::optional<Record>();
   // A recording that was cut off ends anywhere.
-  if (is_over_ || bytes_.size() - at_ < kHead) return std::optional<Record>();
+  if (bytes_.size() - at_ < kHead) {
+    is_over_ = is_cut_ = true;
+    return std::optional<Record>();
+  }
   if (!read(at_, static_cast<std::size_t>(kHead))) return damaged("it cannot be read");
   Fields head(record_);
   const auto opcode = static_cast<Opcode>(head.number(1));
@@ -134,7 +145,7 @@ Expected<std::optional<Record>> Records::next_outside() {
   const auto left = static_cast<std::uint64_t>(bytes_.size() - at_ - kHead);
   if (size > left) {
     if (opcode == Opcode::Message || opcode == Opcode::Chunk) {
-      is_over_ = true;
+      is_over_ = is_cut_ = true;
       return std::optional<Record>();
     }
     return damaged("a record goes on beyond the file's end");
@@ -156,15 +167,20 @@ Expected<void> Records::unpack(const Record& chunk) {
   if (fields.has_ended()) return damaged("a chunk that is shorter than it says");
   if (size > kMostBytes) return damaged("a chunk of more than 512 MB");
   if (packing.empty()) {
+    if (packed.size() != size) return damaged("a chunk that is not as long as it says");
     inside_ = packed;
   } else if (packing == "zstd" || packing == "lz4") {
+    if (size > std::max(kMostOfFew, kMostOfEach * packed.size())) {
+      return damaged(
+          fmt::format("a chunk of {} bytes that expands to {} MB", packed.size(), size >> 20U));
+    }
     unpacked_.resize(size);
     const bool is_right =
         packing == "zstd" ? unpack_zstd(packed, unpacked_) : unpack_lz4(packed, unpacked_);
     if (!is_right) return damaged("a chunk cannot be unpacked");
     inside_ = unpacked_;
   } else {
-    return damaged("a chunk is packed with `" + packing + "`; zstd and lz4 are read");
+    return damaged("a chunk is packed with `" + shortened(packing) + "`; zstd and lz4 are read");
   }
   if (crc != 0 && crc != crc_of(inside_)) return damaged("a chunk's checksum is wrong");
   return {};

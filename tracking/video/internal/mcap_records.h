@@ -34,7 +34,8 @@ class Fields {
 };
 
 /// The records of a file's data section, those in chunks among them, from front to back. No length
-/// that a file names is believed beyond its own bytes, or 512 MB at a time.
+/// that a file names is believed beyond its own bytes, or 512 MB at a time, and none that a few
+/// packed bytes cannot have.
 class Records {
  public:
   Records(av::ByteStream bytes, std::string name);
@@ -43,11 +44,14 @@ class Records {
   /// with the place where it is damaged.
   Expected<std::optional<Record>> next();
   void rewind();
+  /// Once the end was reached: it ended before the file said that it does.
+  bool is_cut() const { return is_cut_; }
+  /// An error with the place of the next record, or of the one after the last that was read.
+  Unexpected damaged(const std::string& what) const;
 
  private:
   Expected<std::optional<Record>> next_outside();
   Expected<void> unpack(const Record& chunk);
-  Unexpected damaged(const std::string& what) const;
 
   av::ByteStream bytes_;
   std::string name_;
@@ -56,6 +60,7 @@ class Records {
   std::string unpacked_;     ///< the chunk's records, where they were packed
   std::string_view inside_;  ///< what is left of the chunk
   bool is_over_ = false;
+  bool is_cut_ = false;
 };
 
 }  // namespace swarmsmith::mcap

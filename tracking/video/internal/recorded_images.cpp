@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
@@ -25,7 +26,8 @@ class Fields {
       : bytes_(bytes), size_(size), is_cdr_(form == MessageForm::Cdr) {
     if (!is_cdr_) return;
     constexpr std::size_t kHead = 4;
-    has_ended_ = size < kHead || bytes[0] != 0 || bytes[1] > 1;
+    is_other_ = size >= kHead && (bytes[0] != 0 || bytes[1] > 1);
+    has_ended_ = size < kHead || is_other_;
     if (has_ended_) return;
     is_big_endian_ = bytes[1] == 0;
     bytes_ += kHead;
@@ -64,6 +66,7 @@ class Fields {
     return from;
   }
   bool has_ended() const { return has_ended_; }
+  bool is_other() const { return is_other_; }
 
  private:
   std::uint8_t* bytes_;
@@ -72,10 +75,24 @@ class Fields {
   bool is_cdr_;
   bool is_big_endian_ = false;
   bool has_ended_ = false;
+  bool is_other_ = false;  ///< it does not begin as such a message does
 };
 
-/// The definitions are those of `sensor_msgs`; nothing when it ends too early.
-std::optional<RosImage> image_of(const RecordedMessage& message, MessageForm form, bool is_packed) {
+/// Bytes that do not begin as the form says.
+std::string other_form(const std::uint8_t* begin) {
+  const std::array<std::uint8_t, 4> zstd{0x28, 0xb5, 0x2f, 0xfd};
+  if (std::equal(zstd.begin(), zstd.end(), begin)) {
+    return "its messages are packed one by one with zstd; `ros2 bag convert` makes a bag without, "
+           "or "
+           "record with `--compression-mode file`";
+  }
+  return fmt::format("a message begins with the bytes {:02x} {:02x}, which is no CDR of version 1",
+                     begin[0], begin[1]);
+}
+
+/// The definitions are those of `sensor_msgs`. An error says why it cannot be read.
+tl::expected<RosImage, std::string> image_of(const RecordedMessage& message, MessageForm form,
+                                             bool is_packed) {
   Fields fields(message.bytes, message.size, form);
   RosImage image;
   image.is_packed = is_packed;
@@ -94,7 +111,9 @@ std::optional<RosImage> image_of(const RecordedMessage& message, MessageForm for
   }
   image.size = fields.number();
   image.data = fields.take(image.size);
-  if (fields.has_ended()) return std::nullopt;
+  if (fields.is_other()) return tl::unexpected(other_form(message.bytes));
+  if (fields.has_ended())
+    return tl::unexpected(std::string("an image cannot be read: it ends too early"));
   return image;
 }
 
@@ -106,6 +125,7 @@ class RecordedImages final : public FrameSource {
     info_.name = std::move(name);
     info_.expected_frames = messages_->count();
     info_.has_times = true;
+    info_.is_truncated = messages_->is_cut();
   }
 
   /// Looks at the first image that can be read: how large they are, and whether they have stamps.
@@ -171,7 +191,7 @@ class RecordedImages final : public FrameSource {
 
   Expected<void> decode(const RecordedMessage& message) {
     auto image = image_of(message, form_, is_packed_);
-    if (!image) return unreadable("an image cannot be read: it ends too early", info_.name);
+    if (!image) return unreadable(image.error(), info_.name);
     image_ = std::move(*image);
     auto picture = picture_of(image_, info_.name);
     if (!picture) return Unexpected(picture.error());

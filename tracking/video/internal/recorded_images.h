@@ -28,6 +28,8 @@ class MessageReader {
   virtual Expected<std::optional<RecordedMessage>> next() = 0;
   virtual void rewind() = 0;
   virtual std::int64_t count() const = 0;
+  /// The file ends before it says so.
+  virtual bool is_cut() const { return false; }
 };
 
 /// Their images. Times are those of the messages' headers; where the first image has none, when

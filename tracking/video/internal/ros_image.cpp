@@ -54,7 +54,7 @@ constexpr std::array kEncodings = {
 Expected<av::FramePtr> raw_picture(const RosImage& message, const std::string& name) {
   const auto known = std::ranges::find(kEncodings, message.encoding, &Encoding::name);
   if (known == kEncodings.end()) {
-    return unreadable("its images have the encoding `" + message.encoding +
+    return unreadable("its images have the encoding `" + shortened(message.encoding) +
                           "`, which is not read; mono8, mono16, bgr8, rgb8, bgra8, rgba8, bayer_ "
                           "and yuv422 are",
                       name);
@@ -91,7 +91,22 @@ Expected<av::FramePtr> packed_picture(const RosImage& message, const std::string
   return av::decode_still(*packet, name);
 }
 
+/// The first few.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::string> first;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    first.push_back(shortened(names[i]));
+  return joined(first) +
+         (names.size() > kMost ? fmt::format(" and {} more", names.size() - kMost) : "");
+}
+
 }  // namespace
+
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 100;
+  return text.size() <= kMost ? text : text.substr(0, kMost) + "...";
+}
 
 std::optional<double> ros_seconds(std::uint32_t seconds, std::uint32_t nanoseconds) {
   constexpr double kNanoseconds = 1e9;
@@ -117,11 +132,11 @@ Expected<std::string> image_topic(const std::map<std::string, std::string>& type
   std::vector<std::string> all;
   for (const auto& [name, type] : types) {
     if (has_ros_images(type)) images.push_back(name);
-    all.push_back(name + " (" + type + ")");
+    all.push_back(shortened(name) + " (" + type + ")");
   }
   if (images.empty()) {
     return unreadable(
-        "there are no images in this bag; it has " + (all.empty() ? "no messages" : joined(all)),
+        "there are no images in this bag; it has " + (all.empty() ? "no messages" : some_of(all)),
         word.file);
   }
   const auto found = types.find(word.topic);
@@ -134,8 +149,9 @@ Expected<std::string> image_topic(const std::map<std::string, std::string>& type
     text = "the bag has no topic " + word.topic + did_you_mean(word.topic, images);
   }
   return Unexpected(error_of(IssueCode::Config,
-                             text + "; name one, like " + word.file + ":" + images.front() +
-                                 "; those with images: " + joined(images),
+                             text + "; name one, like " + word.file + ":" +
+                                 shortened(images.front()) +
+                                 "; those with images: " + some_of(images),
                              word.file));
 }
 

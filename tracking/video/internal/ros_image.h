@@ -39,6 +39,9 @@ Expected<av::FramePtr> picture_of(const RosImage& image, const std::string& name
 bool has_ros_images(std::string_view type);
 bool is_packed_type(std::string_view type);
 
+/// A text of a file for a sentence: its beginning when it is long.
+std::string shortened(const std::string& text);
+
 /// Which of a bag's topics, by name and type, a word means: the one that it names, or the only one
 /// with images. E_CONFIG for none among several.
 Expected<std::string> image_topic(const std::map<std::string, std::string>& types,

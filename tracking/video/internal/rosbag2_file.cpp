@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -27,32 +30,96 @@ struct CloseBase {
 struct CloseQuery {
   void operator()(sqlite3_stmt* query) const { sqlite3_finalize(query); }
 };
-using Base = std::unique_ptr<sqlite3, CloseBase>;
+using SqliteBase = std::unique_ptr<sqlite3, CloseBase>;
 using Query = std::unique_ptr<sqlite3_stmt, CloseQuery>;
 
-/// Opens a file that may be anything: nothing in it is run, and no row is larger than an image.
+/// A file that may be anything.
+struct Base {
+  SqliteBase sqlite;
+  /// What SQLite may still do. Damage can let it go round in circles, over more rows than there are
+  /// bytes.
+  std::unique_ptr<std::int64_t> steps_left = std::make_unique<std::int64_t>(0);
+  std::int64_t most_steps = 0;
+
+  sqlite3* get() const { return sqlite.get(); }
+  void begin() const { *steps_left = most_steps; }
+};
+
+/// Opens it so that nothing in it is run, and no row is larger than the file, or than an image.
 Expected<Base> open_base(const std::string& file) {
-  constexpr int kMostBytes = 400 << 20;
+  constexpr std::int64_t kMostBytes = 400 << 20;
+  constexpr std::int64_t kLeastBytes = 1 << 20;
+  std::error_code error;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
+  if (error) return unreadable("cannot be opened: " + error.message(), file);
+  if (size == 0) return unreadable("the file is empty", file);
   sqlite3* opened = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &opened, SQLITE_OPEN_READONLY, nullptr);
-  Base base(opened);
+  Base base{SqliteBase(opened)};
   if (code != SQLITE_OK)
     return unreadable(std::string("cannot be opened: ") + sqlite3_errstr(code), file);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
-  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMostBytes);
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH,
+                static_cast<int>(std::clamp(size, kLeastBytes, kMostBytes)));
+  constexpr std::int64_t kFewSteps = 20'000'000;
+  constexpr std::int64_t kStepsOfByte = 20;
+  constexpr int kStepsAtOnce = 10'000;
+  base.most_steps = kFewSteps + kStepsOfByte * size;
+  base.begin();
+  sqlite3_progress_handler(
+      opened, kStepsAtOnce,
+      [](void* left) { return (*static_cast<std::int64_t*>(left) -= kStepsAtOnce) < 0 ? 1 : 0; },
+      base.steps_left.get());
   note_input(file);
   return base;
 }
 
+/// What SQLite complains about.
+std::string complaint(sqlite3* base) {
+  const std::string words = shortened(sqlite3_errmsg(base));
+  switch (sqlite3_errcode(base)) {
+    case SQLITE_NOTADB:
+      return "is damaged, or no SQLite file: " + words;
+    case SQLITE_ERROR:
+      return "is no bag of ROS 2: " + words;
+    case SQLITE_INTERRUPT:
+      return "is damaged: it has more rows than bytes";
+    default:
+      return "is damaged: " + words;
+  }
+}
+
 Expected<Query> query_of(sqlite3* base, const char* text, const std::string& file) {
   sqlite3_stmt* made = nullptr;
-  if (sqlite3_prepare_v2(base, text, -1, &made, nullptr) != SQLITE_OK) {
-    return unreadable(std::string("is no bag of ROS 2: ") + sqlite3_errmsg(base), file);
-  }
+  if (sqlite3_prepare_v2(base, text, -1, &made, nullptr) != SQLITE_OK)
+    return unreadable(complaint(base), file);
   return Query(made);
+}
+
+/// Its tables are tables, whose columns are stored: nothing else is asked for.
+Expected<void> check_tables(sqlite3* base, const std::string& file) {
+  for (const char* table : {"topics", "messages"}) {
+    const auto count = [&](const char* text) -> Expected<std::int64_t> {
+      auto query = query_of(base, text, file);
+      if (!query) return Unexpected(query.error());
+      sqlite3_bind_text(query->get(), 1, table, -1, SQLITE_STATIC);
+      if (sqlite3_step(query->get()) != SQLITE_ROW) return unreadable(complaint(base), file);
+      return sqlite3_column_int64(query->get(), 0);
+    };
+    const auto tables = count(
+        "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = ? AND rootpage > 0");
+    if (!tables) return Unexpected(tables.error());
+    if (*tables != 1)
+      return unreadable(fmt::format("is no bag of ROS 2: {} is no table of it", table), file);
+    const auto computed = count("SELECT count(*) FROM pragma_table_xinfo(?) WHERE hidden != 0");
+    if (!computed) return Unexpected(computed.error());
+    if (*computed != 0)
+      return unreadable(fmt::format("is no bag of ROS 2: a column of {} is computed", table), file);
+  }
+  return {};
 }
 
 std::string text_at(sqlite3_stmt* query, int column) {
@@ -68,19 +135,23 @@ struct Topic {
 };
 
 Expected<std::map<std::string, Topic>> topics_of(sqlite3* base, const std::string& file) {
-  auto query = query_of(base,
-                        "SELECT id, name, type, serialization_format, (SELECT count(*) FROM "
-                        "messages WHERE topic_id = topics.id) FROM topics",
-                        file);
+  std::map<std::int64_t, std::int64_t> counts;
+  auto messages = query_of(base, "SELECT topic_id FROM messages", file);
+  if (!messages) return Unexpected(messages.error());
+  int code = SQLITE_ROW;
+  while ((code = sqlite3_step(messages->get())) == SQLITE_ROW)
+    ++counts[sqlite3_column_int64(messages->get(), 0)];
+  if (code != SQLITE_DONE) return unreadable(complaint(base), file);
+  auto query = query_of(base, "SELECT id, name, type, serialization_format FROM topics", file);
   if (!query) return Unexpected(query.error());
   std::map<std::string, Topic> topics;
-  int code = SQLITE_ROW;
   while ((code = sqlite3_step(query->get())) == SQLITE_ROW) {
     Topic topic{sqlite3_column_int64(query->get(), 0), text_at(query->get(), 2),
-                text_at(query->get(), 3), sqlite3_column_int64(query->get(), 4)};
+                text_at(query->get(), 3), 0};
+    topic.messages = counts[topic.id];
     if (topic.messages > 0) topics[text_at(query->get(), 1)] = std::move(topic);
   }
-  if (code != SQLITE_DONE) return unreadable(sqlite3_errmsg(base), file);
+  if (code != SQLITE_DONE) return unreadable(complaint(base), file);
   return topics;
 }
 
@@ -92,9 +163,9 @@ class Rosbag2Messages final : public MessageReader {
   Expected<std::optional<RecordedMessage>> next() override {
     const int code = sqlite3_step(query_.get());
     if (code == SQLITE_DONE) return std::optional<RecordedMessage>();
-    if (code != SQLITE_ROW) {
-      return unreadable(std::string("is damaged: ") + sqlite3_errmsg(base_.get()), name_);
-    }
+    if (code != SQLITE_ROW)
+      return unreadable(complaint(base_.get()) + fmt::format(" (after {} images)", given_), name_);
+    ++given_;
     const auto* const data = static_cast<const std::uint8_t*>(sqlite3_column_blob(query_.get(), 1));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(query_.get(), 1));
     bytes_.assign(data, data + (data == nullptr ? 0 : size));
@@ -103,7 +174,11 @@ class Rosbag2Messages final : public MessageReader {
     return std::optional(RecordedMessage{sqlite3_column_int64(query_.get(), 0), bytes_.data(),
                                          data == nullptr ? 0 : size});
   }
-  void rewind() override { sqlite3_reset(query_.get()); }
+  void rewind() override {
+    sqlite3_reset(query_.get());
+    base_.begin();
+    given_ = 0;
+  }
   std::int64_t count() const override { return count_; }
 
  private:
@@ -111,6 +186,7 @@ class Rosbag2Messages final : public MessageReader {
   Query query_;
   std::string name_;
   std::int64_t count_;
+  std::int64_t given_ = 0;
   std::vector<std::uint8_t> bytes_;
 };
 
@@ -120,6 +196,9 @@ Expected<std::unique_ptr<FrameSource>> open_rosbag2(const BagWord& word) {
   av::set_up();
   auto base = open_base(word.file);
   if (!base) return Unexpected(base.error());
+  if (const auto tables = check_tables(base->get(), word.file); !tables)
+    return Unexpected(tables.error());
+  base->begin();
   auto topics = topics_of(base->get(), word.file);
   if (!topics) return Unexpected(topics.error());
   std::map<std::string, std::string> types;
@@ -129,7 +208,7 @@ Expected<std::unique_ptr<FrameSource>> open_rosbag2(const BagWord& word) {
   if (!name) return Unexpected(name.error());
   const Topic& topic = topics->at(*name);
   if (topic.form != "cdr") {
-    return unreadable("topic " + *name + " has messages in the form `" + topic.form +
+    return unreadable("topic " + *name + " has messages in the form `" + shortened(topic.form) +
                           "`, which is not read; cdr is",
                       word.file);
   }

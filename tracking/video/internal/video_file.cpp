@@ -93,8 +93,9 @@ class VideoFile final : public FrameSource {
     is_damaged_ = false;
     if (picture_->width != info_.size.width || picture_->height != info_.size.height) {
       return unreadable(
-          fmt::format("frame {} is {} x {} pixels, those before it {} x {}", frame_.number + 1,
-                      picture_->width, picture_->height, info_.size.width, info_.size.height),
+          fmt::format("frame {} is {} x {} pixels, {} {} x {}", frame_.number + 1, picture_->width,
+                      picture_->height, frame_.number < 0 ? "the file says" : "those before it",
+                      info_.size.width, info_.size.height),
           info_.name);
     }
     if (!place()) return false;
