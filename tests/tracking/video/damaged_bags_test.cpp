@@ -164,12 +164,12 @@ TEST(DamagedMcap, ThatWasCutIsMarkedSo) {
     bag.add(kTopic, kImage, image_of(i).recorded, cdr_of(image_of(i)));
   const std::string whole = bag.finished();
   write_bytes(folder / "run.mcap", whole);
-  EXPECT_FALSE(read_apart(folder / "run.mcap").is_truncated);
+  EXPECT_FALSE(read_apart(folder / "run.mcap").is_odd);
   for (const int tenth : {4, 6, 9}) {
     write_bytes(folder / "run.mcap",
                 whole.substr(0, whole.size() * static_cast<unsigned>(tenth) / 10));
     const ReadApart read = read_apart(folder / "run.mcap");
-    EXPECT_TRUE(read.is_truncated);
+    EXPECT_TRUE(read.is_odd);
     EXPECT_EQ(read.said, "");
     EXPECT_GT(read.frames, 3);
   }
