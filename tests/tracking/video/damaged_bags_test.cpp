@@ -374,13 +374,13 @@ void try_hurt(int tries, ReadApart (*read)(const std::string&), std::uint64_t se
 }
 
 TEST(DamagedRecordings, AreReadOrRefusedWhateverIsChanged) {
-  try_hurt(times(250, 4000), &read_apart, 46);
+  try_hurt(times(200, 3000), &read_apart, 46);
 }
 
 TEST(DamagedRecordings, ByTheProgram) {
   if (times(0, 1) == 0) GTEST_SKIP() << "skipped: long";
   if (!has_track_program()) GTEST_SKIP() << "skipped: swarmsmith-track is not built";
-  try_hurt(3000, &detected_apart, 4646);
+  try_hurt(300, &detected_apart, 4646);
 }
 
 }  // namespace
