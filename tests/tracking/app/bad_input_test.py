@@ -229,6 +229,17 @@ class BadInput(unittest.TestCase):
         self.assert_refused(done, "E_SPIN_QUALITY", r"at least 300")
         self.assertFalse((arena.parent / "rvr1.offset.toml").exists())
 
+    def test_new_arena_has_its_floor_tags_where_the_survey_form_has_them(self):
+        call(TRACK, "init", self.folder / "new")
+        form = self.folder / "form.svg"
+        call(TRACK, "print", "survey", "--ids", "100-105", "--edge", "0.10", "-o", form)
+        proposed = re.findall(r">(-?\d\.\d{3}), (-?\d\.\d{3})<", form.read_text())
+        text = (self.folder / "new" / "arena.toml").read_text()
+        places = re.findall(r"^\[\[reference\]\]\ntag = \d+\nx = (\S+)\ny = (\S+)", text, re.M)
+        self.assertEqual([tuple(map(float, place)) for place in places],
+                         [tuple(map(float, place)) for place in proposed])
+        self.assertEqual(len(places), 6)
+
     # Runs
 
     def test_camera_that_moved(self):

@@ -1,5 +1,6 @@
 #include "tests/tracking/video/read_apart.h"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -62,13 +63,13 @@ ReadApart read_apart(const std::string& word) {
       if (!more || !*more) break;
       ++frames;
     }
-    tell(to,
-         std::to_string(frames) + (source && (*source)->info().is_truncated ? "!" : " ") + error);
+    tell(to, std::to_string(frames) + (source && !(*source)->info().oddities.empty() ? "!" : " ") +
+                 error);
   });
   std::size_t end = 0;
   if (result.said.empty()) return result;
   result.frames = std::stol(result.said, &end);
-  result.is_truncated = result.said[end] == '!';
+  result.is_odd = result.said[end] == '!';
   result.said.erase(0, end + 1);
   return result;
 }
@@ -80,6 +81,7 @@ bool has_track_program() {
 ReadApart detected_apart(const std::string& word) {
   return apart([&](int to) {
     ::dup2(to, STDERR_FILENO);
+    ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
     const std::string program = track_program();
     ::execl(program.c_str(), program.c_str(), "detect", word.c_str(), "--json", "-q", "--csv",
             "/dev/null", nullptr);

@@ -10,7 +10,7 @@ struct ReadApart {
   long most_memory_mb = 0;
   std::string said;  ///< the error with its place; empty: it read
   long frames = 0;
-  bool is_truncated = false;
+  bool is_odd = false;
 };
 
 /// Reads all frames of it, with 20 s of processor at most.

@@ -125,7 +125,14 @@ class RecordedImages final : public FrameSource {
     info_.name = std::move(name);
     info_.expected_frames = messages_->count();
     info_.has_times = true;
-    info_.is_truncated = messages_->is_cut();
+    // No fault of the run: a recorder that is killed writes no end, and runs that are not covered
+    // are refused.
+    if (messages_->is_cut()) {
+      info_.oddities.emplace_back(
+          "it was cut off: the recording was not ended properly, or the file is not whole, and "
+          "what "
+          "came last is missing");
+    }
   }
 
   /// Looks at the first image that can be read: how large they are, and whether they have stamps.
