@@ -177,11 +177,16 @@ class Judge {
                       "busy, or the start of the run wrong?",
                       1000 * *reality.latency.seconds, 1000 * kLateTreads_s));
     }
-    if (is_off(reality.slip.way)) {
+    const Gain& way = reality.slip.way;
+    if (is_off(way) && *way.gain < 0) {
+      add(IssueCode::TagTurned, known,
+          "its camera sees it drive back where its treads are told to drive ahead; is its tag "
+          "turned by 180 degrees since it was calibrated, or do its treads turn the wrong way?");
+    } else if (is_off(way)) {
       add(IssueCode::MotionUnlikeLog, known,
           fmt::format("it drives {:.0f} % of the way that its treads are told ({:.0f} to {:.0f} % "
                       "are usual); is its driver's scale right?",
-                      100 * *reality.slip.way.gain, 100 * (1 - kWayOff), 100 * (1 + kWayOff)));
+                      100 * *way.gain, 100 * (1 - kWayOff), 100 * (1 + kWayOff)));
     }
   }
 

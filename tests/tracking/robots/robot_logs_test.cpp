@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/math.h"
 #include "base/rng.h"
 
 namespace swarmsmith {
@@ -314,6 +315,22 @@ TEST_F(RobotLogsTest, TreadsOfAnotherSpeedAreSeenWhateverTheirDriverSays) {
   ASSERT_NE(way, nullptr);
   EXPECT_EQ(way->outcome, Check::Outcome::Warned);
   EXPECT_NEAR(way->value.value(), 50, 1);
+  EXPECT_EQ(check_of(checks, "way of what was told", "rvr2")->outcome, Check::Outcome::Passed);
+}
+
+TEST_F(RobotLogsTest, ATagThatIsTurnedHalfRoundDrivesAgainstItsCommands) {
+  run.starts = {{0, 0, 0}, {9, 9, 0}};  // far from each other: both are free
+  run.trajectory.robots = 2;
+  for (int i = 0; i < kCycles; ++i)
+    run.trajectory.poses.insert(run.trajectory.poses.end(), run.starts.begin(), run.starts.end());
+  for (Sample& sample : run.robots[0].samples)
+    sample.pose.theta += kPi;
+  Observations seen;
+  seen.logs = logs;
+  const RobotFindings found = judged();
+  EXPECT_THAT(found.issues, ElementsAre(Is(IssueCode::TagTurned, "rvr1", "drive back")));
+  const std::vector<Check> checks = checks_of_logs(run, seen, log, found);
+  EXPECT_EQ(check_of(checks, "way of what was told", "rvr1")->outcome, Check::Outcome::Failed);
   EXPECT_EQ(check_of(checks, "way of what was told", "rvr2")->outcome, Check::Outcome::Passed);
 }
 
