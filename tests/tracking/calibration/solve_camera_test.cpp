@@ -5,6 +5,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "synthetic.h"
+#include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 
 namespace swarmsmith {
@@ -151,7 +152,10 @@ TEST(SolveCameraTest, EachLimitRefusesWithItsValue) {
   EXPECT_EQ(half.ninths[2] + half.ninths[5] + half.ninths[8], 0);
   EXPECT_GT(half.ninths[0], 0);
 
-  CameraCalibration odd = solved(held_boards(camera, 17, 1), camera).calibration;
+  const std::vector<BoardView> good = held_boards(camera, 17, 1);
+  EXPECT_THAT(report_text(solved(good, camera), good),
+              HasSubstr("mm on a floor 2.5 m below; limit 0.51 px, 1.25 mm on a floor"));
+  CameraCalibration odd = solved(good, camera).calibration;
   EXPECT_THAT(cautions_of(odd), IsEmpty());
   odd.model.fy *= 1.03;
   EXPECT_THAT(faults(odd), HasSubstr("differ by 2.9 %, limit 2 %"));

@@ -1,9 +1,12 @@
 #include "tracking/calibration/solve_place.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "synthetic.h"
 #include "tests/support/long_runs.h"
+#include "tracking/calibration/calibration_report.h"
+#include "tracking/rig/calibration_limits.h"
 
 namespace swarmsmith {
 namespace {
@@ -159,6 +162,18 @@ TEST(SolvePlaceTest, SmallErrorsOfTheSurveyShowWithoutTheTag) {
   question_.limits.least_px = 3;
   EXPECT_THAT(refusal(question_), AllOf(HasSubstr("E_EXTRINSICS"), HasSubstr("worst is tag 102"),
                                         HasSubstr("limit 5.00 mm")));
+}
+
+TEST(SolvePlaceTest, ItsReportHasPixelsAndMillimetresWithTheirLimits) {
+  const auto solved = solve_place(question(0.05));
+  ASSERT_TRUE(solved);
+  const double scale = pixels_per_metre(*solved);
+  EXPECT_THAT(report_text(*solved),
+              AllOf(HasSubstr(fmt::format("RMS {:.3f} px ({:.2f} mm on the floor; limit ",
+                                          solved->rms_px, 1000 * solved->rms_px / scale)),
+                    HasSubstr("2.00 mm on the floor) over"),
+                    HasSubstr("left out, a tag may be 5.00 mm off"),
+                    HasSubstr(fmt::format("{:.2f} mm ", 1000 * solved->tags[0].rms_px / scale))));
 }
 
 TEST(SolvePlaceTest, ACameraOutsideOfItsRangeIsRefused) {
