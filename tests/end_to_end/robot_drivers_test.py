@@ -83,7 +83,8 @@ class Drivers(ProgramTest):
         raise AssertionError("the treads did nothing wrong")
 
     def assert_invalid(self, start, fault_at, reason, within=STANDS_AFTER, resumes=False):
-        """Ends INVALID for this reason, and is told in time to stand. `fault_at`: when, or the driver whose treads do wrong.
+        """The run ends INVALID for this reason, and the node stops the treads in time. `fault_at`: when, or the driver whose treads
+        do wrong.
         `resumes`: it may obey the stop, be let go on, and be wrong again."""
         self.assertEqual(start.end(), 6, start.said())
         self.assertIn("r1: INVALID", start.said())

@@ -127,7 +127,7 @@ void LiveTracker::place(std::size_t robot, const std::vector<Detection>& seen, d
                         LiveState& state) {
   Known& known = known_[robot];
   const std::vector<RobotSetup> tags = each_tag(rig_.robots[robot]);
-  // The surest of two, which come first; that there are two is told as an issue. Of several tags
+  // The surest of two, which come first; an issue says that there are two. Of several tags
   // of the robot's own, the first that is seen.
   const auto tag_seen = [&](const RobotSetup& tag) {
     return std::ranges::find(seen, tag.tag, &Detection::tag);

@@ -15,7 +15,7 @@ struct CameraLimits {
   /// Reprojection as an angle of rays, since a pixel of a large picture is a small thing: 1.25 mm
   /// on a floor 2.5 m below. Corners are not found better than `least_px` in small pictures.
   double rms_rad = 0.0005;
-  double good_rms_rad = 0.0003;  ///< above it a person is told
+  double good_rms_rad = 0.0003;  ///< above it a note says so
   double least_px = 0.2;
   /// Of the frame by the corners' hull. What counts is the part that the arena fills, which is
   /// asked for where the camera's place is known (lens_reach.h); files without a hull need all of
@@ -24,7 +24,7 @@ struct CameraLimits {
   double good_coverage = 0.7;
   double aspect = 0.02;        ///< of fx / fy about 1
   double principal = 0.10;     ///< of the principal point from the middle, over width and height
-  double focal_sigma = 0.005;  ///< standard deviation of f over f, above it a person is told
+  double focal_sigma = 0.005;  ///< standard deviation of f over f, above it a note says so
 };
 
 struct PlaceLimits {
@@ -33,7 +33,7 @@ struct PlaceLimits {
   /// small pictures are not better than `least_px`.
   double rms_m = 0.002;
   double least_px = 0.3;
-  double good_share = 0.5;      ///< of the limit; above it a person is told
+  double good_share = 0.5;      ///< of the limit; above it a note says so
   double left_out_m = 0.005;    ///< leave-one-tag-out error on the floor
   double least_coverage = 0.5;  ///< of the arena by the tags' hull
   double least_height_m = 0.5;  ///< of the camera

@@ -134,7 +134,7 @@ TEST(SolvePlaceTest, TheWrongOneOfFourIsNamedToo) {
   }
 }
 
-/// A pixel of a large picture is a small thing: what fits is told by the floor. Of the same tape,
+/// A pixel of a large picture is a small thing: the floor says what fits. Of the same tape,
 /// the same floor tags fit in small pictures and in large ones.
 TEST(SolvePlaceTest, TheLimitGrowsWithThePicture) {
   for (const double times : {0.3, 0.5, 1.0, 2.0, 4.0}) {

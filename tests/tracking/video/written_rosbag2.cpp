@@ -147,7 +147,7 @@ void WrittenMcap::close_chunk() {
                          little_endian(crc, 4) + counted_text(packing_ == "none" ? "" : packing_) +
                          little_endian(inside.size(), 8) + inside);
   bytes_ +=
-      mcap_record(7, little_endian(1, 2) + little_endian(0, 4));  // an index, which nobody needs
+      mcap_record(7, little_endian(1, 2) + little_endian(0, 4));  // an index, which is not needed
   chunk_.clear();
   in_chunk_ = 0;
 }

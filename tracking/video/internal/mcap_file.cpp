@@ -133,7 +133,7 @@ Expected<std::unique_ptr<FrameSource>> open_mcap(const BagWord& word) {
   for (const auto& [id, channel] : contents.channels) {
     if (channel.messages > 0) types[channel.topic] = channel.type;
   }
-  // What can be read up to there is read again, and then the damage is told with its place.
+  // What can be read up to there is read again, and then the damage is named with its place.
   if (damage &&
       std::ranges::none_of(types, has_ros_images, [](const auto& topic) { return topic.second; }))
     return Unexpected(*damage);
