@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -191,10 +192,12 @@ class ServingEnd final : public RobotEnd {
     if (drives && !may_work(received.role))
       return complain(received.peer, "wants to drive, and its key is no worker's");
     Peer& peer = peers_[received.peer];
-    if (peer.drives && !drives)
-      inbox_.put(TroubleMessage{peer.name + " drives no more: it said `hello " +
-                                    (words.empty() ? "" : words.front()) + "`",
-                                false});
+    std::optional<TroubleMessage> left;
+    if (peer.drives && !drives) {
+      left = TroubleMessage{peer.name + " drives no more: it said `hello " +
+                                (words.empty() ? "" : words.front()) + "`",
+                            false};
+    }
     if (peer.name.empty()) peer.name = name_of(received);
     peer.drives = drives;
     peer.heard = SystemClock().now();
@@ -203,6 +206,8 @@ class ServingEnd final : public RobotEnd {
     else if (!state_.empty())
       socket_->send(received.peer, state_);
     keep_drivers();
+    // Who hears of it finds it done.
+    if (left) inbox_.put(*std::move(left));
   }
 
   void send_out(const std::string& frame) {

@@ -46,6 +46,7 @@ struct Scatter {
 struct TrackedRobot {
   std::string name;
   int tag = 0;
+  bool has_heading = false;       ///< a straight run told how its tag is turned on it
   std::vector<Sample> samples;    ///< by time
   std::vector<CycleKind> cycles;  ///< one a control cycle, from 0.1 s on
   std::vector<Scatter> sigmas;    ///< of each cycle's pose: the wider the gap, the larger

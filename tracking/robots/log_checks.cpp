@@ -65,11 +65,10 @@ void ask_treads(const std::string& robot, const Reality& reality, std::vector<Ch
                                               1000 * *latency.seconds, 1000 * kLateTreads_s)
                                    : not_asked(kLatency, robot, latency.reason));
   const Gain& way = reality.slip.way;
-  const bool is_against = is_off(way) && *way.gain < 0;
-  checks.push_back(way.gain
-                       ? answered(kWay, robot, is_against ? Outcome::Failed : outcome(is_off(way)),
-                                  100 * std::fabs(*way.gain - 1), 100 * kWayOff)
-                       : not_asked(kWay, robot, way.reason));
+  checks.push_back(way.gain ? answered(kWay, robot,
+                                       way.is_against ? Outcome::Failed : outcome(is_off(way)),
+                                       100 * std::fabs(*way.gain - 1), 100 * kWayOff)
+                            : not_asked(kWay, robot, way.reason));
 }
 
 /// All that is asked of one robot that has a log.

@@ -112,12 +112,14 @@ Reality reality_of(const RobotOfRun& of, const Latency& latency) {
                        free.begin() + static_cast<std::ptrdiff_t>(last) + 1,
                        [](bool one) { return one; });
   };
-  const std::vector<Sample>& samples = of.run.robots[of.robot].samples;
+  const TrackedRobot& robot = of.run.robots[of.robot];
+  const std::vector<Sample>& samples = robot.samples;
   const std::vector<TimedCommand> commands = commands_of(of.log.record);
   Slip slip = slip_of(commands, samples, latency.seconds, is_free);
   std::vector<double> delays_s;
   // One that varies much is not told as a number, but single commands tell it.
   const bool follows = latency.agreement.value_or(0) >= kLeastAgreement && !latency.beyond;
+  slip.way.is_against = slip.way.is_against && follows && robot.has_heading;
   if (follows && slip.turn.gain)
     delays_s = delays_of(commands, samples, latency.seconds, *slip.turn.gain, is_free);
   return {.latency = latency,

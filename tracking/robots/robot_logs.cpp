@@ -178,7 +178,7 @@ class Judge {
                       1000 * *reality.latency.seconds, 1000 * kLateTreads_s));
     }
     const Gain& way = reality.slip.way;
-    if (is_off(way) && *way.gain < 0) {
+    if (way.gain && way.is_against) {
       add(IssueCode::TagTurned, known,
           "its camera sees it drive back where its treads are told to drive ahead; is its tag "
           "turned by 180 degrees since it was calibrated, or do its treads turn the wrong way?");

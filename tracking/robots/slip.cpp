@@ -94,7 +94,8 @@ Gain gain_of(const std::vector<Pair>& pairs, const std::string& what) {
     for (const auto& [block, slope] : blocks)
       squares += slope * slope;
     const auto count = static_cast<double>(blocks.size());
-    gain.gain = both[0] < 0 && size > 0 ? -size : size;
+    gain.gain = size;
+    gain.is_against = both[0] < 0;
     gain.error = std::sqrt(squares * count / std::max(count - 1, 1.0)) / told;
   }
   const auto not_told = [&](std::string reason) {

@@ -11,7 +11,8 @@ namespace swarmsmith {
 
 /// How much a robot does of what its treads are told.
 struct Gain {
-  std::optional<double> gain;  ///< 1: all of it; below 0: against it; none: it cannot be told
+  std::optional<double> gain;  ///< 1: all of it; none when it cannot be told
+  bool is_against = false;     ///< a way that went back where ahead was told, by a known heading
   double error = 0;            ///< one standard error
   double seconds = 0;          ///< that it rests on
   std::string reason;          ///< why it cannot be told, a sentence without its subject

@@ -327,6 +327,8 @@ TEST_F(RobotLogsTest, ATagThatIsTurnedHalfRoundDrivesAgainstItsCommands) {
     sample.pose.theta += kPi;
   Observations seen;
   seen.logs = logs;
+  EXPECT_THAT(judged().issues, testing::IsEmpty()) << "nothing says how its tag is turned on it";
+  run.robots[0].has_heading = true;
   const RobotFindings found = judged();
   EXPECT_THAT(found.issues, ElementsAre(Is(IssueCode::TagTurned, "rvr1", "drive back")));
   const std::vector<Check> checks = checks_of_logs(run, seen, log, found);

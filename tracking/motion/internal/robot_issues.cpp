@@ -296,7 +296,7 @@ void check_cameras(const RobotTrack& track, Complaints& complaints) {
 TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const RobotTrack& track,
                            const FrameReport& frames, const TrackOptions& options,
                            std::vector<Issue>& issues, std::vector<Check>& checks) {
-  TrackedRobot made{.name = robot.setup.name, .tag = robot.setup.tag};
+  TrackedRobot made{.name = robot.setup.name, .tag = robot.setup.tag, .has_heading = robot.has_yaw};
   made.cycles.assign(track.kinds.begin() + 1, track.kinds.end());
   made.sigmas.assign(track.sigmas.begin() + 1, track.sigmas.end());
   made.mean_scale = samples.scale;
