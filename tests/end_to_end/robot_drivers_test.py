@@ -17,7 +17,7 @@ from robots import Master, Process, ZeroMq, machine_file
 NO_ROS = robots.why_no_ros()
 DRIVERS = pathlib.Path(__file__).with_name("drivers.py")
 FORWARD = "--nstates 1 --s0 0 --rwm0 1"
-#: From what the treads first do wrong to treads that are told to stand, seconds (docs/robot-runtime.md).
+#: From what the treads first do wrong to the command to stand, seconds (docs/robot-runtime.md).
 STANDS_AFTER = 0.5
 #: A command may take so long until the treads do it.
 ALLOWED_S = 0.3
@@ -85,7 +85,7 @@ class Drivers(ProgramTest):
     def assert_invalid(self, start, fault_at, reason, within=STANDS_AFTER, resumes=False):
         """The run ends INVALID for this reason, and the node stops the treads in time. `fault_at`: when, or the driver whose treads
         do wrong.
-        `resumes`: it may obey the stop, be let go on, and be wrong again."""
+        `resumes`: it may obey the stop, go on, and be wrong again."""
         self.assertEqual(start.end(), 6, start.said())
         self.assertIn("r1: INVALID", start.said())
         with (self.folder / "r1.toml").open("rb") as file:

@@ -31,7 +31,7 @@ def turned(text, degrees):
 
 
 def pushed_aside(truth, file, robot="1", from_s=8):
-    """A trajectory in which somebody pushes a robot by 0.25 m within a second, to the side."""
+    """A trajectory in which a hand pushes a robot by 0.25 m within a second, to the side."""
     with truth.open(newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     columns = list(rows[0])

@@ -223,9 +223,9 @@ struct Unexplained {
   double way_m = 0;
 };
 
-/// Friction of treads brakes a body sideways, and drives it never: so what goes to the side is at
-/// most what the body had in that direction the step before, until it is used up. The rest is
-/// somebody else's. After a touch, or a gap, all may be the body's own.
+/// Friction of treads brakes a body sideways and never drives it. So what goes to the side is at
+/// most what the body had in that direction the step before, until it is used up. A push makes the
+/// rest. After a touch, or a gap, all may be the body's own.
 std::vector<Unexplained> unexplained(std::span<const TravelStep> steps, const TravelFit& fit) {
   const double turned = fit.knows_heading ? fit.turned_rad : 0;
   const Eigen::Rotation2Dd to_true(turned);
