@@ -16,7 +16,8 @@ struct ReadApart {
 /// Reads all frames of it, with 20 s of processor at most.
 ReadApart read_apart(const std::string& word);
 
-/// The same by `swarmsmith-track detect`, which must lie beside the test; it gives no count of frames.
+/// The same by `swarmsmith-track detect`, which must lie beside the test; it gives no count of
+/// frames.
 ReadApart detected_apart(const std::string& word);
 bool has_track_program();
 
