@@ -13,6 +13,7 @@
 #include <climits>
 #include <cstring>
 #include <memory>
+#include <system_error>
 
 namespace swarmsmith {
 namespace {

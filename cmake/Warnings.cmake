@@ -1,8 +1,9 @@
 # Warnings for our own code, as an interface target: linked PRIVATE, so that nobody inherits them.
 add_library(swarmsmith_warnings INTERFACE)
+option(SWARMSMITH_WERROR "Warnings are errors, as in the gates: for compilers whose warnings are known" OFF)
 target_compile_options(swarmsmith_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wswitch-enum
-  -Wnon-virtual-dtor -Werror
+  -Wnon-virtual-dtor $<$<BOOL:${SWARMSMITH_WERROR}>:-Werror>
   # Designated initialisers leave the rest to the defaults in the struct: that is their point.
   -Wno-missing-field-initializers)
 # GCC 12 sees overlaps in `"text" + std::string` that are not there (its bug 105651).

@@ -1,6 +1,6 @@
 """units.py TARGETS: which sources are compiled in which unit of their target, a line TARGET=UNIT=FILE each: at most
-sixteen in one, and never two with the same name in an unnamed namespace. A file with all names of an enumeration
-(`using enum`) is alone. TARGETS is a file with a line TARGET;FOLDER;FILE;FILE... for each target."""
+sixteen in one, and never two with the same name in an unnamed namespace, declared there or brought there from two places
+(`using a::Name;`). A file with all names of an enumeration (`using enum`) is alone. TARGETS is a file with a line TARGET;FOLDER;FILE;FILE... for each target."""
 import os
 import re
 import sys
@@ -12,6 +12,8 @@ NAME = re.compile(
     r"(?!namespace|using|template|struct|class|enum|static_assert|return|public|private|[A-Z_]+\()\w[^(={;\n]*?[ &*>])(?P<name>\w+)"
     r"(?=[({=\[;]|$| [={:]| final)", re.MULTILINE)
 
+USED = re.compile(r"^using ([\w:]*::(\w+));$", re.MULTILINE)
+
 FILES_IN_A_UNIT = 16
 FULL = [None] * FILES_IN_A_UNIT
 
@@ -21,14 +23,18 @@ def unit_of(path, units):
     with open(path, encoding="utf-8") as file:
         text = file.read()
     if "\nusing enum " in text:
-        units.append((FULL, set()))
+        units.append((FULL, {}))
         return len(units) - 1
-    names = {found["name"] for part in UNNAMED.findall(text) for found in NAME.finditer(part)}
+    # Each name with what it stands for: what this file declares, or the place that it is brought from.
+    names = {}
+    for part in UNNAMED.findall(text):
+        names |= {found["name"]: path for found in NAME.finditer(part)}
+        names |= {name: place for place, name in USED.findall(part)}
     for number, (files, taken) in enumerate(units):
-        if len(files) < FILES_IN_A_UNIT and not names & taken:
+        if len(files) < FILES_IN_A_UNIT and all(taken.get(name, meaning) == meaning for name, meaning in names.items()):
             break
     else:
-        number, files, taken = len(units), [], set()
+        number, files, taken = len(units), [], {}
         units.append((files, taken))
     files.append(path)
     taken |= names

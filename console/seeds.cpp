@@ -3,6 +3,7 @@
 #include <charconv>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace swarmsmith::cli {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <system_error>
 
 namespace swarmsmith {
 namespace {

@@ -3,6 +3,7 @@
 #include <zmq.h>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 
 namespace swarmsmith {

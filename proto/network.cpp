@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace swarmsmith {

@@ -231,11 +231,22 @@ void PageServer::on_request(int socket, std::string head) {
   });
 }
 
+template <typename Stream>
+void PageServer::process(Stream& stream) {
+  bool closed = false;
+  if constexpr (requires { this->process_request(stream, true, closed, nullptr); }) {
+    this->process_request(stream, true, closed, nullptr);
+  } else {
+    // From version 0.18 on it takes the addresses of both ends, which pages do not read.
+    const std::string none;
+    this->process_request(stream, none, 0, none, 0, true, closed, nullptr);
+  }
+}
+
 void PageServer::answer_at_once(int socket, std::string head) {
   const Asked asked(socket);
   HeadStream stream(socket, std::move(head));
-  bool closed = false;
-  process_request(stream, true, closed, nullptr);
+  process(stream);
   send_at_once(socket, stream.written());
   close_connection(socket);
 }
@@ -249,8 +260,7 @@ void PageServer::answer(int socket, std::string head) {
   }
   const auto deadline = time ? std::optional(Clock::now() + *time) : std::nullopt;
   DeadlineStream stream(socket, std::move(head), deadline);
-  bool closed = false;
-  process_request(stream, true, closed, nullptr);
+  process(stream);
   close_connection(socket);
 }
 

@@ -56,6 +56,10 @@ class PageServer : public httplib::Server {
 
  private:
   void on_request(int socket, std::string head);
+  /// The one place that calls the library's protected function, whose parameters change with its
+  /// version.
+  template <typename Stream>
+  void process(Stream& stream);
   void answer_at_once(int socket, std::string head);
   void answer(int socket, std::string head);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <system_error>
 
 #include "base/suggestion.h"
 #include "irace_core/files/command_line_text.h"

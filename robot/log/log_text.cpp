@@ -1,8 +1,10 @@
 #include "robot/log/log_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "base/text/document.h"

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "console/options.h"
 

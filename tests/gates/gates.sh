@@ -29,7 +29,7 @@ packages_for() {
     long) install_test_packages; install_for_tests "${r_packages[@]}" "${snippet_packages[@]}" "${aarch64_packages[@]}" \
       "${package_packages[@]}" "${bare_packages[@]}" ;;
     asan) install_test_packages; install_missing "${lint_packages[@]}" ;;
-    *) install_missing "${build_packages[@]}" "${test_packages[@]}" "${lint_packages[@]}" ;;
+    *) install_build_packages "${test_packages[@]}" "${lint_packages[@]}" ;;
   esac
 }
 
@@ -210,6 +210,7 @@ run_gate() {
 gate() {
   local name
   [ $# -gt 0 ] || set -- "${all_gates[@]}"
+  export SWARMSMITH_WERROR=ON
   for name in "$@"; do
     what_runs "$name" >/dev/null || { echo "dev: no gate '$name'; there are ${all_gates[*]}" >&2; exit 2; }
   done

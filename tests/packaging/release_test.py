@@ -1,6 +1,7 @@
 """./dev release: what it refuses, what it leaves in the clone, and that its archives are the same bytes for everybody.
 The repository here is a small one whose ./dev builds nothing but files of a few bytes."""
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -44,6 +45,8 @@ class Release(unittest.TestCase):
         (self.clone / "dev").chmod(0o755)
         (self.clone / "CMakeLists.txt").write_text("project(swarmsmith VERSION 0.1.0 LANGUAGES CXX)\n")
         (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format("\n- One thing.\n- Another.\n"))
+        for name in ("CITATION.cff", "codemeta.json"):
+            shutil.copy(SOURCE / name, self.clone)
         (self.clone / ".gitignore").write_text("/build*/\n")
         (self.folder / ".gitconfig").write_text("[user]\nname = Anna\nemail = anna@example.org\n")
         self.git("init", "-q", "-b", "main")
@@ -84,13 +87,31 @@ class Release(unittest.TestCase):
         self.assertEqual(files["swarmsmith_0.2.0_amd64.deb"], b"0.2.0\n")
         self.assertEqual(self.git("rev-parse", "HEAD^"), before)
         self.assertEqual(self.git("log", "-1", "--format=%s %D"), "Swarmsmith 0.2.0 HEAD -> main, tag: v0.2.0")
-        self.assertEqual(self.git("diff", "--name-only", "HEAD^", "HEAD").split(), ["CHANGELOG.md", "CMakeLists.txt"])
+        self.assertEqual(self.git("diff", "--name-only", "HEAD^", "HEAD").split(), ["CHANGELOG.md", "CITATION.cff", "CMakeLists.txt", "codemeta.json"])
         self.assertRegex((self.clone / "CHANGELOG.md").read_text(),
                          r"first\.\n\n## Unreleased\n\n## 0\.2\.0 - 20\d\d-\d\d-\d\d\n\n- One thing\.\n- Another\.\n\n## 0\.1\.0")
         self.assertIn("VERSION 0.2.0 LANGUAGES", (self.clone / "CMakeLists.txt").read_text())
         self.assertEqual(self.git("status", "--porcelain"), "")
         self.assertEqual(len(self.git("worktree", "list").splitlines()), 1)
         self.assertIn("git push origin main v0.2.0", done.stderr)
+
+    def test_is_cited_by_its_version_and_date(self):
+        for version in ("0.2.0", "0.3.0"):  # the second finds a date that is there
+            (self.clone / "CHANGELOG.md").write_text(CHANGELOG.format("\n- A thing.\n"))
+            self.commit("Changes")
+            self.assertEqual(self.release(version).returncode, 0)
+            date = re.search(rf"^## {version} - (.*)$", (self.clone / "CHANGELOG.md").read_text(), re.M)[1]
+            citation = (self.clone / "CITATION.cff").read_text()
+            self.assertEqual(re.findall(r"^(?:version|date-released): .*$", citation, re.M),
+                             [f"version: {version}", f"date-released: {date}"])
+            described = json.loads((self.clone / "codemeta.json").read_text())
+            self.assertEqual((described["version"], described["dateModified"]), (version, date))
+
+    def test_the_files_here_agree(self):
+        """Those of this repository have the version of its CMakeLists.txt."""
+        version = re.search(r"^project\(swarmsmith VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1]
+        self.assertIn(f"\nversion: {version}\n", (SOURCE / "CITATION.cff").read_text())
+        self.assertEqual(json.loads((SOURCE / "codemeta.json").read_text())["version"], version)
 
     def test_has_the_sources_and_the_manual_of_its_commit(self):
         (self.clone / "build").mkdir()
@@ -101,7 +122,7 @@ class Release(unittest.TestCase):
             names = archive.getnames()
             self.assertEqual(archive.extractfile("swarmsmith-0.2.0/CHANGELOG.md").read(), (self.clone / "CHANGELOG.md").read_bytes())
         self.assertEqual(sorted(name.partition("/")[2] for name in names),
-                         ["", ".gitignore", "CHANGELOG.md", "CMakeLists.txt", "dev", "packaging", "packaging/release"])
+                         ["", ".gitignore", "CHANGELOG.md", "CITATION.cff", "CMakeLists.txt", "codemeta.json", "dev", "packaging", "packaging/release"])
         with tarfile.open(release / "swarmsmith-manual-0.2.0.tar.xz") as archive:
             self.assertEqual(archive.getnames(), [f"swarmsmith-manual-0.2.0{name}" for name in ("", "/a", "/b", "/b/c", "/z")])
             self.assertEqual({(entry.uid, entry.gid, entry.uname) for entry in archive.getmembers()}, {(0, 0, "")})

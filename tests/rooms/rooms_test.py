@@ -1,4 +1,4 @@
-"""No library includes what it does not link, and no room includes a later one.
+"""No library includes what it does not link, no room includes a later one, and what is used is included.
 
 Libraries are read from the CMakeLists.txt files (swarmsmith_component, swarmsmith_program), the order of the rooms
 from the table "Rooms" of docs/architecture.md.
@@ -14,13 +14,48 @@ TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "r
 WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE")
 
 
+# Standard headers, and names that only they are sure to bring. Another version of the library has them somewhere else.
+STANDARD = {
+    "algorithm": "all_of any_of clamp copy_n fill_n find_if lower_bound max_element min_element none_of nth_element sort "
+                 "stable_sort transform upper_bound",
+    "array": "array", "atomic": "atomic atomic_bool atomic_flag", "bit": "bit_cast bit_ceil countr_zero endian popcount",
+    "bitset": "bitset", "charconv": "from_chars to_chars", "chrono": "chrono",
+    "condition_variable": "condition_variable condition_variable_any",
+    "cstdint": "int8_t int16_t int32_t int64_t intmax_t intptr_t uint8_t uint16_t uint32_t uint64_t uintmax_t uintptr_t",
+    "deque": "deque", "exception": "current_exception exception_ptr terminate", "filesystem": "filesystem",
+    "fstream": "fstream ifstream ofstream", "functional": "bind function hash reference_wrapper",
+    "future": "async future promise", "iostream": "cerr cin clog cout", "limits": "numeric_limits", "list": "list",
+    "map": "map multimap", "memory": "make_shared make_unique shared_ptr unique_ptr weak_ptr",
+    "mutex": "call_once lock_guard mutex once_flag scoped_lock unique_lock", "numbers": "numbers",
+    "numeric": "accumulate inner_product iota partial_sum", "optional": "make_optional nullopt optional",
+    "queue": "priority_queue queue", "random": "mt19937 mt19937_64 normal_distribution uniform_int_distribution",
+    "ranges": "views", "regex": "regex smatch sregex_iterator", "set": "multiset set", "span": "span",
+    "sstream": "istringstream ostringstream stringstream", "stdexcept": "invalid_argument logic_error out_of_range runtime_error",
+    "string": "getline stod stoi string to_string", "string_view": "string_view",
+    "system_error": "errc error_code generic_category system_category", "thread": "jthread this_thread thread",
+    "tuple": "make_tuple tie tuple", "unordered_map": "unordered_map", "unordered_set": "unordered_set",
+    "utility": "exchange forward move pair swap", "variant": "get_if holds_alternative monostate variant visit",
+    "vector": "vector"}
+HEADER_OF = {name: header for header, names in STANDARD.items() for name in names.split()}
+
+
+def sets_of(texts):
+    """Variable -> words of every `set` of it: a list of sources may depend on a package."""
+    found = {}
+    for text in texts:
+        for name, words in re.findall(r"\bset\((\w+)\s+([^)$]*)\)", text):
+            found.setdefault(name, []).extend(words.split())
+    return found
+
+
 def libraries(texts):
     """Name -> (files, linked names) of the libraries in {folder: text of its CMakeLists.txt}."""
     found = {}
     for folder, text in texts.items():
         text = re.sub(r"#[^\n]*", "", text)
+        variables = sets_of([text])
         for kind, arguments in re.findall(r"swarmsmith_(component|program)\(([^)]*)\)", text):
-            name, *words = arguments.split()
+            name, *words = re.sub(r"\$\{(\w+)\}", lambda found: " ".join(variables.get(found[1], [])), arguments).split()
             lists = {word: [] for word in WORDS}
             kept = None
             for word in words:
@@ -106,6 +141,28 @@ def upward(rooms, text_of):
     return lines
 
 
+def not_included(text_of):
+    """Standard names that a file uses, and includes neither itself nor through our headers, a line each."""
+    ours = {file: includes_of(text) for file, text in text_of.items()}
+    standard = {file: set(re.findall(r"^#include <([a-z_]+)>", text, re.M)) for file, text in text_of.items()}
+    lines = []
+    for file, text in sorted(text_of.items()):
+        reached, open_files, there = set(), [file], set()
+        while open_files:
+            next_file = open_files.pop()
+            if next_file in ours and next_file not in reached:
+                reached.add(next_file)
+                there |= standard[next_file]
+                open_files += ours[next_file]
+        if "filesystem" in there:
+            there.add("system_error")  # its functions take them
+        code = re.sub(r'//[^\n]*|"(?:\\.|[^"\\\n])*"', "", text)
+        for name in sorted(set(re.findall(r"\bstd::(\w+)", code))):
+            if name in HEADER_OF and HEADER_OF[name] not in there:
+                lines.append(f"{file} uses std::{name} without <{HEADER_OF[name]}>")
+    return lines
+
+
 class Rooms(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -131,6 +188,14 @@ class Rooms(unittest.TestCase):
         self.assertEqual(sorted({file for file in self.texts if file.endswith(".cpp")} - listed), [])
 
 
+class Includes(unittest.TestCase):
+    def test_what_is_used_is_included(self):
+        texts = {file.relative_to(SOURCE).as_posix(): file.read_text() for top in (*TOP, "tests", "benchmarks")
+                 for file in (SOURCE / top).rglob("*") if file.suffix in (".h", ".cpp")}
+        self.assertGreater(len(texts), 1000)
+        self.assertEqual(not_included(texts), [])
+
+
 class TheChecks(unittest.TestCase):
     """They find what they are for."""
 
@@ -154,6 +219,16 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(upward(["a", "b", "b/c"], texts),
                          ["a/x.h (a) includes b/y.h of a later room (b)", "b/y.h (b) includes b/c/z.h of a later room (b/c)",
                           "d/w.h is in no room of docs/architecture.md"])
+
+    def test_of_variables(self):
+        lists = {pathlib.PurePosixPath("a"): "set(one b.cpp)\nset(one c.cpp)\nswarmsmith_component(a\n  SOURCES a.cpp ${one})"}
+        self.assertEqual(libraries(lists)["swarmsmith_a"][0], {"a/a.cpp", "a/b.cpp", "a/c.cpp"})
+
+    def test_of_includes(self):
+        texts = {"a.h": "#include <vector>\n#include <cstdint>\nstd::vector<std::uint8_t> bytes;  // no std::map\n",
+                 "b.h": '#include "a.h"\nstd::uint8_t byte; const char* word = "std::set";\n',
+                 "c.h": '#include <string>\nstd::uint8_t byte;\n'}
+        self.assertEqual(not_included(texts), ["c.h uses std::uint8_t without <cstdint>"])
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"

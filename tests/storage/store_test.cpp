@@ -1,6 +1,7 @@
 #include "storage/store.h"
 
 #include <gmock/gmock.h>
+#include <algorithm>
 #include <fstream>
 
 #include <bit>

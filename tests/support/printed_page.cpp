@@ -1,5 +1,6 @@
 #include "tests/support/printed_page.h"
 
+#include <algorithm>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <regex>
@@ -9,20 +10,35 @@
 
 namespace swarmsmith {
 
-Expected<std::vector<PrintedPage>> printed_pages(const std::string& pdf, int dpi) {
-  const auto program = find_program("pdftocairo");
+namespace {
+
+/// A program of poppler-utils with its words, in `folder`, where the document is `in.pdf`; what it
+/// wrote.
+Expected<std::string> run_tool(const std::string& name, std::vector<std::string> words,
+                               const TemporaryFolder& folder, const std::string& pdf) {
+  const auto program = find_program(name);
   if (!program) {
     return unexpected(ErrorKind::Unavailable,
-                      "pdftocairo is not there; install the Debian package poppler-utils");
+                      name + " is not there; install the Debian package poppler-utils");
   }
-  const TemporaryFolder folder;
   std::ofstream(folder / "in.pdf", std::ios::binary) << pdf;
+  words.insert(words.begin(), *program);
   const Interrupt never;
-  const auto end = run_process({.words = {*program, "-gray", "-png", "-r", std::to_string(dpi),
-                                          (folder / "in.pdf").string(), (folder / "p").string()},
+  const auto end = run_process({.words = std::move(words),
+                                .folder = folder.path().string(),
                                 .limit = std::chrono::minutes(1)},
                                never);
-  if (!end || end->exit_code != 0) return unexpected(ErrorKind::Unavailable, "pdftocairo failed");
+  if (!end || end->exit_code != 0) return unexpected(ErrorKind::Unavailable, name + " failed");
+  return end->output.text;
+}
+
+}  // namespace
+
+Expected<std::vector<PrintedPage>> printed_pages(const std::string& pdf, int dpi) {
+  const TemporaryFolder folder;
+  const auto done = run_tool(
+      "pdftocairo", {"-gray", "-png", "-r", std::to_string(dpi), "in.pdf", "p"}, folder, pdf);
+  if (!done) return tl::unexpected(done.error());
   // Names end in -1 or, of ten pages and more, in -01.
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
@@ -37,12 +53,15 @@ Expected<std::vector<PrintedPage>> printed_pages(const std::string& pdf, int dpi
   return pages;
 }
 
-std::vector<PageSize> page_sizes(const std::string& pdf) {
+Expected<std::vector<PageSize>> page_sizes(const std::string& pdf) {
   constexpr double kPoint = 25.4 / 72;
-  const std::regex box(R"(/MediaBox \[ *0 0 ([0-9.]+) ([0-9.]+) *\])");
+  const TemporaryFolder folder;
+  const auto said = run_tool("pdfinfo", {"-f", "1", "-l", "-1", "in.pdf"}, folder, pdf);
+  if (!said) return tl::unexpected(said.error());
+  const std::regex line(R"(Page +[0-9]+ size: +([0-9.]+) x ([0-9.]+) pts)");
   std::vector<PageSize> sizes;
-  for (auto at = std::sregex_iterator(pdf.begin(), pdf.end(), box); at != std::sregex_iterator();
-       ++at)
+  for (auto at = std::sregex_iterator(said->begin(), said->end(), line);
+       at != std::sregex_iterator(); ++at)
     sizes.push_back({kPoint * std::stod((*at)[1]), kPoint * std::stod((*at)[2])});
   return sizes;
 }

@@ -18,11 +18,12 @@ struct PrintedPage {
 /// poppler-utils; Unavailable when that is not there.
 Expected<std::vector<PrintedPage>> printed_pages(const std::string& pdf, int dpi);
 
-/// Width and height of each page of a PDF, mm, from its MediaBox.
+/// Width and height of a page of a PDF, mm.
 struct PageSize {
   double width_mm = 0;
   double height_mm = 0;
 };
-std::vector<PageSize> page_sizes(const std::string& pdf);
+/// Of each page, by the program pdfinfo of the same package; Unavailable when that is not there.
+Expected<std::vector<PageSize>> page_sizes(const std::string& pdf);
 
 }  // namespace swarmsmith

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <optional>
+#include <system_error>
 
 #include "base/suggestion.h"
 #include "base/text/toml_text.h"
@@ -72,7 +74,7 @@ std::optional<std::string> flaw_of(const Board& board) {
            "; known are: " + joined(known);
   }
   const int markers = board.columns * board.rows / 2;
-  const int available = cv::aruco::getPredefinedDictionary(*number)->bytesList.rows;
+  const int available = charuco::dictionary_of(*number)->bytesList.rows;
   if (markers > available) {
     return "needs " + std::to_string(markers) + " markers, and its dictionary has " +
            std::to_string(available);
@@ -96,11 +98,10 @@ std::optional<int> dictionary_number(std::string_view name) {
   return static_cast<int>(found - kDictionaries.begin());
 }
 
-cv::Ptr<cv::aruco::CharucoBoard> marker_board(const Board& board) {
-  return cv::aruco::CharucoBoard::create(
-      board.columns, board.rows, static_cast<float>(board.square_m),
-      static_cast<float>(board.marker_m),
-      cv::aruco::getPredefinedDictionary(dictionary_number(board.dictionary).value()));
+charuco::Board marker_board(const Board& board) {
+  return charuco::board(board.columns, board.rows, static_cast<float>(board.square_m),
+                        static_cast<float>(board.marker_m),
+                        dictionary_number(board.dictionary).value());
 }
 
 std::vector<std::string> board_dictionaries() {
@@ -166,13 +167,14 @@ std::vector<BlackBox> black_boxes_of(const Board& board) {
   }
   if (!charuco) return boxes;
   const auto printed = marker_board(board);
-  const int cells = printed->dictionary->markerSize + 2;
+  const int cells = charuco::dictionary_of(printed)->markerSize + 2;
   const double cell = board.marker_m / cells;
-  for (std::size_t i = 0; i < printed->ids.size(); ++i) {
+  const std::vector<int>& ids = charuco::ids_of(printed);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
     cv::Mat picture;
-    cv::aruco::drawMarker(printed->dictionary, printed->ids[i], cells, picture);
+    charuco::draw_marker(printed, ids[i], cells, picture);
     // The marker's first corner is its upper left one; y goes down.
-    const cv::Point3f corner = printed->objPoints[i].front();
+    const cv::Point3f corner = charuco::markers_of(printed)[i].front();
     const auto left = static_cast<double>(corner.x);
     const auto top = static_cast<double>(corner.y);
     for (int row = 0; row < cells; ++row) {

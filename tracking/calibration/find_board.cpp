@@ -56,7 +56,7 @@ Found find_charuco(const cv::Mat& image, const Board& board) {
   const auto printed = marker_board(board);
   std::vector<int> markers;
   std::vector<std::vector<cv::Point2f>> borders;
-  cv::aruco::detectMarkers(image, printed->dictionary, borders, markers);
+  cv::aruco::detectMarkers(image, charuco::dictionary_of(printed), borders, markers);
   Found found;
   if (markers.empty()) return found;
   cv::aruco::interpolateCornersCharuco(borders, markers, image, printed, found.corners, found.ids);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <system_error>
 
 #include "base/text/csv.h"
 #include "tracking/rig/issue.h"

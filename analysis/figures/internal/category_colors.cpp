@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <system_error>
 
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/svg.h"

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <stdexcept>
 
 #include "tests/irace_core/search/played.h"
 

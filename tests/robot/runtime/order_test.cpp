@@ -1,5 +1,7 @@
 #include "robot/runtime/order.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/mission/instance_csv.h"
 #include "sim/mission/trajectory.h"

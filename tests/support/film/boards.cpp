@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/overhead_camera.h"
+#include "tracking/calibration/internal/charuco.h"
 
 namespace swarmsmith::film {
 namespace {
@@ -24,12 +24,11 @@ cv::Mat chessboard(const BoardKind& kind) {
 }
 
 cv::Mat charuco(const BoardKind& kind) {
-  const auto dictionary = cv::aruco::getPredefinedDictionary(kind.dictionary);
   const auto board =
-      cv::aruco::CharucoBoard::create(kind.columns, kind.rows, static_cast<float>(kind.square_m),
-                                      static_cast<float>(kind.marker_m), dictionary);
+      swarmsmith::charuco::board(kind.columns, kind.rows, static_cast<float>(kind.square_m),
+                                 static_cast<float>(kind.marker_m), kind.dictionary);
   cv::Mat image;
-  board->draw({kind.columns * kSquare_px, kind.rows * kSquare_px}, image, 0, 1);
+  swarmsmith::charuco::draw(board, {kind.columns * kSquare_px, kind.rows * kSquare_px}, image);
   return image;
 }
 

@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <sstream>
+#include <stdexcept>
 
 #include "tests/support/film/commands.h"
 

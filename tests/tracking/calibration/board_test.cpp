@@ -3,7 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <opencv2/aruco/charuco.hpp>
+
+#include "tracking/calibration/internal/charuco.h"
 
 namespace swarmsmith {
 namespace {
@@ -44,10 +45,9 @@ TEST(BoardTest, CountsInnerCorners) {
 TEST(BoardTest, IsBlackWhereOpencvDrawsBlack) {
   for (const int rows : {3, 4}) {
     const auto board = parse_board("charuco:5x" + std::to_string(rows) + ":0.035:0.021:5x5_100");
-    const auto theirs = cv::aruco::CharucoBoard::create(
-        5, rows, 35, 21, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_100));
+    const auto theirs = charuco::board(5, rows, 35, 21, cv::aruco::DICT_5X5_100);
     cv::Mat expected;
-    theirs->draw({175, 35 * rows}, expected, 0, 1);
+    charuco::draw(theirs, {175, 35 * rows}, expected);
     cv::Mat drawn(35 * rows, 175, CV_8U, cv::Scalar(255));
     for (const BlackBox& box : black_boxes_of(*board)) {
       const auto pixel = [](double metres) { return static_cast<int>(std::lround(1000 * metres)); };

@@ -1,5 +1,8 @@
 #include "tracking/calibration/solve_camera.h"
 
+#include <limits>
+#include <numbers>
+
 #include <gmock/gmock.h>
 
 #include <opencv2/calib3d.hpp>

@@ -1,5 +1,7 @@
 #include "tracking/calibration/solve_offset.h"
 
+#include <numbers>
+
 #include <gmock/gmock.h>
 
 #include "synthetic.h"

@@ -25,7 +25,7 @@ struct OfficialTag {
 OfficialTag official_tag(const std::string& family, int tag, const Shortcomings& look) {
   const FamilyPointer of = tag_family_of(family);
   if (of == nullptr) throw std::out_of_range("no such family");
-  image_u8_t* const drawn = apriltag_to_image(of.get(), tag);
+  image_u8_t* const drawn = apriltag_to_image(of.get(), static_cast<std::uint16_t>(tag));
   if (drawn == nullptr) throw std::out_of_range("no such tag");
   const cv::Mat cells(drawn->height, drawn->width, CV_8U, drawn->buf,
                       static_cast<std::size_t>(drawn->stride));

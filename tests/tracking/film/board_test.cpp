@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/film/boards.h"
 #include "tests/tracking/film/small_scene.h"
+#include "tracking/calibration/internal/charuco.h"
 
 namespace swarmsmith::film {
 namespace {
@@ -54,9 +54,9 @@ class BoardTest : public testing::Test {
 
 TEST_F(BoardTest, CharucoCornersAreWhereOpenCvFindsThem) {
   const BoardKind kind;
-  const auto board = cv::aruco::CharucoBoard::create(
-      kind.columns, kind.rows, static_cast<float>(kind.square_m), static_cast<float>(kind.marker_m),
-      cv::aruco::getPredefinedDictionary(kind.dictionary));
+  const auto board = charuco::board(kind.columns, kind.rows, static_cast<float>(kind.square_m),
+                                    static_cast<float>(kind.marker_m), kind.dictionary);
+  const std::vector<cv::Point3f> inner_corners = charuco::inner_corners_of(board);
   Sum sum;
   int views = 0;
   int taken = 0;
@@ -65,7 +65,7 @@ TEST_F(BoardTest, CharucoCornersAreWhereOpenCvFindsThem) {
     std::vector<std::uint8_t> gray = picture_of(view, shooting_, lens_);
     std::vector<std::vector<cv::Point2f>> markers;
     std::vector<int> ids;
-    cv::aruco::detectMarkers(as_mat(gray), board->dictionary, markers, ids);
+    cv::aruco::detectMarkers(as_mat(gray), charuco::dictionary_of(board), markers, ids);
     if (ids.size() < 4) continue;
     std::vector<cv::Point2f> corners;
     std::vector<int> numbers;
@@ -75,7 +75,7 @@ TEST_F(BoardTest, CharucoCornersAreWhereOpenCvFindsThem) {
                      {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-4});
     ++views;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const cv::Point3f place = board->chessboardCorners[static_cast<std::size_t>(numbers[i])];
+      const cv::Point3f place = inner_corners[static_cast<std::size_t>(numbers[i])];
       sum.add(corners[i],
               image_of_board(view, camera_,
                              {static_cast<double>(place.x), static_cast<double>(place.y)}));

@@ -2,11 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <opencv2/aruco/charuco.hpp>
-
 #include "console/pdf.h"
 #include "tests/support/drawn_page.h"
 #include "tests/support/printed_page.h"
+#include "tracking/calibration/internal/charuco.h"
 
 namespace swarmsmith {
 namespace {
@@ -50,20 +49,22 @@ TEST(BoardSheetTest, OpencvReadsThePrintInTrueScale) {
     ASSERT_TRUE(sheet) << to_string(sheet.error());
     const auto pdf = cli::pdf_of_svg(*sheet);
     if (!pdf) GTEST_SKIP() << "skipped: " << to_string(pdf.error());
-    EXPECT_NEAR(page_sizes(*pdf).at(0).width_mm, 297, 0.01);
+    const auto sizes = page_sizes(*pdf);
+    if (!sizes) GTEST_SKIP() << "skipped: " << to_string(sizes.error());
+    EXPECT_NEAR(sizes->at(0).width_mm, 297, 0.01);
     auto pages = printed_pages(*pdf, kDpi);
     if (!pages) GTEST_SKIP() << "skipped: " << to_string(pages.error());
     PrintedPage& page = pages->front();
     const cv::Mat image(page.height, page.width, CV_8U, page.gray.data());
-    const auto theirs = cv::aruco::CharucoBoard::create(
+    const auto theirs = charuco::board(
         board.columns, board.rows, static_cast<float>(board.square_m),
         static_cast<float>(board.marker_m),
-        cv::aruco::getPredefinedDictionary(board.dictionary == "5x5_100" ? cv::aruco::DICT_5X5_100
-                                                                         : cv::aruco::DICT_4X4_50));
+        board.dictionary == "5x5_100" ? cv::aruco::DICT_5X5_100 : cv::aruco::DICT_4X4_50);
+    const std::vector<cv::Point3f> inner_corners = charuco::inner_corners_of(theirs);
     std::vector<std::vector<cv::Point2f>> markers;
     std::vector<int> ids;
-    cv::aruco::detectMarkers(image, theirs->dictionary, markers, ids);
-    EXPECT_EQ(ids.size(), theirs->ids.size()) << word;
+    cv::aruco::detectMarkers(image, charuco::dictionary_of(theirs), markers, ids);
+    EXPECT_EQ(ids.size(), charuco::ids_of(theirs).size()) << word;
     cv::Mat corners;
     cv::Mat corner_ids;
     cv::aruco::interpolateCornersCharuco(markers, ids, image, theirs, corners, corner_ids);
@@ -71,8 +72,7 @@ TEST(BoardSheetTest, OpencvReadsThePrintInTrueScale) {
     for (int i = 0; i < corners.rows; ++i) {
       const cv::Point2f off = corners.at<cv::Point2f>(i) - corners.at<cv::Point2f>(0);
       const cv::Point3f wanted =
-          theirs->chessboardCorners[static_cast<std::size_t>(corner_ids.at<int>(i))] -
-          theirs->chessboardCorners[0];
+          inner_corners[static_cast<std::size_t>(corner_ids.at<int>(i))] - inner_corners[0];
       EXPECT_NEAR(kPixel * static_cast<double>(off.x), 1000 * static_cast<double>(wanted.x), 0.1);
       EXPECT_NEAR(kPixel * static_cast<double>(off.y), 1000 * static_cast<double>(wanted.y), 0.1);
     }

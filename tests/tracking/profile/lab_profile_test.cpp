@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "sim/files/profile_file.h"
 #include "tests/support/long_runs.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 #include "base/math.h"
 #include "storage/stored_enums.h"

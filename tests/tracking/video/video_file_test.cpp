@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"

@@ -8,6 +8,7 @@ extern "C" {
 #include <array>
 #include <cstdarg>
 #include <cstdio>
+#include <string_view>
 
 namespace swarmsmith::av {
 namespace {

@@ -7,6 +7,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,23 @@ inline constexpr int kMostSide = 16384;
 inline constexpr std::int64_t kMostPixels = 100'000'000;
 /// Of codecs that keep up to 16 pictures to build others on: 8192 x 4320 and some more.
 inline constexpr std::int64_t kMostBuiltOnPixels = 36'000'000;
+
+/// What a stream gets to write; FFmpeg 7 made it constant.
+#if LIBAVFORMAT_VERSION_MAJOR >= 61
+using WrittenBytes = const std::uint8_t*;
+#else
+using WrittenBytes = std::uint8_t*;
+#endif
+
+/// Whether the picture is built on no other. FFmpeg 6.1 has a flag where older versions have a
+/// member.
+inline bool is_key_frame(const AVFrame& picture) {
+#ifdef AV_FRAME_FLAG_KEY
+  return (picture.flags & AV_FRAME_FLAG_KEY) != 0;
+#else
+  return picture.key_frame != 0;
+#endif
+}
 
 struct FreeCodec {
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }

@@ -16,17 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/bag_check.h"
 #include "tracking/video/internal/picture.h"
 #include "tracking/video/internal/ros_image.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 /// A kind of message with an image in it; the sum is that of its definition.
 struct ImageType {

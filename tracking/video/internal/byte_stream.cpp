@@ -55,7 +55,7 @@ struct ByteStream::State {
     return static_cast<int>(count);
   }
 
-  static int write(void* opaque, std::uint8_t* from, int count) {
+  static int write(void* opaque, av::WrittenBytes from, int count) {
     State& state = *static_cast<State*>(opaque);
     for (int done = 0; done < count;) {
       const ssize_t written =

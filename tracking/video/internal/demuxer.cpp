@@ -12,17 +12,13 @@ extern "C" {
 #include <cstdint>
 #include <numeric>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/decoder.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith::av {
 namespace {
 
 constexpr const char* kContainers = "matroska,mov,avi,mpegts,mjpeg";
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
-
 /// An .avi says in its first bytes how long it is.
 bool is_cut_avi(const ByteStream& bytes) {
   std::array<unsigned char, 12> head{};

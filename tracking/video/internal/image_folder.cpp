@@ -10,12 +10,12 @@
 #include <system_error>
 #include <utility>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/byte_stream.h"
 #include "tracking/video/internal/iso_time.h"
 #include "tracking/video/internal/natural_order.h"
 #include "tracking/video/internal/picture.h"
 #include "tracking/video/internal/still_picture.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
@@ -24,10 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg",  ".jpeg", ".bmp",
                                                       ".tif", ".tiff", ".pgm",  ".ppm"};
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 bool is_image_name(const fs::path& path) {
   std::string ending = path.extension().string();

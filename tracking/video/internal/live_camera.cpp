@@ -5,15 +5,11 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/camera_reader.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 class LiveCamera final : public FrameSource {
  public:

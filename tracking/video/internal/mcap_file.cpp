@@ -8,21 +8,17 @@
 #include <utility>
 #include <vector>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/byte_stream.h"
 #include "tracking/video/internal/mcap_records.h"
 #include "tracking/video/internal/recorded_images.h"
 #include "tracking/video/internal/ros_image.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
 
 using mcap::Opcode;
 using mcap::Record;
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 struct Channel {
   std::string topic;

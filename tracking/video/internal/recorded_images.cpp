@@ -7,16 +7,12 @@
 #include <cstring>
 #include <utility>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/picture.h"
 #include "tracking/video/internal/ros_image.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 /// Takes fields off the front of a message: CDR (Common Data Representation, OMG DDS-XTypes 7.4,
 /// version 1), as ROS 2 writes it, or ROS 1's, which aligns nothing. Once it has ended, all is 0.

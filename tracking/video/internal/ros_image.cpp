@@ -14,13 +14,10 @@ extern "C" {
 #include "tracking/rig/issue.h"
 #include "tracking/video/internal/picture.h"
 #include "tracking/video/internal/still_picture.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 /// What an encoding of sensor_msgs/image_encodings.h is called by libav, with its low byte first
 /// and last.

@@ -12,17 +12,13 @@
 #include <vector>
 
 #include "base/output_file.h"
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/av.h"
 #include "tracking/video/internal/recorded_images.h"
 #include "tracking/video/internal/ros_image.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 struct CloseBase {
   void operator()(sqlite3* base) const { sqlite3_close_v2(base); }

@@ -4,16 +4,12 @@
 #include <memory>
 #include <string_view>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/decoder.h"
 #include "tracking/video/internal/picture.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith::av {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 /// By the first bytes: names lie.
 AVCodecID codec_of(std::string_view bytes) {

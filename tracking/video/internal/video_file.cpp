@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/decoder.h"
 #include "tracking/video/internal/demuxer.h"
 #include "tracking/video/internal/picture.h"
+#include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith {
 namespace {
-
-Unexpected unreadable(const std::string& text, const std::string& name) {
-  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
-}
 
 class VideoFile final : public FrameSource {
  public:
@@ -87,7 +83,7 @@ class VideoFile final : public FrameSource {
     // A decoder that names what it damaged goes on with the next picture as if nothing had been.
     // Pictures built on a damaged one may show a tag where it was before: up to the
     // next key frame all are left out.
-    const bool stands_alone = is_intra_ || picture_->key_frame != 0;
+    const bool stands_alone = is_intra_ || av::is_key_frame(*picture_);
     if (is_flagged() || (is_damaged_ && !stands_alone)) return false;
     if (is_damaged_ && !is_placed_) return lose_count();
     is_damaged_ = false;
