@@ -275,16 +275,12 @@ def yaml_of(navigation):
 
 
 def make_search_work_from_disk(site):
-    """A page from a disk may read no other file and start no worker from one: index and worker become a script that
-    each page loads. The theme asks for them by the name __search."""
-    index = (site / "search/search_index.json").read_text()
+    """Index and worker as scripts that pages load; see search_from_disk.js."""
     worker = next((site / "assets/javascripts/workers").glob("search.*.js")).read_text()
-    worker = (HERE / "search_worker.js").read_text().replace("INDEX", index) + re.sub(r"//# sourceMappingURL=.*", "", worker)
-    config = json.dumps(json.loads(index)["config"])
-    (site / "search/from_disk.js").write_text(
-        "var __search = location.protocol !== 'file:' ? undefined : {\n"
-        f"  worker: URL.createObjectURL(new Blob([{json.dumps(worker)}], {{type: 'text/javascript'}})),\n"
-        f"  index: Promise.resolve({{config: {config}, docs: []}})\n}};\n")
+    worker = json.dumps(re.sub(r"//# sourceMappingURL=.*", "", worker))
+    script = (HERE / "search_from_disk.js").read_text().replace("WORKER", worker)
+    (site / "search/from_disk.js").write_text(script)
+    (site / "search/search_index.js").write_text("var __index = " + (site / "search/search_index.json").read_text())
 
 
 def name_first_page(site):

@@ -5,7 +5,7 @@
 # is in the ledger, and is not run again.
 . tests/gates/ledger.sh
 
-all_gates=(format tidy test long debug clang asan tsan fuzz)
+all_gates=(format tidy test long debug clang asan tsan fuzz debian13)
 
 what_runs() {
   case $1 in
@@ -18,6 +18,7 @@ what_runs() {
     asan) echo "tests, AddressSanitizer and UBSan" ;;
     tsan) echo "tests, ThreadSanitizer" ;;
     fuzz) echo "fuzz targets, ${SWARMSMITH_FUZZ_SECONDS:-600} s of processor each" ;;
+    debian13) echo "tests in Debian 13, and beside its R and this system" ;;
     *) return 1 ;;
   esac
 }
@@ -29,6 +30,7 @@ packages_for() {
     long) install_test_packages; install_for_tests "${r_packages[@]}" "${snippet_packages[@]}" "${aarch64_packages[@]}" \
       "${package_packages[@]}" "${bare_packages[@]}" ;;
     asan) install_test_packages; install_missing "${lint_packages[@]}" ;;
+    debian13) install_missing "${root_packages[@]}"; install_build_packages ;;
     *) install_build_packages "${test_packages[@]}" "${lint_packages[@]}" ;;
   esac
 }
@@ -180,8 +182,28 @@ gate_fuzz() {
   printf '%s\n' "${open[@]}" | xargs -P 2 -L 1 tests/fuzz/run_one "$seconds"
 }
 
+# What CI does in a bare Debian 13; then what is compared with R's irace beside the irace 4.2 of that system, and its
+# programs beside this system's. The root stays in build-debian13, with its packages and what was built.
+gate_debian13() {
+  local root=$PWD/build-debian13/root clone=home/swarmsmith
+  if [ ! -e "$root/$clone" ]; then
+    rm -rf "$root"
+    mkdir -p build-debian13
+    as_root mmdebstrap --variant=minbase --include=ca-certificates trixie "$root" "$(debian_mirror)"
+    mkdir "$root/$clone"
+  fi
+  build_programs all
+  rsync -a --delete --exclude='/build*' ./ "$root/$clone/"
+  tests/gates/in_root "$root" bash -c "cd /$clone && SWARMSMITH_WERROR=ON .ci/run" | tee build-gate/debian13-tests
+  sed -n 's/.*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\).*/\2 tests, \1 failed/p' build-gate/debian13-tests >&3
+  tests/gates/in_root "$root" bash -c "apt-get install -q -y --no-install-recommends ${r_packages[*]} && cd /$clone &&
+    SWARMSMITH_LONG=1 ctest --test-dir build --output-on-failure -R '^long.*(against_r|irace_log|irace_rdata)\$'"
+  SWARMSMITH_OTHER_ROOT=$root SWARMSMITH_OTHER_BIN=/$clone/build/bin SWARMSMITH_BIN=$PWD/build/bin \
+    SWARMSMITH_SOURCE=$PWD python3 tests/long/two_systems_test.py -v
+}
+
 # Whether all of a gate has one line in the ledger; the others have one for each unit, target or test.
-is_one_line() { [[ " format test debug clang " == *" $1 "* ]]; }
+is_one_line() { [[ " format test debug clang debian13 " == *" $1 "* ]]; }
 
 # run_gate NAME. Called alone, not as a condition: its subshell ends at the first command that fails.
 run_gate() {
