@@ -1,9 +1,13 @@
-# The same cases as irace_rules, answered by R itself and by the functions of irace 3.5 that do what
-# irace 4 does. Reads a file of cases, prints a line a case.
+# The same cases as irace_rules, answered by R itself and by functions of its irace, 3.5 or 4.2. Reads a file of cases,
+# prints a line a case.
 #
 #   Rscript against_r.R CASES
 suppressPackageStartupMessages(library(irace))
 options(warn = -1)
+
+# Some functions have other names and parameters in irace 4.
+is_4 <- packageVersion("irace") >= "4"
+of_irace <- function(name, name_in_4 = name) get(if (is_4) name_in_4 else name, asNamespace("irace"))
 
 text <- function(x) paste(ifelse(is.na(x), "NA", sprintf("%.17g", as.numeric(x))), collapse = " ")
 numbers <- function(words) suppressWarnings(as.numeric(words))
@@ -38,29 +42,33 @@ agreement <- function(w) {
 
 overall <- function(w) {
   y <- costs_of(w[-(1:3)], numbers(w[2]), numbers(w[3]))
-  text(irace:::overall.ranks(y, if (w[1] == "f") "friedman" else "t.none"))
+  text(of_irace("overall.ranks", "overall_ranks")(y, if (w[1] == "f") "friedman" else "t.none"))
 }
 
 race_size <- function(w) {
   v <- numbers(w)
-  text(irace:::computeNbConfigurations(v[1], v[2], v[3], v[4], v[5], v[6], v[7]))
+  size <- of_irace("computeNbConfigurations")
+  if (is_4) return(text(size(v[1], v[2], v[3], v[4], 1, v[5], v[6], v[7])))  # blocks of one
+  text(size(v[1], v[2], v[3], v[4], v[5], v[6], v[7]))
 }
 
 minimum <- function(w) {
   v <- numbers(w)
   scenario <- list(elitist = v[1] != 0, mu = v[4], firstTest = 1, eachTest = v[5], elitistNewInstances = v[6])
-  text(irace:::computeMinimumBudget(scenario, v[3], v[2], NULL))
+  budget <- of_irace("computeMinimumBudget")
+  if (is_4) return(text(budget(c(scenario, blockSize = 1), v[3], v[2], v[6])))
+  text(budget(scenario, v[3], v[2], NULL))
 }
 
 update <- function(w) {
   v <- numbers(w)
   k <- v[6]
   values <- as.character(seq_len(k))
-  parameters <- list(names = "x", isFixed = FALSE, types = list(x = "c"), domain = list(x = values),
-                     nbVariable = v[4])
+  parameters <- list(names = "x", isFixed = FALSE, types = list(x = "c"), domain = list(x = values), nbVariable = v[4],
+                     names_variable = "x", get = function(name) list(type = "c", domain = values))
   elites <- data.frame(.ID. = 1, x = values[v[5]], .PARENT. = NA, stringsAsFactors = FALSE)
   model <- irace:::updateModel(parameters, elites, list(x = list("1" = v[7:(6 + k)])), v[2], v[3], 10,
-                               list(elitist = v[1] != 0))
+                               if (is_4) v[1] != 0 else list(elitist = v[1] != 0))
   text(model$x[["1"]])
 }
 
@@ -76,9 +84,10 @@ draws <- function(w) {
   if (is_log) {
     # Its parameter file knows the logarithms of the bounds.
     line <- sprintf('x "" %s (%.17g, %.17g)', type, lower, upper)
-    log <- readParameters(text = line)$transform$x
-    mean <- irace:::transform.to.log(mean, log, lower, top)
-    x <- irace:::transform.from.log(irace:::rtnorm(n, mean, sd, 0, 1), log, lower, top)
+    read <- readParameters(text = line)
+    log <- if (is_4) read$get("x")[["transform"]] else read$transform$x
+    mean <- if (is_4) irace:::transform_to_log(mean, log) else irace:::transform.to.log(mean, log, lower, top)
+    x <- of_irace("transform.from.log", "transform_from_log")(irace:::rtnorm(n, mean, sd, 0, 1), log, lower, top)
   } else {
     x <- irace:::rtnorm(n, mean, sd, lower, top)
   }
