@@ -41,8 +41,13 @@ tree_digest() {
     git ls-files -s -- . ":!$ledger" | sha256sum | cut -c 1-16
 }
 
+# Each version writes some lines in another way.
+format_version=14
+is_our_format() { [[ $(clang-format --version) == *" version $format_version."* ]]; }
+
 gate_format() {
   tsc -p web
+  is_our_format || { echo "types alone: the format is that of clang-format $format_version" >&3; return 0; }
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
   git ls-files '*.h' '*.cpp' | wc -l | sed 's/$/ files/' >&3
 }

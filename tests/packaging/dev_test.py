@@ -1,0 +1,77 @@
+"""./dev on systems that have other packages: what it installs, leaves out and says. apt and dpkg are scripts here, which
+know the packages in two files and note what they are asked to do."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
+TOOLS = {
+    "dpkg-query": 'grep -qx "${@: -1}" "$FAKE/installed" && echo "install ok installed"',
+    "apt-cache": 'grep -qx "${@: -1}" "$FAKE/known"',
+    "apt-get": 'echo "$*" >>"$FAKE/asked"; case "$*" in *update*) cp "$FAKE/in-the-archive" "$FAKE/known" ;; esac',
+    "sudo": 'exec "$@"',
+}
+
+
+class Packages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmsmith-dev-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for name, text in TOOLS.items():
+            (self.folder / name).write_text(f"#!/bin/bash\n{text}\n")
+            (self.folder / name).chmod(0o755)
+        self.system(installed="", known="")
+
+    def system(self, installed, known, in_the_archive=""):
+        for name, words in (("installed", installed), ("known", known), ("in-the-archive", in_the_archive), ("asked", "")):
+            (self.folder / name).write_text("".join(word + "\n" for word in words.split()))
+
+    def dev(self, command, *words):
+        """The end of `./dev`, with this command in place of its own."""
+        done = subprocess.run(["bash", "-c", f". ./dev help >/dev/null && {command}", "dev", *words], cwd=SOURCE,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60,
+                              env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}", "FAKE": str(self.folder)})
+        return done.returncode, done.stdout, done.stderr, (self.folder / "asked").read_text()
+
+    def test_what_a_system_lacks_is_left_out_and_said(self):
+        self.system(installed="cmake", known="g++ libpng-dev")
+        code, out, said, asked = self.dev('can_be_had cmake libpng-dev libroscpp-dev && echo "${had[*]}"')
+        self.assertEqual((code, out), (0, "cmake libpng-dev\n"))
+        self.assertIn("no package libroscpp-dev; going on without", said)
+        self.assertEqual(asked, "", "there are lists; nothing has to be fetched")
+
+    def test_a_new_system_gets_its_lists_first(self):
+        self.system(installed="", known="", in_the_archive="g++ libpng-dev")
+        code, out, _, asked = self.dev('can_be_had libpng-dev && echo "${had[*]}"')
+        self.assertEqual((code, out), (0, "libpng-dev\n"))
+        self.assertIn("update", asked)
+
+    def test_programs_are_built_without_ros_where_there_is_none(self):
+        self.system(installed="", known="g++ libbox2d-dev")
+        code, _, said, asked = self.dev("build_packages=(libbox2d-dev) && install_build_packages cmake")
+        self.assertEqual(code, 0, said)
+        self.assertIn("libroscpp-dev", said)
+        self.assertIn("librosbag-storage-dev", said)
+        install = asked.splitlines()[-1]
+        self.assertIn("install", install)
+        self.assertTrue(install.endswith("libbox2d-dev cmake"), install)
+
+    def test_one_package_that_is_not_there_keeps_no_other_from_tests(self):
+        self.system(installed="", known="g++ slurmd")
+        code, _, said, asked = self.dev("install_for_tests slurmd chromium-headless-shell")
+        self.assertEqual(code, 0, said)
+        self.assertIn("chromium-headless-shell", said)
+        self.assertTrue(asked.splitlines()[-1].endswith("slurmd"), asked)
+
+    def test_wrong_words_are_refused(self):
+        for words in (["build", "swarmsmith-x"], ["bundle", "--target", "vax"], ["gate", "nothing"], ["nothing"]):
+            done = subprocess.run(["./dev", *words], cwd=SOURCE, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(words[-1].removeprefix("--"), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
