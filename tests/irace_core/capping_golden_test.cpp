@@ -135,7 +135,7 @@ std::vector<Call> on_first_tasks(const std::vector<Call>& calls, const nlohmann:
 }
 
 void expect_same_step(const RaceStep& step, const nlohmann::json& task) {
-  EXPECT_EQ(std::string(1, step.marker), task["symbol"]);
+  EXPECT_EQ(std::string(1, step.marker), task["symbol"].get<std::string>());
   EXPECT_EQ(step.pair, task["pair"]);
   EXPECT_EQ(step.alive_after, task["alive"]);
   EXPECT_EQ(step.experiments_used, task["experiments"]);

@@ -199,7 +199,7 @@ TEST(ModelGolden, QuantilesAreThoseOfIrace) {
       SCOPED_TRACE(json["definition"].dump() + " at " + json["probs"][i].dump());
       const double ours = quantile_value(space, 0, domain, json["probs"][i]);
       if (choice) {
-        EXPECT_EQ(space.scalar(0, ours).text, json["values"][i]);
+        EXPECT_EQ(space.scalar(0, ours).text, json["values"][i].get<std::string>());
       } else {
         EXPECT_EQ(ours, json["values"][i]);
       }
@@ -293,7 +293,7 @@ TEST(ModelGolden, WritesNumbersAsIraceDoes) {
   for (const auto& json : golden("model.json", "number_format")) {
     const double value = std::strtod(json["hex"].get<std::string>().c_str(), nullptr);
     if (value < 1e-307) continue;  // R gives up on fixed notation for subnormal numbers
-    EXPECT_EQ(to_fixed_text(value), json["text"]);
+    EXPECT_EQ(to_fixed_text(value), json["text"].get<std::string>());
   }
 }
 

@@ -64,7 +64,7 @@ TEST(NonElitistGolden, TakesTheStepsThatIraceTakes) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const auto& task = json["tasks"][i];
       SCOPED_TRACE("task " + std::to_string(i + 1));
-      EXPECT_EQ(std::string(1, steps[i].marker), task["symbol"]);
+      EXPECT_EQ(std::string(1, steps[i].marker), task["symbol"].get<std::string>());
       EXPECT_EQ(steps[i].pair, task["pair"]);
       EXPECT_EQ(steps[i].alive_after, task["alive"]);
       EXPECT_EQ(steps[i].best, task["best"]);

@@ -99,7 +99,7 @@ void expect_displayed(const std::optional<double>& ours, const nlohmann::json& t
 }
 
 void expect_same_step(const RaceStep& step, const nlohmann::json& task) {
-  EXPECT_EQ(std::string(1, step.marker), task["symbol"]);
+  EXPECT_EQ(std::string(1, step.marker), task["symbol"].get<std::string>());
   EXPECT_EQ(step.pair, task["instance"]);
   EXPECT_EQ(step.alive_after, task["alive"]);
   EXPECT_EQ(step.best, task["best_id"]);

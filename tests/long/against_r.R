@@ -9,6 +9,12 @@ options(warn = -1)
 is_4 <- packageVersion("irace") >= "4"
 of_irace <- function(name, name_in_4 = name) get(if (is_4) name_in_4 else name, asNamespace("irace"))
 
+# The sums of irace 4 make means differ in their last bit that are equal, and the smaller one is taken for the best: here
+# they are R's own.
+ttest <- of_irace("aux.ttest")
+if (is_4) environment(ttest) <- list2env(list(colMeans2 = function(x, cols, useNames) colMeans(x[, cols])),
+                                         parent = asNamespace("irace"))
+
 text <- function(x) paste(ifelse(is.na(x), "NA", sprintf("%.17g", as.numeric(x))), collapse = " ")
 numbers <- function(words) suppressWarnings(as.numeric(words))
 costs_of <- function(words, n, k) matrix(numbers(words), nrow = n, ncol = k, byrow = TRUE)
@@ -29,7 +35,7 @@ eliminate <- function(w) {
       check_p(found$p.value, wilcox.test(y[, 1], y[, 2], paired = TRUE)$p.value)
     if (k > 2 && !is.nan(found$p.value)) check_p(found$p.value, friedman.test(y)$p.value)
   } else {
-    found <- irace:::aux.ttest(y, alive, seq_len(k), confidence, adjust = type)
+    found <- ttest(y, alive, seq_len(k), confidence, adjust = type)
   }
   text(c(found$p.value, as.numeric(found$alive)))
 }

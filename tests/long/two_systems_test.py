@@ -19,6 +19,8 @@ ROOT = os.environ.get("SWARMSMITH_OTHER_ROOT")
 
 @unittest.skipUnless(ROOT, "skipped: SWARMSMITH_OTHER_ROOT names no other system; ./dev gate debian13 makes one")
 class TwoSystems(ProgramTest):
+    budget = 6000
+
     def setUp(self):
         super().setUp()
         root, place = pathlib.Path(ROOT), os.environ["SWARMSMITH_OTHER_BIN"]
@@ -67,7 +69,6 @@ class TwoSystems(ProgramTest):
 
     def test_a_campaign_moves_from_one_to_the_other(self):
         whole, moved = self.folder / "whole.db", self.folder / "moved.db"
-        self.file.write_text(self.file.read_text().replace("max_experiments = 1000", "max_experiments = 6000"))
         self.assertEqual(self.run_campaign(whole, "--workers", "2").returncode, 0)
         for turn in range(6):
             before = used(moved)

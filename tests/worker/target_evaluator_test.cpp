@@ -178,8 +178,8 @@ TEST_F(TargetEvaluators, RunTheFileThatWasCheckedWhateverALinkMeansThen) {
     scenario.target->runner = (folder / link).string() + rest;
     const auto evaluator = make();
     ASSERT_TRUE(evaluator);
-    std::jthread swapper([&, &link = link](const std::stop_token& over) {
-      swap_until(over, folder / link, good, bad);
+    std::jthread swapper([&, &changed = link](const std::stop_token& over) {
+      swap_until(over, folder / changed, good, bad);
     });
     int ran = 0;
     int refused = 0;

@@ -74,9 +74,9 @@ void compare(const ParameterSpace& space, std::size_t i, const nlohmann::json& w
              const std::vector<std::string>& names) {
   const Parameter& parameter = space[i];
   SCOPED_TRACE(parameter.name);
-  EXPECT_EQ(parameter.name, wanted["name"]);
-  EXPECT_EQ(std::string(1, type_of(parameter.domain)), wanted["type"]);
-  EXPECT_EQ(parameter.switch_text, wanted["switch"]);
+  EXPECT_EQ(parameter.name, wanted["name"].get<std::string>());
+  EXPECT_EQ(std::string(1, type_of(parameter.domain)), wanted["type"].get<std::string>());
+  EXPECT_EQ(parameter.switch_text, wanted["switch"].get<std::string>());
   EXPECT_EQ(space.is_fixed(i), wanted["fixed"].get<bool>());
   EXPECT_EQ(space.constant_interval(i) == nullptr, wanted["dependent_domain"].get<bool>());
   EXPECT_EQ(space.level(i), wanted["level"].get<int>());
