@@ -386,7 +386,9 @@ TEST_F(MachineViewsTest, RankWithoutSortingTheWholeStore) {
   for (const Cells& row : all("EXPLAIN QUERY PLAN SELECT * FROM v_race_matrix")) {
     EXPECT_EQ(row.back().find("USE TEMP B-TREE FOR ORDER BY"), std::string::npos);
     EXPECT_EQ(row.back().find("AUTOMATIC"), std::string::npos) << row.back();
-    sorts_a_part |= row.back() == "USE TEMP B-TREE FOR RIGHT PART OF ORDER BY";
+    // SQLite 3.40 says the former, 3.46 the latter.
+    sorts_a_part |= row.back() == "USE TEMP B-TREE FOR RIGHT PART OF ORDER BY" ||
+                    row.back().starts_with("USE TEMP B-TREE FOR LAST ");
   }
   EXPECT_TRUE(sorts_a_part);
 }
