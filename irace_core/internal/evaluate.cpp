@@ -115,6 +115,20 @@ double power(double base, double exponent) {
 }
 
 /// + - * / ^ %% %/%: of integers an integer, but for / and ^; of texts missing.
+/// a - floor(a / b) b, with the sign of b: NaN for b = 0; for an infinite b, a of the same sign is
+/// left as it is (R's Arithmetic).
+double modulo(double a, double b) {
+  if (b == 0 || !std::isfinite(a)) return NAN;
+  if (std::isinf(b)) return a == 0 || (a < 0) == (b < 0) ? a : b;
+  return a - std::floor(a / b) * b;
+}
+
+/// floor(a / b); below 0 it is -1 at least, also where a / b is too small for a number.
+double whole_quotient(double a, double b) {
+  if (std::isinf(b) && std::isfinite(a)) return a == 0 || (a < 0) == (b < 0) ? 0 : -1;
+  return std::floor(a / b);
+}
+
 Scalar calculate(Operation operation, const Scalar& left, const Scalar& right) {
   if (left.missing || right.missing || !is_number(left) || !is_number(right)) {
     return Scalar::missing_of(Type::Real);
@@ -130,8 +144,8 @@ Scalar calculate(Operation operation, const Scalar& left, const Scalar& right) {
   if (operation == Operation::Multiply) return typed(a * b);
   if (operation == Operation::Divide) return Scalar::real(a / b);
   if (operation == Operation::Power) return Scalar::real(power(a, b));
-  if (operation == Operation::Modulo) return typed(b == 0 ? NAN : a - std::floor(a / b) * b);
-  return typed(std::floor(a / b));  // IntegerDivide
+  if (operation == Operation::Modulo) return typed(modulo(a, b));
+  return typed(whole_quotient(a, b));  // IntegerDivide
 }
 
 /// The functions of one number; `digits` only for Round.

@@ -13,8 +13,13 @@ double round_to_digits(double value, int digits) {
   SWARMSMITH_ASSERT(digits >= 0 && digits <= 15, "decimals lie in 0..15");
   const double power = kPowersOfTen[static_cast<std::size_t>(digits)];
   const double magnitude = std::fabs(value);
+  // Of so many decimals that the number has no more: R's fround.
+  constexpr double kLog10Of2 = 0.301029995663981195;
+  constexpr int kDigits = 15;
+  if (!std::isfinite(value) || value == 0 ||
+      kLog10Of2 * (0.5 + std::logb(magnitude)) + digits > kDigits)
+    return value;
   const double scaled = magnitude * power;
-  if (!(scaled < 1e15)) return value;
   const double below = std::floor(scaled);
   const double low = below / power;
   const double high = std::ceil(scaled) / power;

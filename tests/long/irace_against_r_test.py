@@ -25,7 +25,8 @@ def r_is_there():
 
 
 def words(*values):
-    return " ".join("NA" if value is None else repr(value) if isinstance(value, float) else str(value)
+    # In hexadecimal: R reads some decimal texts as the neighbour of the nearest number (0.4141735).
+    return " ".join("NA" if value is None else value.hex() if isinstance(value, float) else str(value)
                     for value in values)
 
 
