@@ -142,8 +142,7 @@ class Manual(unittest.TestCase):
 
     def search(self, page, word, found):
         """Types a word into the search as a person does, and finds a page."""
-        page.js("document.querySelector('#__search').checked = true; "
-                "document.querySelector('input[name=query]').focus()")
+        page.js("document.querySelector('#__search').click(); document.querySelector('input[name=query]').focus()")
         for letter in word:
             page.key(letter)
         links = page.wait("(links => links.length && links)([...document.querySelectorAll('.md-search-result__link')]"
