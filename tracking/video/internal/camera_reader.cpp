@@ -1,5 +1,7 @@
 #include "tracking/video/internal/camera_reader.h"
 
+#include <dlfcn.h>
+#include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
@@ -8,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
+#include <opencv2/core/version.hpp>
 #include <opencv2/videoio.hpp>
 #include <utility>
 
@@ -17,6 +20,14 @@ namespace swarmsmith {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// The library is loaded when a camera is opened (cmake/LateLibraries.cmake), and an archive of
+/// packaging/bundle has it not.
+bool has_videoio() {
+  const std::string name =
+      fmt::format("libopencv_videoio.so.{}{:02}", CV_VERSION_MAJOR, CV_VERSION_MINOR);
+  return dlopen(name.c_str(), RTLD_LAZY) != nullptr;
+}
 
 class Reading {
  public:
@@ -39,6 +50,10 @@ class Reading {
  private:
   /// Why it ended; empty: no more pictures.
   std::string read_all() {
+    if (!has_videoio()) {
+      return "live cameras are read by OpenCV's library videoio, which is not here: the archive of "
+             "this program has it not, and the Debian package needs it";
+    }
     if (!open()) return "OpenCV cannot open it; is it there, and free?";
     has_driver_times_ = camera_.getBackendName() == "V4L2";
     rate_ = camera_.get(cv::CAP_PROP_FPS);
