@@ -3,6 +3,7 @@
 #include <sys/auxv.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
@@ -43,6 +44,9 @@ std::optional<fs::path> running_file() {
 
 fs::path own_program() {
   if (auto file = running_file()) return *file;
+  // The launcher hands on its own path as the name that it was called by.
+  const fs::path named = program_invocation_name;
+  if (named.is_absolute()) return named;
   std::error_code failed;
   const auto* const called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   return called == nullptr ? fs::path() : fs::absolute(called, failed);
