@@ -140,7 +140,7 @@ def main():
                 table.append(f'    {{"{library}", "{name}"}},\n')
     if data:
         sys.exit("late_libraries.py: a variable cannot come from a library that is loaded late: " + ", ".join(sorted(data)))
-    text = TEXT % {"program": program.rsplit("/", 1)[-1], "table": "".join(table), "stubs": "".join(stubs)}
+    text = TEXT % {"program": program.rsplit("/", 1)[-1].removesuffix("-whole"), "table": "".join(table), "stubs": "".join(stubs)}
     with open(source, "w", encoding="ascii") as file:
         file.write(text)
 
