@@ -25,11 +25,12 @@ def symbols(file):
 
 def main():
     compiler, library, out, *needing = sys.argv[1:]
-    taken = {name for file in needing for _, _, section, name, _ in symbols(file) if section == "UND"}
+    taken = {(name, version) for file in needing for _, _, section, name, version in symbols(file) if section == "UND"}
     text, versions = [], collections.defaultdict(list)
     machine = said_by(compiler, "-dumpmachine").split("-")[0]
     for size, kind, section, name, version in symbols(library):
-        if section in ("UND", "ABS") or name not in taken or name in sum(versions.values(), []):
+        # A name may be there in several versions.
+        if section in ("UND", "ABS") or (name, version) not in taken or name in versions[version]:
             continue
         versions[version].append(name)
         text.append(f"  .globl {name}\n")
