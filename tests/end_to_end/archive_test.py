@@ -209,7 +209,7 @@ class Container(Archived):
         program = next(str(path) for path in (root / environment["PATH"].lstrip("/")).glob(entry[0]))
         return ["unshare", *mine, "--fork", "--pid", "--mount", "--kill-child", "sh", "-c",
                 'mount -t proc proc "$1/proc" && shift && exec "$@"', "sh", str(root), "env", "-i", *settings,
-                "unshare", "--root", str(root), "--wd", folder, program.removeprefix(str(root)), *entry[1:], *words]
+                shutil.which("unshare"), "--root", str(root), "--wd", folder, program.removeprefix(str(root)), *entry[1:], *words]
 
     def setUp(self):
         super().setUp()
