@@ -1,7 +1,9 @@
 #include "base/program_path.h"
 
+#include <sys/auxv.h>
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
@@ -28,10 +30,35 @@ std::optional<fs::path> program_in(std::string_view search_path, std::string_vie
   return std::nullopt;
 }
 
-std::filesystem::path sibling_program(const char* variable, std::string_view name) {
-  if (const std::string named = environment(variable); !named.empty()) return named;
+namespace {
+
+/// Of a process: its file; nothing without /proc, or where a loader of its own started it.
+std::optional<fs::path> running_file() {
   std::error_code failed;
-  return std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / name;
+  fs::path file = fs::read_symlink("/proc/self/exe", failed);
+  if (failed || file.filename() == "ld.so") return std::nullopt;
+  return file;
+}
+
+}  // namespace
+
+fs::path own_program() {
+  if (auto file = running_file()) return *file;
+  // The launcher hands on its own path as the name that it was called by.
+  const fs::path named = program_invocation_name;
+  if (named.is_absolute()) return named;
+  std::error_code failed;
+  const auto* const called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  return called == nullptr ? fs::path() : fs::absolute(called, failed);
+}
+
+fs::path same_program() {
+  return running_file() ? fs::path("/proc/self/exe") : own_program();
+}
+
+fs::path sibling_program(const char* variable, std::string_view name) {
+  if (const std::string named = environment(variable); !named.empty()) return named;
+  return own_program().parent_path() / name;
 }
 
 }  // namespace swarmsmith

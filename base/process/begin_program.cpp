@@ -1,5 +1,6 @@
 #include "base/process/begin_program.h"
 
+#include <sys/auxv.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -86,9 +87,18 @@ void part_processor_limits() {
   setrlimit(RLIMIT_CPU, &limit);
 }
 
+/// In an archive (packaging/bundle) the kernel takes the loader's name.
+void take_name() {
+  const auto* const called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  if (called == nullptr) return;
+  const char* const slash = std::strrchr(called, '/');
+  prctl(PR_SET_NAME, slash == nullptr ? called : slash + 1);
+}
+
 }  // namespace
 
 void begin_program() {
+  take_name();
   leave_first_place();
   signal(SIGXFSZ, SIG_IGN);
   signal(SIGXCPU, on_processor_limit);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/output_file.h"
+#include "base/program_path.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/replay/design_argument.h"
@@ -47,8 +48,7 @@ ExitCode export_irace(const std::string& source, const IraceExport& what, const 
   }
   const auto design = find_design(*campaign, what.design);
   if (!design) return fail(output, ExitCode::Usage, design.error());
-  std::error_code unknown;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const auto program = own_program();
   const auto version = what.version == "4" ? IraceVersion::V4 : IraceVersion::V3_5;
   const auto made = irace_folder(*campaign, *design, version, program);
   if (!made) return fail(output, ExitCode::Usage, made.error());

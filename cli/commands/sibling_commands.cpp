@@ -31,7 +31,7 @@ ExitCode run_track(const std::vector<std::string>& words, Output& output) {
   return become(sibling_program("SWARMSMITH_TRACK", "swarmsmith-track").string(), words,
                 "it is built where OpenCV, libapriltag and FFmpeg's libraries are (Debian: "
                 "libopencv-contrib-dev libapriltag-dev libavformat-dev libavcodec-dev "
-                "libswscale-dev librosbag-storage-dev); `./dev build` installs them",
+                "libswscale-dev); `./dev build` installs them",
                 output);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/address.h"
 #include "base/environment.h"
+#include "base/program_path.h"
 #include "cli/run/ask_campaign.h"
 #include "coordinator/service/http_address.h"
 #include "storage/store.h"
@@ -39,7 +40,7 @@ std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
     };
   }
   // The program that this is: what runs beside it is of the same version.
-  if (options.program.empty()) options.program = "/proc/self/exe";
+  if (options.program.empty()) options.program = same_program();
   setup->site_ = make_dashboard(std::move(options));
   return setup;
 }

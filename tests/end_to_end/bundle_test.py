@@ -15,14 +15,14 @@ SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 
 
 def why_not():
-    if not (BIN / "swarmsmith-worker-launcher").exists():
+    if not (BIN / "swarmsmith-launcher").exists():
         return "skipped: the launcher of bundles is not built; under sanitizers there is none"
     return None
 
 
-def pack(folder, architecture=platform.machine(), build=BIN.parent, **environment):
-    """The archive of a build's worker, packed quickly."""
-    subprocess.run([SOURCE / "packaging/bundle", architecture, build, folder, "0"], check=True, capture_output=True,
+def pack(folder, architecture=platform.machine(), build=BIN.parent, kinds=("swarmsmith-worker",), **environment):
+    """The archive of a build's worker, packed quickly; or those of the kinds of packaging/bundle."""
+    subprocess.run([SOURCE / "packaging/bundle", architecture, build, folder, "0", *kinds], check=True, capture_output=True,
                    env={**os.environ, **environment})
     return next(pathlib.Path(folder).glob(f"*-{architecture}.tar.xz"))
 
@@ -83,7 +83,7 @@ class Bundled(ProgramTest):
         robots.wait_for(lambda: self.query(store, "SELECT count(*) AS n FROM worker")[0]["n"], "the worker")
         # What looks for programs beside its own (base/program_path) finds them, and people find it by its name.
         process = pathlib.Path(f"/proc/{worker.process.pid}")
-        self.assertEqual(os.readlink(process / "exe"), str(root / "bundle/ld.so"))
+        self.assertEqual(os.readlink(process / "exe"), str(root / "bundle/lib/ld.so"))
         self.assertEqual((process / "comm").read_text(), "swarmsmith-work\n")
         self.assertEqual(coordinator.end(), 0, coordinator.said() + worker.said())
         self.assertEqual(worker.end(), 0, worker.said())
@@ -128,22 +128,22 @@ class Bundle(Bundled):
         self.assertIn("invalid address", done.stderr)
         moved = self.folder / "moved"
         shutil.copytree(self.bundle, moved)
-        (moved / "ld.so").unlink()
+        (moved / "lib/ld.so").unlink()
         done = subprocess.run([moved / "swarmsmith-worker"], capture_output=True, text=True, timeout=60 * PATIENCE)
         self.assertEqual(done.returncode, 127)
-        self.assertIn(f"cannot start {moved}/ld.so: No such file", done.stderr)
+        self.assertIn(f"cannot start {moved}/lib/ld.so: No such file", done.stderr)
 
     def test_all_that_it_needs_is_in_it_with_its_licence(self):
         subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=self.bundle, check=True)
         listed = {line.split("  ")[1] for line in (self.bundle / "SHA256SUMS").read_text().splitlines()}
         files = {str(path.relative_to(self.bundle)) for path in self.bundle.rglob("*") if path.is_file()}
         self.assertEqual(files - listed, {"SHA256SUMS"})
-        needed = self.version(self.bundle / "ld.so", "--inhibit-cache", "--library-path", self.bundle / "lib", "--list",
+        needed = self.version(self.bundle / "lib/ld.so", "--inhibit-cache", "--library-path", self.bundle / "lib", "--list",
                               self.bundle / "lib/swarmsmith-worker")
         places = re.findall(r"=> (\S+)", needed)
         self.assertGreater(len(places), 20)
         self.assertEqual([place for place in places if not place.startswith(str(self.bundle))], [])
-        self.assertEqual(len([name for name in files if name.startswith("lib/")]), len(places))
+        self.assertEqual(len([name for name in files if name.startswith("lib/")]), len(places) + 1)  # and the loader
         # A licence of every package that a library or a header comes from.
         licences = {path.name for path in (self.bundle / "licences").iterdir()}
         self.assertLessEqual({"swarmsmith", "libc6", "libzmq5", "libstdc++6", "libcli11-dev"}, licences)

@@ -31,7 +31,7 @@ def emulated_bundle(bundle):
     if subprocess.run([*words, "--version"], capture_output=True).returncode == 0:
         return words
     print("the launcher of bundles for aarch64 is not tried: this kernel lets no namespace start such programs")
-    return [EMULATOR, bundle / "ld.so", "--inhibit-cache", "--library-path", bundle / "lib", bundle / "lib/swarmsmith-worker"]
+    return [EMULATOR, bundle / "lib/ld.so", "--inhibit-cache", "--library-path", bundle / "lib", bundle / "lib/swarmsmith-worker"]
 
 
 def why_not():

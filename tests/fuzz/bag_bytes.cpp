@@ -9,7 +9,7 @@
 namespace swarmsmith::fuzz {
 
 /// A bag is refused with a sentence, or gives images in order, of one size, until its end or a
-/// sentence. In memory, as a file: rosbag's library reads no other.
+/// sentence. A file in memory.
 void run(std::string_view input) {
   const int file = ::memfd_create("bag", MFD_CLOEXEC);
   require(::write(file, input.data(), input.size()) == static_cast<ssize_t>(input.size()),

@@ -181,7 +181,7 @@ exec xz "$@"
         go_on.write_text("\n")
         wait_for(lambda: "the worker cannot be sent there" in self.said.read_text(), "a word about that")
         worker, = wait_for(self.sent, "a worker", 30)
-        self.assertEqual([program_of(worker)], [path / "ld.so" for path in cache.iterdir()])
+        self.assertEqual([program_of(worker)], [path / "lib/ld.so" for path in cache.iterdir()])
         self.assertEqual([path.name.rsplit("-", 1)[0] for path in cache.iterdir()], [archive.name.removesuffix(".tar.xz")])
         self.interrupt(process)
         # What is there is not sent again.

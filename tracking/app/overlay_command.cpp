@@ -18,8 +18,8 @@
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
 #include "tracking/overlay/draw_overlay.h"
-#include "tracking/overlay/picture_bytes.h"
 #include "tracking/scoring/real_run_rows.h"
+#include "tracking/video/picture_bytes.h"
 #include "tracking/video/video_writer.h"
 
 namespace swarmsmith::cli {
@@ -146,6 +146,12 @@ std::vector<OverlayTag> tags_of(const DrawnRun& run, std::int64_t frame, double 
   return tags;
 }
 
+Expected<void> write_png(const std::string& path, const ColorImage& image) {
+  const auto bytes = png_of(image);
+  if (!bytes) return Unexpected(bytes.error());
+  return write_whole_file(path, *bytes);
+}
+
 /// Where pictures go: a video, a folder, one picture.
 class Sink {
  public:
@@ -153,12 +159,11 @@ class Sink {
 
   Expected<void> add(const ColorImage& image, double time_s, double frame_rate) {
     ++count_;
-    if (one_) return write_whole_file(out_, png_of(image));
+    if (one_) return write_png(out_, image);
     if (is_folder()) {
       std::error_code ignored;
       fs::create_directories(out_, ignored);
-      return write_whole_file((fs::path(out_) / fmt::format("{:06}.png", count_)).string(),
-                              png_of(image));
+      return write_png((fs::path(out_) / fmt::format("{:06}.png", count_)).string(), image);
     }
     if (!writer_) {
       VideoOptions options;

@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <optional>
@@ -101,7 +102,7 @@ std::vector<Vector6> starts_of(const Corners& corners, const CameraModel& camera
     try {
       cv::solvePnPGeneric(corners.world, rays, cv::Matx33d::eye(), cv::noArray(), turns, shifts,
                           false, method);
-    } catch (const cv::Exception&) {
+    } catch (const std::exception&) {
       // Corners that no plane is seen so; the other method may still find a start.
       continue;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -103,7 +104,7 @@ std::optional<Fit> best_fit(const Points& points, ImageSize size, Lens lens) {
       Fit fit = lens == Lens::Fisheye ? fit_fisheye(points, size, start)
                                       : fit_pinhole(points, size, start);
       if (is_finite(fit) && (!best || fit.rms_px < best->rms_px)) best = std::move(fit);
-    } catch (const cv::Exception&) {
+    } catch (const std::exception&) {
       // This start led nowhere (a view that no camera of the guess can have); the others may.
     }
   }

@@ -11,7 +11,7 @@
 #include "base/http/page_server.h"
 #include "base/peer_user.h"
 #include "embedded/kLivePage.h"
-#include "tracking/overlay/picture_bytes.h"
+#include "tracking/video/picture_bytes.h"
 
 namespace swarmsmith {
 namespace {
@@ -154,7 +154,7 @@ class Pages final : public LivePages {
     }
     ColorImage picture = shown->picture;
     draw_live(picture, scenery_, shown->state);
-    return jpeg_of(picture, kQuality);
+    return jpeg_of(picture, kQuality).value_or("");
   }
 
   std::int64_t pictures() {

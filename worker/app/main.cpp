@@ -164,7 +164,6 @@ Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-  prctl(PR_SET_NAME, "swarmsmith-worker");  // that of a bundle has the loader's
   if (arguments.die_with_parent) die_with_parent(arguments.parent);
   if (arguments.referee) {
     return serve_as_referee({.engine_version = kEngineVersion, .self_test = self_test_digest()},

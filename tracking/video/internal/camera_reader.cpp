@@ -1,5 +1,7 @@
 #include "tracking/video/internal/camera_reader.h"
 
+#include <dlfcn.h>
+#include <fmt/format.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
@@ -8,7 +10,9 @@
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
+#include <opencv2/core/version.hpp>
 #include <opencv2/videoio.hpp>
+#include <optional>
 #include <utility>
 
 #include "tracking/video/internal/picture.h"
@@ -17,6 +21,14 @@ namespace swarmsmith {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// The library is loaded when a camera is opened (cmake/LateLibraries.cmake), and an archive of
+/// packaging/bundle has it not.
+bool has_videoio() {
+  const std::string name =
+      fmt::format("libopencv_videoio.so.{}{:02}", CV_VERSION_MAJOR, CV_VERSION_MINOR);
+  return dlopen(name.c_str(), RTLD_LAZY) != nullptr;
+}
 
 class Reading {
  public:
@@ -39,15 +51,20 @@ class Reading {
  private:
   /// Why it ended; empty: no more pictures.
   std::string read_all() {
+    if (!has_videoio()) {
+      return "live cameras are read by OpenCV's library videoio, which is not here: the archive of "
+             "this program has it not, and the Debian package needs it";
+    }
+    camera_.emplace();
     if (!open()) return "OpenCV cannot open it; is it there, and free?";
-    has_driver_times_ = camera_.getBackendName() == "V4L2";
-    rate_ = camera_.get(cv::CAP_PROP_FPS);
+    has_driver_times_ = camera_->getBackendName() == "V4L2";
+    rate_ = camera_->get(cv::CAP_PROP_FPS);
     constexpr double kMostRate = 1000;
     if (!(rate_ > 0 && rate_ <= kMostRate)) rate_ = 0;
     const Clock::time_point start = Clock::now();
     for (std::int64_t number = 0;; ++number) {
       cv::Mat picture;
-      if (!camera_.read(picture) || picture.empty()) return {};
+      if (!camera_->read(picture) || picture.empty()) return {};
       if (!av::is_taken(picture.cols, picture.rows)) return "its pictures are too large";
       if (word_.is_file && rate_ > 0) {
         std::this_thread::sleep_until(
@@ -65,16 +82,16 @@ class Reading {
     if (!word_.index) {
       return std::ranges::any_of(
           std::array{cv::CAP_FFMPEG, cv::CAP_GSTREAMER, cv::CAP_V4L2, cv::CAP_IMAGES},
-          [&](int backend) { return is_wanted() && camera_.open(word_.address, backend); });
+          [&](int backend) { return is_wanted() && camera_->open(word_.address, backend); });
     }
-    if (!camera_.open(*word_.index, cv::CAP_V4L2)) return false;
+    if (!camera_->open(*word_.index, cv::CAP_V4L2)) return false;
     if (word_.size.width > 0) {
       // Raw pictures of this size seldom fit through USB.
-      camera_.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
-      camera_.set(cv::CAP_PROP_FRAME_WIDTH, word_.size.width);
-      camera_.set(cv::CAP_PROP_FRAME_HEIGHT, word_.size.height);
+      camera_->set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
+      camera_->set(cv::CAP_PROP_FRAME_WIDTH, word_.size.width);
+      camera_->set(cv::CAP_PROP_FRAME_HEIGHT, word_.size.height);
     }
-    if (word_.frame_rate > 0) camera_.set(cv::CAP_PROP_FPS, word_.frame_rate);
+    if (word_.frame_rate > 0) camera_->set(cv::CAP_PROP_FPS, word_.frame_rate);
     return true;
   }
 
@@ -87,7 +104,7 @@ class Reading {
     const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
     constexpr double kMilliseconds = 1e-3;
     if (has_driver_times_) {
-      const double driver = camera_.get(cv::CAP_PROP_POS_MSEC) * kMilliseconds;
+      const double driver = camera_->get(cv::CAP_PROP_POS_MSEC) * kMilliseconds;
       if (driver > 0) return driver;
       has_driver_times_ = false;
     }
@@ -114,8 +131,8 @@ class Reading {
   }
 
   CameraWord word_;
-  std::shared_ptr<CameraQueue> shared_;  // shared, since this thread may outlive who started it
-  cv::VideoCapture camera_;
+  std::shared_ptr<CameraQueue> shared_;     // shared, since this thread may outlive who started it
+  std::optional<cv::VideoCapture> camera_;  // none before the library is known to be there
   bool has_driver_times_ = false;
   double rate_ = 0;
 };

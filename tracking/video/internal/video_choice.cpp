@@ -104,7 +104,7 @@ Codec make_encoder(const AVCodec& encoder, const VideoChoice& choice, ImageSize 
     constexpr double kWorstScale = 30;
     e.flags |= AV_CODEC_FLAG_QSCALE;
     e.global_quality = static_cast<int>(FF_QP2LAMBDA * (1 + kWorstScale * worse * worse));
-  } else {
+  } else if (choice.codec->name == "ffv1") {
     e.gop_size = 1;
     av_opt_set_int(&e, "level", 3, 0);
     av_opt_set_int(e.priv_data, "slicecrc", 1, 0);
