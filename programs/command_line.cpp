@@ -43,7 +43,7 @@ std::string aclib_arguments(const RunnerCall& call) {
          " --seed " + std::to_string(call.seed) + " --config " + call.switches;
 }
 
-bool has(std::string_view text, std::string_view part) {
+bool has_word(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
@@ -52,7 +52,7 @@ bool has(std::string_view text, std::string_view part) {
 std::vector<std::string> faults_of_command_line(std::string_view command_line, bool capping) {
   std::vector<std::string> faults;
   const auto want = [&](std::string_view name, const char* why) {
-    if (has(command_line, name)) return;
+    if (has_word(command_line, name)) return;
     faults.push_back("the command line of the targetRunner must contain " + std::string(name) +
                      why);
   };
@@ -75,7 +75,7 @@ std::string arguments_of(const Target& target, const RunnerCall& call) {
                                           {"{bound}", bound_of(call)},
                                           {"{targetRunnerArgs}", call.switches},
                                           {"{targetRunner}", runner}});
-  const bool has_place = !target.aclib && has(target.command_line, "{targetRunner}");
+  const bool has_place = !target.aclib && has_word(target.command_line, "{targetRunner}");
   if (!target.launcher.empty() && !has_place) arguments.insert(0, runner + " ");
   return arguments;
 }
@@ -90,7 +90,7 @@ std::string arguments_of(const EvaluatorCall& call) {
 }
 
 std::string plain_number(double value) {
-  // Rounded to 15 digits first; the shortest text of the rounded number has no more of them.
+  // Rounded to 15 digits first; the shortest text of the rounded number has_word no more of them.
   std::array<char, 40> digits{};
   const int length = std::snprintf(digits.data(), digits.size(), "%.15g", value);
   double rounded = value;

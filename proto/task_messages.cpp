@@ -1,6 +1,7 @@
 #include "proto/task_messages.h"
 
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 

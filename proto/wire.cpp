@@ -1,4 +1,5 @@
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/stubs/logging.h>

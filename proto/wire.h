@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/expected.h"
-#include "proto/wire.pb.h"
+#include "proto/wire_fwd.h"
 
 namespace swarmsmith {
 

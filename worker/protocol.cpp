@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "proto/task_messages.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 namespace {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "proto/task_messages.h"
+#include "proto/wire.pb.h"
 
 // The part of the protocol that carries work: tasks in, results out, credit for more.
 

@@ -6,6 +6,7 @@
 
 #include "proto/frame_pipe.h"
 #include "proto/task_messages.h"
+#include "proto/wire.pb.h"
 #include "worker/pool.h"
 
 namespace swarmsmith {

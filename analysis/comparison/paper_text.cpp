@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kLevel = 0.05;
+constexpr double kPrintedLevel = 0.05;
 
 std::string latex_escaped(std::string_view text) {
   std::string escaped;
@@ -31,7 +31,7 @@ std::string latex_escaped(std::string_view text) {
 }
 
 /// Four digits, as a paper has them; no exponent where people would write none.
-std::string shown(double value) {
+std::string as_printed(double value) {
   constexpr double kNoDecimalsFrom = 1000;
   constexpr double kExponentFrom = 1e7;
   const double size = std::abs(value);
@@ -49,8 +49,8 @@ class Writer {
   }
   /// A number alone, between dollar signs in LaTeX, so that a minus is one.
   Writer& number(double value) {
-    sentence_.text += shown(value);
-    sentence_.latex += "$" + shown(value) + "$";
+    sentence_.text += as_printed(value);
+    sentence_.latex += "$" + as_printed(value) + "$";
     return *this;
   }
   /// "n = 10", or "$n = 10$"; `symbol` as LaTeX where that is another.
@@ -62,8 +62,9 @@ class Writer {
     return *this;
   }
   Writer& interval(double low, double high) {
-    sentence_.text += fmt::format("95 % interval [{}, {}]", shown(low), shown(high));
-    sentence_.latex += fmt::format("95\\,\\% interval $[{}, {}]$", shown(low), shown(high));
+    sentence_.text += fmt::format("95 % interval [{}, {}]", as_printed(low), as_printed(high));
+    sentence_.latex +=
+        fmt::format("95\\,\\% interval $[{}, {}]$", as_printed(low), as_printed(high));
     return *this;
   }
   PaperSentence sentence() const { return sentence_; }
@@ -72,7 +73,7 @@ class Writer {
   PaperSentence sentence_;
 };
 
-std::string shown_p(double p) {
+std::string printed_p(double p) {
   constexpr double kLeastShown = 0.0001;
   return p < kLeastShown ? "< 0.0001" : fmt::format("{:.2g}", p);
 }
@@ -92,7 +93,7 @@ const ComparedGroup* group_of(const Comparison& comparison, const std::string& m
 /// "no difference was found between a and b", or which of them scored higher.
 std::string finding_of(const ComparedPair& pair) {
   const auto p = pair.p_holm ? pair.p_holm : pair.test.p_value;
-  if (!p || *p >= kLevel)
+  if (!p || *p >= kPrintedLevel)
     return fmt::format("no difference was found between {} and {}", pair.first, pair.second);
   return fmt::format("{} scored {} than {}", pair.first,
                      pair.difference.value > 0 ? "higher" : "lower", pair.second);
@@ -122,12 +123,12 @@ PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair
   }
   writer.words(
       fmt::format("; Wilcoxon {} test, two-sided, ", pair.paired ? "signed-rank" : "rank-sum"));
-  writer.value(pair.paired ? "V" : "W", shown(pair.test.statistic)).words(", ");
+  writer.value(pair.paired ? "V" : "W", as_printed(pair.test.statistic)).words(", ");
   if (pair.test.p_value) {
-    writer.value("p", shown_p(*pair.test.p_value));
+    writer.value("p", printed_p(*pair.test.p_value));
     if (pair.p_holm && comparison.pairs.size() > 1) {
       writer.words(fmt::format(", by Holm over {} comparisons ", comparison.pairs.size()));
-      writer.value("p", shown_p(*pair.p_holm));
+      writer.value("p", printed_p(*pair.p_holm));
     }
   } else {
     writer.words("no p");

@@ -15,7 +15,6 @@ namespace {
 constexpr std::string_view kGrid = "#dddddd";
 constexpr double kTick = 1;
 constexpr double kBandGap = 0.6;  ///< between names of neighbouring bands
-constexpr std::size_t kMostTicks = 7;
 
 int decimals_of(double step) {
   int decimals = 0;
@@ -32,14 +31,10 @@ void draw_line(Svg& svg, PagePoint a, PagePoint b, std::string_view color, doubl
   svg.line(ends, stroked(color, width));
 }
 
-TextStyle ink(TextStyle::Anchor anchor) {
-  return {.size = kTextSize, .anchor = anchor, .fill = std::string(kInk)};
-}
-
 /// The most ticks of which the texts stand clear of each other.
 std::size_t ticks_across(const Axis& axis) {
   const ValueRange range = axis.range();
-  std::size_t most = kMostTicks;
+  std::size_t most = kUsualTicks;
   for (; most > 2; --most) {
     const double step = tick_step(range, most);
     double widest = 0;
@@ -147,7 +142,7 @@ double draw_heading(Svg& svg, std::string_view title, const std::vector<std::str
 }
 
 void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label) {
-  const double step = tick_step(axis.range(), kMostTicks);
+  const double step = tick_step(axis.range(), kUsualTicks);
   for (const double tick : ticks_in(axis.range(), step)) {
     const double y = axis.at(tick);
     draw_line(svg, {area.left, y}, {area.right(), y}, kGrid, 0.15);

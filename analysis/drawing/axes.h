@@ -27,6 +27,9 @@ ValueRange range_over(const std::vector<double>& values);
 /// The distance of round ticks (1, 2 or 5 times a power of ten) of which at most `most` fit.
 double tick_step(ValueRange range, std::size_t most);
 
+/// Ticks of an axis, at most.
+inline constexpr std::size_t kUsualTicks = 7;
+
 /// Widened to the next round ticks.
 ValueRange rounded(ValueRange range, std::size_t most_ticks);
 

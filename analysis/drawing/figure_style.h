@@ -1,6 +1,9 @@
 #pragma once
 
+#include <string>
 #include <string_view>
+
+#include "analysis/drawing/svg.h"
 
 namespace swarmsmith {
 
@@ -11,5 +14,9 @@ inline constexpr double kTextSize = 2.8;
 inline constexpr double kBolder = 1.15;  ///< bold letters are so much wider
 inline constexpr double kLineHeight = 4.2;
 inline constexpr std::string_view kInk = "#222222";
+
+inline TextStyle ink(TextStyle::Anchor anchor, double size = kTextSize) {
+  return {.size = size, .anchor = anchor, .fill = std::string(kInk)};
+}
 
 }  // namespace swarmsmith

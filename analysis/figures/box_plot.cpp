@@ -18,7 +18,6 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::size_t kMostTicks = 7;
 constexpr double kLeastBand = 9;     ///< a box with air on both sides, mm
 constexpr double kPairedBand = 5;    ///< of a pair half the room
 constexpr double kNarrow = 0.5;      ///< width of a narrow box beside a wide one
@@ -44,7 +43,7 @@ ValueRange range_of(const ScorePanel& panel) {
   std::vector<double> all;
   for (const ScoreGroup& group : panel.groups)
     all.insert(all.end(), group.values.begin(), group.values.end());
-  return rounded(range_over(all), kMostTicks);
+  return rounded(range_over(all), kUsualTicks);
 }
 
 /// Boxes come in pairs of one name, a narrow one and a wide one.
@@ -72,13 +71,13 @@ double least_band(const ScorePanel& panel) {
 }
 
 double least_width(const ScorePanel& panel) {
-  return tick_room(range_of(panel), kMostTicks) +
+  return tick_room(range_of(panel), kUsualTicks) +
          least_band(panel) * static_cast<double>(panel.groups.size());
 }
 
 /// The panel's data area within its place in the grid; groups stand together, not spread over it.
 PlotArea area_of(const ScorePanel& panel, double left, double top, double width) {
-  PlotArea area{.left = left + tick_room(range_of(panel), kMostTicks), .top = top};
+  PlotArea area{.left = left + tick_room(range_of(panel), kUsualTicks), .top = top};
   area.width =
       std::min(left + width - area.left, kMostBand * static_cast<double>(panel.groups.size()));
   return area;

@@ -15,12 +15,11 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kRatio = 0.62;      ///< height of an area by its width
-constexpr double kWide = 120;        ///< mm: from here on two panels stand side by side
-constexpr double kLabelAbove = 2.4;  ///< clear of the text of the highest tick
-constexpr double kBetween = 4;       ///< panels
-constexpr std::size_t kCrowd = 5;    ///< lines of a group that are better seen with their median
-constexpr std::size_t kMostTicks = 7;
+constexpr double kAreaRatio = 0.62;   ///< height of an area by its width
+constexpr double kWideFigure = 120;   ///< mm: from here on two panels stand side by side
+constexpr double kLabelAbove = 2.4;   ///< clear of the text of the highest tick
+constexpr double kBetweenPanels = 4;  ///< panels
+constexpr std::size_t kCrowd = 5;     ///< lines of a group that are better seen with their median
 constexpr std::string_view kScoreLabel = "mean score (higher is better)";
 
 using Line = ConvergencePlot::Line;
@@ -45,7 +44,7 @@ ValueRange scores_of(const Panel& panel, bool with_elites) {
       means.push_back(point.largest_elite);
     }
   }
-  return rounded(range_over(means), kMostTicks);
+  return rounded(range_over(means), kUsualTicks);
 }
 
 double last_experiment(const ConvergencePlot& plot) {
@@ -98,7 +97,7 @@ void draw_band(Svg& svg, const Line& line, const Axis& x, const Axis& y) {
   svg.polygon(outline, filled(lightened(distinct_color(line.group), 0.75)));
 }
 
-void draw_lines(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
+void draw_curves(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
   for (const Line& line : panel.lines) {
     const bool is_crowd = lines_of(panel, line.group) >= kCrowd;
     std::string color = distinct_color(line.group);
@@ -135,11 +134,11 @@ std::string description_of(const ConvergencePlot& plot) {
 }
 
 /// Where the panels are, mm.
-struct Layout {
+struct CurveLayout {
   ValueRange experiments;
   std::size_t across = 1;
   double room = 0;  ///< of the scores' texts, left of an area
-  double between = kBetween;
+  double between = kBetweenPanels;
   double pitch = 0;  ///< from panel to panel
   double panel_height = 0;
   double head = 0;
@@ -152,31 +151,31 @@ struct Layout {
     return {.left = kMargin + pitch * static_cast<double>(panel % across) + room,
             .top = head + panel_height * static_cast<double>(line) + area_top,
             .width = width,
-            .height = kRatio * width};
+            .height = kAreaRatio * width};
   }
 };
 
-Layout layout_of(const ConvergencePlot& plot) {
-  Layout at;
-  at.experiments = rounded({0, last_experiment(plot)}, kMostTicks);
+CurveLayout layout_of(const ConvergencePlot& plot) {
+  CurveLayout at;
+  at.experiments = rounded({0, last_experiment(plot)}, kUsualTicks);
   for (const Panel& panel : plot.panels)
-    at.room = std::max(at.room, tick_room(scores_of(panel, has_band(plot)), kMostTicks));
-  at.across = plot.width_mm >= kWide && plot.panels.size() > 1 ? 2 : 1;
+    at.room = std::max(at.room, tick_room(scores_of(panel, has_band(plot)), kUsualTicks));
+  at.across = plot.width_mm >= kWideFigure && plot.panels.size() > 1 ? 2 : 1;
   // The text of the last tick stands half beyond its area.
   const double half = text_width(tick_text(at.experiments.high, 1), kTextSize) / 2;
   const double beyond = std::max(2.0, half - kMargin + 1);
-  at.between = std::max(kBetween, beyond + 1);
+  at.between = std::max(kBetweenPanels, beyond + 1);
   at.pitch = (plot.width_mm - 2 * kMargin - beyond + at.between) / static_cast<double>(at.across);
   at.area_top = (plot.panels.size() > 1 ? kLineHeight : 0) + kTextSize + kLabelAbove;
   at.panel_height =
-      at.area_top + kRatio * (at.pitch - at.between - at.room) + kHorizontalAxisRoom + 3;
+      at.area_top + kAreaRatio * (at.pitch - at.between - at.room) + kHorizontalAxisRoom + 3;
   at.head = kMargin + kTitleSize + kLineHeight * static_cast<double>(plot.details.size()) + 2;
   const std::size_t down = (plot.panels.size() + at.across - 1) / at.across;
   at.bottom = at.head + at.panel_height * static_cast<double>(down);
   return at;
 }
 
-void draw_panel(Svg& svg, const ConvergencePlot& plot, std::size_t number, const Layout& at) {
+void draw_panel(Svg& svg, const ConvergencePlot& plot, std::size_t number, const CurveLayout& at) {
   const Panel& panel = plot.panels[number];
   const PlotArea area = at.area(number);
   const double left = area.left - at.room;
@@ -192,13 +191,13 @@ void draw_panel(Svg& svg, const ConvergencePlot& plot, std::size_t number, const
   draw_vertical_axis(svg, area, y, "");
   if (has_band(plot)) draw_band(svg, panel.lines.front(), x, y);
   draw_horizontal_axis(svg, area, x, "experiments used");
-  draw_lines(svg, panel, x, y);
+  draw_curves(svg, panel, x, y);
 }
 
 }  // namespace
 
 std::string draw(const ConvergencePlot& plot) {
-  const Layout at = layout_of(plot);
+  const CurveLayout at = layout_of(plot);
   const Legend legend = legend_of(plot);
   Svg svg(plot.width_mm, at.bottom + legend.height() + kMargin, plot.title, description_of(plot));
   draw_heading(svg, plot.title, plot.details);

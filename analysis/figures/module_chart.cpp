@@ -21,7 +21,7 @@ constexpr double kGap = 1.5;           ///< between columns, and within one
 constexpr double kRow = 7.5;
 constexpr double kBar = 1.5;
 constexpr std::string_view kTrack = "#e8e8e8";
-TextStyle ink(double size, TextStyle::Anchor anchor = TextStyle::Anchor::Start) {
+TextStyle ink_of_size(double size, TextStyle::Anchor anchor = TextStyle::Anchor::Start) {
   return {.size = size, .anchor = anchor, .fill = std::string(kInk)};
 }
 
@@ -132,8 +132,8 @@ void draw_cell(Svg& svg, PagePoint at, const ChartLayout& layout,
   const double second = at.x + half + kGap;
   const std::string mean = cell ? fmt::format("{:.1f}", cell->average_occurrences) : "-";
   const std::string share = cell ? fmt::format("{:.0f} %", 100 * cell->occurrence_rate) : "-";
-  svg.text({at.x, at.y + kTextSize}, mean, ink(kNumberSize));
-  svg.text({second, at.y + kTextSize}, share, ink(kNumberSize));
+  svg.text({at.x, at.y + kTextSize}, mean, ink_of_size(kNumberSize));
+  svg.text({second, at.y + kTextSize}, share, ink_of_size(kNumberSize));
   if (!cell) return;
   const double bar = at.y + kTextSize + 0.8;
   draw_bar(svg, {at.x, bar}, half, cell->average_occurrences / layout.largest,
@@ -147,13 +147,13 @@ void draw_heading_of(Svg& svg, const ModuleChart::Column& column, double left, d
                      const ChartLayout& layout) {
   const auto lines = broken_text(column.mission, kHeadingSize, layout.column, 3);
   double y = bottom - 1.5;
-  svg.text({left, y}, "mean", ink(kTextSize));
-  svg.text({left + (layout.column + kGap) / 2, y}, "share", ink(kTextSize));
+  svg.text({left, y}, "mean", ink_of_size(kTextSize));
+  svg.text({left + (layout.column + kGap) / 2, y}, "share", ink_of_size(kTextSize));
   y -= kLineHeight;
-  svg.text({left, y}, fmt::format("n = {}", column.designs), ink(kTextSize));
+  svg.text({left, y}, fmt::format("n = {}", column.designs), ink_of_size(kTextSize));
   for (std::size_t i = lines.size(); i-- > 0;) {
     y -= kLineHeight;
-    svg.text({left, y}, lines[i], ink(kHeadingSize));
+    svg.text({left, y}, lines[i], ink_of_size(kHeadingSize));
   }
 }
 
@@ -162,7 +162,7 @@ void draw_labels(Svg& svg, const ModuleChart& chart, double top, const ChartLayo
     const auto lines = broken_text(chart.modules[m], kLabelSize, layout.label + 0.01, 2);
     double y = top + kRow * static_cast<double>(m) + kTextSize + (lines.size() == 1 ? 1 : 0);
     for (const std::string& line : lines) {
-      svg.text({kMargin, y}, line, ink(kLabelSize));
+      svg.text({kMargin, y}, line, ink_of_size(kLabelSize));
       y += kLabelSize + 0.5;
     }
   }
@@ -171,7 +171,7 @@ void draw_labels(Svg& svg, const ModuleChart& chart, double top, const ChartLayo
 void draw_stripe(Svg& svg, const ModuleChart& chart, const Stripe& stripe, double top,
                  const ChartLayout& layout) {
   if (layout.names_methods) {
-    TextStyle bold = ink(kTextSize);
+    TextStyle bold = ink_of_size(kTextSize);
     bold.bold = true;
     svg.text({kMargin, top + kTextSize},
              fitted_text(*stripe.method, kTextSize * kBolder, svg.width() - 2 * kMargin), bold);
@@ -205,7 +205,7 @@ std::string draw(const ModuleChart& chart) {
     draw_stripe(svg, chart, stripes[i], top + height * static_cast<double>(i), layout);
   for (std::size_t i = 0; i < explanation.size(); ++i) {
     svg.text({kMargin, bottom + kLineHeight * static_cast<double>(i) + kTextSize}, explanation[i],
-             ink(kTextSize));
+             ink_of_size(kTextSize));
   }
   return svg.finish();
 }

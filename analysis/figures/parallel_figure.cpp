@@ -44,7 +44,7 @@ std::vector<std::size_t> most_active(const ParameterTable& table) {
 }
 
 /// Rows of the table that are drawn.
-struct Drawn {
+struct DrawnLines {
   std::vector<std::size_t> elites;
   std::vector<std::size_t> others;
   std::size_t others_in_all = 0;
@@ -52,8 +52,8 @@ struct Drawn {
   std::int64_t iteration = 0;
 };
 
-Drawn drawn_of(const ParameterTable& table, const std::vector<EliteRecord>& kept) {
-  Drawn drawn;
+DrawnLines drawn_of(const ParameterTable& table, const std::vector<EliteRecord>& kept) {
+  DrawnLines drawn;
   if (!kept.empty()) drawn.iteration = kept.back().iteration;
   std::set<std::size_t> is_elite;
   for (const EliteRecord& elite : kept) {
@@ -100,7 +100,7 @@ std::string csv_of(const ParallelPlot& plot, DesignId design) {
   return csv;
 }
 
-std::string caption_of(const Drawn& drawn, const FigureOptions& options, std::size_t shown,
+std::string caption_of(const DrawnLines& drawn, const FigureOptions& options, std::size_t shown,
                        std::size_t parameters) {
   std::string text = "Bold: elites. Pale: ";
   text +=
@@ -128,7 +128,7 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
   auto chosen = named_columns(*table, options.parameter, kMostNamed);
   if (!chosen) return Unexpected(chosen.error());
   if (options.parameter.empty()) chosen = most_active(*table);
-  const Drawn drawn = drawn_of(*table, *kept);
+  const DrawnLines drawn = drawn_of(*table, *kept);
   if (drawn.elites.empty() && drawn.others.empty()) {
     return unexpected(ErrorKind::NotFound,
                       fmt::format("no candidate of {} has a score yet", to_string(design->design)));

@@ -21,10 +21,6 @@ constexpr std::size_t kCaptionLines = 8;
 constexpr std::size_t kStripParts = 24;
 constexpr std::string_view kAxisColor = "#777777";
 
-TextStyle ink(TextStyle::Anchor anchor, double size = kTextSize) {
-  return {.size = size, .anchor = anchor, .fill = std::string(kInk)};
-}
-
 void draw_rule(Svg& svg, double left, double right, double y) {
   const std::array<PagePoint, 2> ends = {{{left, y}, {right, y}}};
   svg.line(ends, stroked(kAxisColor, 0.25));

@@ -74,10 +74,6 @@ Layout layout_of(const RacePlot& plot) {
   return layout;
 }
 
-TextStyle ink(TextStyle::Anchor anchor, double size = kTextSize) {
-  return {.size = size, .anchor = anchor, .fill = std::string(kInk)};
-}
-
 /// How many candidates lived, where that changes and there is room to say so.
 void draw_alive(Svg& svg, const RacePlot& plot, const Layout& at) {
   const double before = at.matrix.left - kMark - 1.4;

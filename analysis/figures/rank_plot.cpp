@@ -18,10 +18,9 @@ namespace {
 
 constexpr double kRowHeight = 7;
 constexpr double kDot = 1.1;
-constexpr double kCap = 1.2;        ///< half the height of an interval's ends
-constexpr double kNamePart = 0.36;  ///< of the width, at most, for the names
+constexpr double kCap = 1.2;            ///< half the height of an interval's ends
+constexpr double kMostNamePart = 0.36;  ///< of the width, at most, for the names
 constexpr std::size_t kNameLines = 2;
-constexpr std::size_t kMostTicks = 7;
 constexpr std::string_view kBand = "#e4e4e4";
 constexpr std::string_view kGuide = "#d0d0d0";
 constexpr std::string_view kRankLabel = "mean rank (1 is best)";
@@ -40,7 +39,7 @@ ValueRange range_of(const RankPlot::Panel& panel) {
     ends.push_back(row.low);
     ends.push_back(row.high);
   }
-  return rounded(range_over(ends), kMostTicks);
+  return rounded(range_over(ends), kUsualTicks);
 }
 
 /// What stands above a panel's rows, broken into lines that fit.
@@ -63,7 +62,7 @@ double height_of(const RankPlot::Panel& panel, double width) {
          kRowHeight * static_cast<double>(panel.rows.size()) + kHorizontalAxisRoom + 3;
 }
 
-void draw_segment(Svg& svg, PagePoint from, PagePoint to, std::string_view color, double width) {
+void draw_range(Svg& svg, PagePoint from, PagePoint to, std::string_view color, double width) {
   const std::array<PagePoint, 2> ends = {from, to};
   svg.line(ends, stroked(color, width));
 }
@@ -71,9 +70,9 @@ void draw_segment(Svg& svg, PagePoint from, PagePoint to, std::string_view color
 void draw_row(Svg& svg, const RankPlot::Row& row, double y, const Axis& x) {
   const double low = x.at(row.low);
   const double high = x.at(row.high);
-  draw_segment(svg, {low, y}, {high, y}, kInk, 0.4);
+  draw_range(svg, {low, y}, {high, y}, kInk, 0.4);
   for (const double end : {low, high})
-    draw_segment(svg, {end, y - kCap}, {end, y + kCap}, kInk, 0.4);
+    draw_range(svg, {end, y - kCap}, {end, y + kCap}, kInk, 0.4);
   svg.circle({x.at(row.mean), y}, kDot, filled(distinct_color(0)));
 }
 
@@ -94,7 +93,7 @@ double name_room(const RankPlot& plot) {
     for (const RankPlot::Row& row : panel.rows)
       widest = std::max(widest, text_width(row.name, kTextSize));
   }
-  return std::min(widest, kNamePart * plot.width_mm);
+  return std::min(widest, kMostNamePart * plot.width_mm);
 }
 
 /// Returns where the next panel begins.
@@ -128,7 +127,7 @@ double draw_panel(Svg& svg, const RankPlot::Panel& panel, double top, double nam
   const Bands places(rows.size(), area.top, area.bottom());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double at = places.centre(i);
-    draw_segment(svg, {area.left, at}, {area.right(), at}, kGuide, 0.15);
+    draw_range(svg, {area.left, at}, {area.right(), at}, kGuide, 0.15);
     draw_name(svg, rows[i].name, area.left - 1.5, at, names);
     draw_row(svg, rows[i], at, x);
   }

@@ -15,13 +15,9 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kBetween = 3;  ///< panels
-constexpr double kRatio = 0.62;
-constexpr double kTallest = 40;
-constexpr std::size_t kCaptionLines = 6;
-
-TextStyle ink(TextStyle::Anchor anchor) {
-  return {.size = kTextSize, .anchor = anchor, .fill = std::string(kInk)};
-}
+constexpr double kSampleRatio = 0.62;
+constexpr double kTallestPanel = 40;
+constexpr std::size_t kMostCaptionLines = 6;
 
 CategoryColors colors_of(const SamplingPlot& plot) {
   std::vector<std::vector<std::string>> lists;
@@ -105,7 +101,7 @@ std::string draw(const SamplingPlot& plot) {
     legends_height += legend.height();
   const double width = plot.width_mm - 2 * kMargin;
   const std::vector<std::string> caption =
-      broken_text(plot.caption, kTextSize, width, kCaptionLines);
+      broken_text(plot.caption, kTextSize, width, kMostCaptionLines);
   const std::size_t across =
       std::clamp<std::size_t>(plot.panels_a_line, 1, std::max<std::size_t>(1, plot.panels.size()));
   const std::size_t full_lines = (plot.panels.size() + across - 1) / across;
@@ -113,7 +109,7 @@ std::string draw(const SamplingPlot& plot) {
   const double room = ends_room(plot);
   const double pitch = (width + kBetween) / static_cast<double>(across);
   const double area_width = pitch - kBetween - room;
-  const double area_height = std::min(kTallest, kRatio * (pitch - kBetween));
+  const double area_height = std::min(kTallestPanel, kSampleRatio * (pitch - kBetween));
   const double line_height = kLineHeight + area_height + 0.6 + kLineHeight;
   const double head = head_of(plot);
   double legend_top = head + lines * line_height + kLineHeight + 1;

@@ -12,8 +12,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::size_t kMostTicks = 7;  ///< as `draw_vertical_axis` has them
-constexpr double kLeastPanel = 48;     ///< mm
+constexpr double kLeastPanel = 48;  ///< mm
 constexpr double kLargest = 60;
 constexpr double kRadius = 0.8;
 
@@ -23,11 +22,11 @@ ValueRange range_of(const ScatterPlot::Panel& panel) {
     all.push_back(point.x);
     all.push_back(point.y);
   }
-  return rounded(range_over(all), kMostTicks);
+  return rounded(range_over(all), kUsualTicks);
 }
 
 PlotArea area_of(const ScatterPlot::Panel& panel, double left, double top, double width) {
-  PlotArea area{.left = left + tick_room(range_of(panel), kMostTicks), .top = top};
+  PlotArea area{.left = left + tick_room(range_of(panel), kUsualTicks), .top = top};
   // Room for half of the last tick's text.
   const double side = std::min(left + width - area.left - 4, kLargest);
   area.width = area.height = side;

@@ -20,11 +20,10 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::size_t kMostTicks = 7;
-constexpr double kLeastPanel = 38;
-constexpr double kRatio = 0.62;
+constexpr double kLeastHistogram = 38;
+constexpr double kHistogramRatio = 0.62;
 constexpr double kBars = 0.8;  ///< part of a bin that its bars fill
-constexpr double kCountSize = 2.2;
+constexpr double kShareSize = 2.2;
 constexpr std::string_view kShare = "share of the group's scores, %";
 
 std::vector<double> values_of(const ScorePanel& panel) {
@@ -52,7 +51,7 @@ ValueRange shares_of(const ScorePanel& panel, const ScoreBins& bins) {
   for (const ScoreGroup& group : panel.groups)
     for (const std::size_t count : counts_of(group, bins))
       most = std::max(most, percent(count, group));
-  return rounded({0, most}, kMostTicks);
+  return rounded({0, most}, kUsualTicks);
 }
 
 double edge_of(const ScoreBins& bins, std::size_t number) {
@@ -72,10 +71,10 @@ double widest_edge(const ScoreBins& bins) {
 }
 
 /// The panel's area: of a histogram the texts of ticks reach over its ends.
-PlotArea area_of(const ScorePanel& panel, double left, double top, double width) {
+PlotArea histogram_area(const ScorePanel& panel, double left, double top, double width) {
   const ScoreBins bins = score_bins(values_of(panel));
   const double beyond = bins.single ? 0 : widest_edge(bins) / 2;
-  const double room = std::max(beyond, tick_room(shares_of(panel, bins), kMostTicks));
+  const double room = std::max(beyond, tick_room(shares_of(panel, bins), kUsualTicks));
   return {.left = left + room, .top = top, .width = width - room - beyond};
 }
 
@@ -84,7 +83,7 @@ std::string axis_label(const ScoreBins& bins) {
   return fmt::format("score, in bins of {}", tick_text(bins.width, bins.width));
 }
 
-void draw_segment(Svg& svg, PagePoint a, PagePoint b) {
+void draw_edge(Svg& svg, PagePoint a, PagePoint b) {
   const std::array<PagePoint, 2> ends = {a, b};
   svg.line(ends, stroked(kInk, 0.2));
 }
@@ -104,7 +103,7 @@ void draw_bars(Svg& svg, const ScorePanel& panel, const ScoreBins& bins, const P
   std::size_t most = 0;
   for (const ScoreGroup& group : panel.groups)
     most = std::max(most, std::ranges::max(counts_of(group, bins)));
-  const bool has_room = text_width(fmt::format("{}", most), kCountSize) <= bar;
+  const bool has_room = text_width(fmt::format("{}", most), kShareSize) <= bar;
   for (std::size_t g = 0; g < panel.groups.size(); ++g) {
     const ScoreGroup& group = panel.groups[g];
     const auto counts = counts_of(group, bins);
@@ -117,7 +116,7 @@ void draw_bars(Svg& svg, const ScorePanel& panel, const ScoreBins& bins, const P
       if (!has_room) continue;
       svg.text(
           {left + bar / 2, top - 0.5}, fmt::format("{}", counts[bin]),
-          {.size = kCountSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)});
+          {.size = kShareSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)});
     }
   }
 }
@@ -127,19 +126,19 @@ void draw_edges(Svg& svg, const ScoreBins& bins, const PlotArea& area) {
   const Axis x(range_of(bins), area.left, area.right());
   const double apart = area.width / static_cast<double>(bins.count);
   const auto every = static_cast<std::size_t>(std::ceil((widest_edge(bins) + 1) / apart));
-  draw_segment(svg, {area.left, area.bottom()}, {area.right(), area.bottom()});
+  draw_edge(svg, {area.left, area.bottom()}, {area.right(), area.bottom()});
   const TextStyle middle{
       .size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)};
   for (std::size_t i = 0; i <= bins.count; i += every) {
     const double at = x.at(edge_of(bins, i));
-    draw_segment(svg, {at, area.bottom()}, {at, area.bottom() + 1});
+    draw_edge(svg, {at, area.bottom()}, {at, area.bottom() + 1});
     svg.text({at, area.bottom() + 1 + kTextSize}, tick_text(edge_of(bins, i), bins.width), middle);
   }
   svg.text({area.left + area.width / 2, area.bottom() + 1 + kTextSize + kLineHeight},
            axis_label(bins), middle);
 }
 
-void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
+void draw_histogram(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   const ScoreBins bins = score_bins(values_of(panel));
   // Room for the count above the highest bar.
   const Axis y(shares_of(panel, bins), area.bottom(), area.top + 2);
@@ -212,8 +211,8 @@ ScoreBins score_bins(const std::vector<double>& values) {
 }
 
 std::string draw(const ScoreDistribution& plot) {
-  const PanelGrid grid(plot.panels.size(), kLeastPanel, plot.width_mm);
-  const double height = std::clamp(kRatio * grid.width(), 30.0, 50.0);
+  const PanelGrid grid(plot.panels.size(), kLeastHistogram, plot.width_mm);
+  const double height = std::clamp(kHistogramRatio * grid.width(), 30.0, 50.0);
   const double row = kPanelTitleRoom + height + kHorizontalAxisRoom + 3;
   const double first = kMargin + (plot.title.empty() ? 0 : kTitleSize) +
                        kLineHeight * static_cast<double>(plot.details.size() + 1) + 2;
@@ -224,12 +223,12 @@ std::string draw(const ScoreDistribution& plot) {
   const double top = draw_heading(svg, plot.title, plot.details);
   svg.text({kMargin, top + kTextSize}, kShare, {.size = kTextSize, .fill = std::string(kInk)});
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    PlotArea area =
-        area_of(plot.panels[i], grid.left_of(i),
-                first + row * static_cast<double>(grid.row_of(i)) + kPanelTitleRoom, grid.width());
+    PlotArea area = histogram_area(
+        plot.panels[i], grid.left_of(i),
+        first + row * static_cast<double>(grid.row_of(i)) + kPanelTitleRoom, grid.width());
     area.height = height;
     draw_panel_title(svg, plot.panels[i].title, grid.left_of(i), area.top, grid.width());
-    draw_panel(svg, plot.panels[i], area);
+    draw_histogram(svg, plot.panels[i], area);
   }
   legend.draw(svg, bottom);
   return svg.finish();

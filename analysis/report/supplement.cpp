@@ -13,6 +13,7 @@
 #include "analysis/figures/figure.h"
 #include "analysis/records/csv.h"
 #include "analysis/records/records.h"
+#include "analysis/report/internal/draft.h"
 #include "analysis/report/internal/supplement_readme.h"
 #include "analysis/report/report.h"
 
@@ -21,8 +22,6 @@ namespace {
 
 using Files = std::vector<SupplementFile>;
 
-constexpr double kColumnWidth = 84;
-constexpr double kWholeWidth = 174;
 /// Kinds that are drawn of one design; the others compare designs.
 constexpr std::array<std::string_view, 3> kOfOneDesign = {"race", "sampling", "parallel"};
 constexpr std::string_view kMachineKind = "machine";

@@ -12,7 +12,7 @@ namespace {
 /// 15 bits of window, and 16 for the header of gzip.
 constexpr int kGzip = 15 + 16;
 
-Bytef* bytes_of(std::string_view text) {
+Bytef* zlib_bytes(std::string_view text) {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): zlib reads it only
   return const_cast<Bytef*>(reinterpret_cast<const Bytef*>(text.data()));
 }
@@ -25,7 +25,7 @@ std::string gzip(std::string_view bytes, int level) {
       deflateInit2(&stream, level, Z_DEFLATED, kGzip, MAX_MEM_LEVEL - 1, Z_DEFAULT_STRATEGY);
   SWARMSMITH_ASSERT(begun == Z_OK, "zlib has room for its state");
   std::string packed(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = bytes_of(bytes);
+  stream.next_in = zlib_bytes(bytes);
   stream.avail_in = static_cast<uInt>(bytes.size());
   stream.next_out = reinterpret_cast<Bytef*>(packed.data());
   stream.avail_out = static_cast<uInt>(packed.size());
@@ -40,7 +40,7 @@ Expected<std::string> gunzip(std::string_view packed, std::size_t most) {
   z_stream stream = {};
   const int begun = inflateInit2(&stream, kGzip);
   SWARMSMITH_ASSERT(begun == Z_OK, "zlib has room for its state");
-  stream.next_in = bytes_of(packed);
+  stream.next_in = zlib_bytes(packed);
   stream.avail_in = static_cast<uInt>(packed.size());
   std::string bytes;
   std::array<char, 16384> part{};

@@ -39,7 +39,7 @@ std::string rate_line(std::string_view module, const Rate& rate) {
 }
 
 /// A paragraph with the second and further lines indented.
-std::string wrapped(const std::string& text) {
+std::string in_lines(const std::string& text) {
   std::string lines;
   std::string line;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -60,8 +60,8 @@ std::string notes(const Report& report) {
   for (const ModuleReport& module : report.modules) {
     for (const Check& check : module.checks) {
       if (check.note.empty()) continue;
-      text += wrapped(fmt::format("{} ({}) {}: {}", id_of(module.module), check.setting,
-                                  check.passes ? "passes" : "fails", check.note));
+      text += in_lines(fmt::format("{} ({}) {}: {}", id_of(module.module), check.setting,
+                                   check.passes ? "passes" : "fails", check.note));
     }
   }
   return text.empty() ? text : "\n" + text;

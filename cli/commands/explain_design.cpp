@@ -20,7 +20,7 @@ namespace swarmsmith::cli {
 namespace {
 
 /// A part of the search that is over, and its best; a walk that the final stage ended has none.
-struct Part {
+struct StoryPart {
   std::string line;
   std::string name;
   std::optional<EliteRecord> best;
@@ -30,7 +30,7 @@ struct Part {
 struct Story {
   DesignRecord design;
   std::string search;  ///< "none" of what was given, drawn or imported
-  std::vector<Part> parts;
+  std::vector<StoryPart> parts;
   std::optional<SampledRecord> winner;
   bool shows_costs = false;
 
@@ -50,9 +50,9 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
   const auto all = iterations(store, id);
   if (!all) return Unexpected(all.error());
   for (const IterationRecord& begun : *all) {
-    Part part{.line = stages.round_line(name, begun.iteration),
-              .name = stages.round(name, std::to_string(begun.iteration)),
-              .is_final = stages.is_final(name, begun.iteration)};
+    StoryPart part{.line = stages.round_line(name, begun.iteration),
+                   .name = stages.round(name, std::to_string(begun.iteration)),
+                   .is_final = stages.is_final(name, begun.iteration)};
     for (const EliteRecord& elite : *best) {
       if (elite.rank == 1 && elite.iteration == begun.iteration) part.best = elite;
     }
@@ -76,7 +76,7 @@ std::string runs_text(std::int64_t count) {
 }
 
 /// "0.6 less than the best mean before it, 3 of c2000047 in generation 22".
-std::string difference(const Story& story, const EliteRecord& last, const Part& before) {
+std::string difference(const Story& story, const EliteRecord& last, const StoryPart& before) {
   const double change = last.mean - before.best->mean;
   const double shown = story.shows_costs ? -change : change;
   const std::string text =
@@ -88,13 +88,13 @@ std::string difference(const Story& story, const EliteRecord& last, const Part& 
 
 /// Who won, where it was made, and what the last part said of it.
 std::string sentence(const Story& story, const StoredStages& stages) {
-  std::vector<const Part*> ended;
-  for (const Part& part : story.parts) {
+  std::vector<const StoryPart*> ended;
+  for (const StoryPart& part : story.parts) {
     if (part.best) ended.push_back(&part);
   }
   if (!story.winner || ended.empty()) return "";
   const std::string design = to_string(story.design.design);
-  const Part& last = *ended.back();
+  const StoryPart& last = *ended.back();
   std::string text = to_string(story.winner->candidate) + ", made in " +
                      stages.round(design, std::to_string(story.winner->iteration));
   if (last.best->candidate != story.winner->candidate) return text;
@@ -126,7 +126,7 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
   if (!winner.empty())
     output.out << (design.state == "finished" ? "winner      " : "best        ") << winner << "\n";
   if (!story.parts.empty()) output.out << "\n";
-  for (const Part& part : story.parts) {
+  for (const StoryPart& part : story.parts) {
     output.out << part.line;
     if (part.best)
       output.out << "; best " << to_string(part.best->candidate) << ", mean "
@@ -137,7 +137,7 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
 
 void write_json(Output& output, const Story& story, const StoredStages& stages) {
   std::string parts;
-  for (const Part& part : story.parts) {
+  for (const StoryPart& part : story.parts) {
     if (!part.best) continue;
     parts += (parts.empty() ? "" : ",") + JsonObject()
                                               .add("iteration", part.best->iteration)

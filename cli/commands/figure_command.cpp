@@ -49,7 +49,7 @@ std::size_t rows_of_csv(const std::string& csv) {
 }
 
 /// The ending of the file's name, which says what is written; ".svg" for standard output.
-Expected<std::string> ending_of(const FigureArguments& arguments, const Output& output) {
+Expected<std::string> figure_ending(const FigureArguments& arguments, const Output& output) {
   if (arguments.file.empty() || arguments.file == "-") {
     if (!output.json) return std::string(".svg");
     return bad_input("standard output has the answer of --json; name a file for the figure", "-o");
@@ -60,7 +60,7 @@ Expected<std::string> ending_of(const FigureArguments& arguments, const Output& 
   return bad_input("the file's ending must be .svg, .pdf, .png, .csv or .tex", arguments.file);
 }
 
-ExitCode exit_code_of(const Error& error) {
+ExitCode figure_exit_code(const Error& error) {
   if (error.kind == ErrorKind::NotFound) return ExitCode::NoSuchId;
   if (error.kind == ErrorKind::Corrupt) return ExitCode::Store;
   return error.kind == ErrorKind::Conflict ? ExitCode::Failed : ExitCode::Usage;
@@ -84,7 +84,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
     return fail(output, ExitCode::Usage, *refused);
   const auto seeds = read_seeds(arguments);
   if (!seeds) return fail(output, ExitCode::Usage, seeds.error());
-  const auto ending = ending_of(arguments, output);
+  const auto ending = figure_ending(arguments, output);
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
   if ((*ending == ".csv" || *ending == ".tex") && (options->paper || !arguments.font.empty())) {
     return fail(output, ExitCode::Usage,
@@ -94,10 +94,10 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if (const auto missing = missing_in(**store, *options))
-    return fail(output, exit_code_of(*missing), *missing);
+    return fail(output, figure_exit_code(*missing), *missing);
   auto figure = kind.make != nullptr ? kind.make(**store, *options)
                                      : trajectories_figure(std::move(*store), *options, *seeds);
-  if (!figure) return fail(output, exit_code_of(figure.error()), figure.error());
+  if (!figure) return fail(output, figure_exit_code(figure.error()), figure.error());
   if (!arguments.font.empty()) {
     auto dressed = with_font(std::move(figure->svg), arguments.font);
     if (!dressed) return fail(output, ExitCode::Usage, dressed.error());

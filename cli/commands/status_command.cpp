@@ -43,7 +43,7 @@ constexpr const char* kWorkers =
 constexpr const char* kFailures = "SELECT count(*) AS failures FROM v_failures";
 
 /// The last ones; whether a design is paused is in them.
-constexpr const char* kCommands =
+constexpr const char* kOpenCommands =
     "SELECT number, kind, design, budget, step, who, at FROM v_commands "
     "ORDER BY number DESC LIMIT 20";
 
@@ -101,7 +101,7 @@ Expected<void> read_commands(StoreReader& store, Status& status) {
   const auto known = select(store, "SELECT 1 FROM sqlite_master WHERE name = 'v_commands'");
   if (!known || known->cells.empty()) return {};
   for (const auto& [sql, rows] :
-       {std::pair{kPaused, &status.paused}, {kCommands, &status.commands}}) {
+       {std::pair{kPaused, &status.paused}, {kOpenCommands, &status.commands}}) {
     auto found = select(store, sql);
     if (!found) return Unexpected(found.error());
     letter_ids(*found);

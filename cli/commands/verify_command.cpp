@@ -117,7 +117,7 @@ ExitCode run_verify(const VerifyArguments& arguments, Output& output) {
   }
   for (const Difference& difference : sampled ? sampled->different : std::vector<Difference>{})
     found->complaints.push_back("evaluation " + difference.sentence);
-  (output.json ? write_json : write_text)(output, *found, sampled);
+  output.json ? write_json(output, *found, sampled) : write_text(output, *found, sampled);
   return found->complaints.empty() ? ExitCode::Done : ExitCode::Store;
 }
 

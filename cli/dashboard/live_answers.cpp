@@ -17,7 +17,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-using Cell = StoreReader::Cell;
+using LiveCell = StoreReader::Cell;
 
 /// A version moves with all that pages show of a design: its steps, its state, its tests, what
 /// people asked of it. The last step may be of the iteration before: its survivors are not those
@@ -50,24 +50,24 @@ void correct_states(Rows& rows) {
   }
 }
 
-Cell& cell_of(Rows& rows, std::size_t row, std::string_view column) {
+LiveCell& live_cell(Rows& rows, std::size_t row, std::string_view column) {
   const auto at = std::ranges::find(rows.columns, column) - rows.columns.begin();
   return rows.cells[row][static_cast<std::size_t>(at)];
 }
 
-Cell integer_cell(std::int64_t value) {
-  return {Cell::Type::Integer, std::to_string(value)};
+LiveCell integer_cell(std::int64_t value) {
+  return {LiveCell::Type::Integer, std::to_string(value)};
 }
 
 /// What the coordinator's memory knows better.
 void update(Rows& designs, std::size_t row, const DesignStatus& now) {
-  cell_of(designs, row, "state") = {Cell::Type::Text, std::string(word_of(now.state))};
-  cell_of(designs, row, "used") = integer_cell(now.used);
-  cell_of(designs, row, "budget") = integer_cell(now.budget);
-  cell_of(designs, row, "paused") = integer_cell(now.paused ? 1 : 0);
+  live_cell(designs, row, "state") = {LiveCell::Type::Text, std::string(word_of(now.state))};
+  live_cell(designs, row, "used") = integer_cell(now.used);
+  live_cell(designs, row, "budget") = integer_cell(now.budget);
+  live_cell(designs, row, "paused") = integer_cell(now.paused ? 1 : 0);
   if (now.best == 0) return;
-  cell_of(designs, row, "best") = integer_cell(now.best);
-  cell_of(designs, row, "best_mean") = {Cell::Type::Real, json_number(now.best_mean)};
+  live_cell(designs, row, "best") = integer_cell(now.best);
+  live_cell(designs, row, "best_mean") = {LiveCell::Type::Real, json_number(now.best_mean)};
 }
 
 JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) {
@@ -75,13 +75,13 @@ JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) 
   JsonObject object;
   for (std::size_t column = 0; column < designs.columns.size(); ++column) {
     const std::string& name = designs.columns[column];
-    const Cell& cell = designs.cells[row][column];
+    const LiveCell& cell = designs.cells[row][column];
     if (name == "paused") {
       object.add(name, cell.text == "1");
     } else if (name == "id" || name == "best") {
       const char* letter = name == "id" ? "d" : "c";
-      object.add(name,
-                 cell.type == Cell::Type::Null ? std::nullopt : std::optional(letter + cell.text));
+      object.add(name, cell.type == LiveCell::Type::Null ? std::nullopt
+                                                         : std::optional(letter + cell.text));
     } else if ((name != "stage" && name != "search" && name != "campaign") || !cell.text.empty()) {
       object.add(name, cell_as_json(cell));
     }
@@ -101,8 +101,8 @@ Head head_of(const StoredCampaignState& state) {
   Head head;
   Rows heads = state.campaign;
   for (std::size_t i = 0; i < heads.cells.size(); ++i) {
-    head.name += (i == 0 ? "" : ", ") + cell_of(heads, i, "name").text;
-    if (i == 0 || head.state == "finished") head.state = cell_of(heads, i, "state").text;
+    head.name += (i == 0 ? "" : ", ") + live_cell(heads, i, "name").text;
+    if (i == 0 || head.state == "finished") head.state = live_cell(heads, i, "state").text;
   }
   return head;
 }
@@ -179,10 +179,10 @@ std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& stat
     looks.push_back({quarantine_line(one), "fleet"});
   Rows designs = state.designs;
   for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const std::string id = cell_of(designs, i, "id").text;
+    const std::string id = live_cell(designs, i, "id").text;
     const DesignStatus* live = find_design(now, id);
     const std::string word =
-        live != nullptr ? std::string(word_of(live->state)) : cell_of(designs, i, "state").text;
+        live != nullptr ? std::string(word_of(live->state)) : live_cell(designs, i, "state").text;
     if (word == "stopped") looks.push_back({"d" + id + " has stopped", c + "/d" + id});
   }
   return looks;
@@ -212,13 +212,13 @@ Expected<void> add_stages(StoreReader& store, Rows& designs) {
   if (!stages) return Unexpected(stages.error());
   if (stages->empty()) return {};
   for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const std::string id = cell_of(designs, i, "id").text;
+    const std::string id = live_cell(designs, i, "id").text;
     const SearchOptions* search = stages->search(id);
     const std::string name(search == nullptr ? "" : name_of(search->kind));
     const std::string stage =
-        search == nullptr ? "" : stages->stage(id, cell_of(designs, i, "iteration").text);
-    designs.cells[i].push_back({Cell::Type::Text, stage});
-    designs.cells[i].push_back({Cell::Type::Text, name});
+        search == nullptr ? "" : stages->stage(id, live_cell(designs, i, "iteration").text);
+    designs.cells[i].push_back({LiveCell::Type::Text, stage});
+    designs.cells[i].push_back({LiveCell::Type::Text, name});
   }
   designs.columns.insert(designs.columns.end(), {"stage", "search"});
   return {};
@@ -270,8 +270,8 @@ JsonObject campaign_json(const std::string& c, const std::filesystem::path& file
   std::int64_t used = 0;
   std::int64_t budget = 0;
   for (std::size_t i = 0; i < heads.cells.size(); ++i) {
-    used += std::atoll(cell_of(heads, i, "used").text.c_str());
-    budget += std::atoll(cell_of(heads, i, "budget").text.c_str());
+    used += std::atoll(live_cell(heads, i, "used").text.c_str());
+    budget += std::atoll(live_cell(heads, i, "budget").text.c_str());
   }
   if (now != nullptr) {
     used = now->used;
@@ -279,7 +279,7 @@ JsonObject campaign_json(const std::string& c, const std::filesystem::path& file
   }
   std::string list;
   for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const DesignStatus* live = find_design(now, cell_of(designs, i, "id").text);
+    const DesignStatus* live = find_design(now, live_cell(designs, i, "id").text);
     list += (i == 0 ? "" : ",") + design_json(designs, i, live).text();
   }
   const bool moves = now != nullptr && left_s >= 0;
@@ -288,7 +288,7 @@ JsonObject campaign_json(const std::string& c, const std::filesystem::path& file
           .add("c", c)
           .add("name", head.name)
           .add("store", file.string())
-          .add("digest", heads.cells.size() == 1 ? cell_of(heads, 0, "digest").text : "")
+          .add("digest", heads.cells.size() == 1 ? live_cell(heads, 0, "digest").text : "")
           .add("state", head.state)
           .add("used", used)
           .add("budget", budget)

@@ -23,17 +23,17 @@
 namespace swarmsmith::cli {
 namespace {
 
-using Cell = StoreReader::Cell;
+using RaceCell = StoreReader::Cell;
 
 constexpr std::int64_t kMostIterations = 1'000'000;
 
-std::int64_t integer_of(const Cell& cell) {
+std::int64_t integer_of(const RaceCell& cell) {
   std::int64_t value = 0;
   std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
   return value;
 }
 
-double real_of(const Cell& cell) {
+double real_of(const RaceCell& cell) {
   double value = 0;
   std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
   return value;
@@ -139,7 +139,7 @@ Expected<Race> read_race(const Question& question, std::int64_t iteration) {
     if (place == places.end()) continue;
     Racer& racer = racers[integer_of(row[0])];
     racer.scores[place->second] = cell_as_json(row[2]).text;
-    if (row[2].type == Cell::Type::Null) continue;
+    if (row[2].type == RaceCell::Type::Null) continue;
     racer.sum += real_of(row[2]);
     ++racer.runs;
   }
@@ -176,7 +176,7 @@ JsonPiece scores_at(std::span<const Racer> racers, std::size_t place, std::int64
 /// A column of the steps.
 JsonPiece column_of(const Rows& rows, std::size_t column) {
   return json_list(rows.cells,
-                   [&](const std::vector<Cell>& cells) { return cell_as_json(cells[column]); });
+                   [&](const std::vector<RaceCell>& cells) { return cell_as_json(cells[column]); });
 }
 
 /// Instance and seed of each step's pair.
@@ -185,11 +185,11 @@ Expected<std::pair<JsonPiece, JsonPiece>> pairs_of(const Question& question, con
                                                   "design = {} AND purpose = 0",
                                                   question.design.value));
   if (!rows) return Unexpected(rows.error());
-  std::map<std::string, const std::vector<Cell>*> known;
+  std::map<std::string, const std::vector<RaceCell>*> known;
   for (const auto& cells : rows->cells)
     known[cells[0].text] = &cells;
   const auto values = [&](std::size_t column) {
-    return json_list(steps.cells, [&](const std::vector<Cell>& step) {
+    return json_list(steps.cells, [&](const std::vector<RaceCell>& step) {
       const auto found = known.find(step[1].text);
       return found == known.end() ? JsonPiece{"null"} : cell_as_json((*found->second)[column]);
     });
@@ -374,7 +374,7 @@ Expected<Answer> parameters_answer(const Question& question) {
                          .add("mean", column_of(*rows, 2))
                          .add("runs", column_of(*rows, 3))
                          .add("elite", json_list(rows->cells,
-                                                 [&](const std::vector<Cell>& cells) {
+                                                 [&](const std::vector<RaceCell>& cells) {
                                                    return sample->elites.contains(
                                                        integer_of(cells[0]));
                                                  }))

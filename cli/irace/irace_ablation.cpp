@@ -26,7 +26,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::int64_t kLargestSeed = 2'147'483'647;  // irace's
+constexpr std::int64_t kLargestPairSeed = 2'147'483'647;  // irace's
 
 struct AblationPair {
   std::int64_t instance;
@@ -155,7 +155,7 @@ std::vector<AblationPair> draw_pairs(const IraceSetup& setup, std::int64_t count
       std::iota(order.begin(), order.end(), 1);
       if (setup.race.sample_instances) rng.shuffle(std::span(order));
     }
-    pairs.push_back({order[at], rng.uniform_int(1, kLargestSeed)});
+    pairs.push_back({order[at], rng.uniform_int(1, kLargestPairSeed)});
   }
   return pairs;
 }

@@ -10,6 +10,7 @@
 #include "proto/socket.h"
 #include "proto/wakeup.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith::cli {
 namespace {

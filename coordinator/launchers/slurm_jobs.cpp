@@ -9,7 +9,7 @@ namespace swarmsmith {
 namespace {
 
 /// A job that ran so long was a worker.
-constexpr Duration kShortLife = std::chrono::seconds(30);
+constexpr Duration kShortJob = std::chrono::seconds(30);
 constexpr int kMostQuickEnds = 5;
 
 enum class Phase { Pending, Running, Leaving, Cancelled, Failed, Ended };
@@ -93,7 +93,7 @@ SlurmJobs::Action SlurmJobs::next(TimePoint now) {
 void SlurmJobs::note_life(const std::vector<QueuedJob>& jobs, TimePoint now) {
   for (const QueuedJob& job : jobs) {
     const auto since = running_since_.find(job.id);
-    const bool lived = since != running_since_.end() && now - since->second >= kShortLife;
+    const bool lived = since != running_since_.end() && now - since->second >= kShortJob;
     if (phase_of(job.state) == Phase::Running) {
       running_since_.try_emplace(job.id, now);
       if (lived) quick_ends_ = 0;

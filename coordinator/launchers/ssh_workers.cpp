@@ -14,20 +14,20 @@ namespace swarmsmith {
 namespace {
 
 /// A worker that ran so long did not fail at its start.
-constexpr Duration kShortLife = std::chrono::seconds(30);
-constexpr Duration kEndGrace = std::chrono::seconds(2);
+constexpr Duration kShortConnection = std::chrono::seconds(30);
+constexpr Duration kFarewell = std::chrono::seconds(2);
 /// Ends without an error of one worker, each after a short life, in a row.
-constexpr int kMostQuickEnds = 5;
+constexpr int kMostShortConnections = 5;
 /// Logins under way: at first and after one failed, and at most. Each one that succeeds allows one
 /// more. sshd turns newcomers away from 10 on, where nothing else is set.
 constexpr int kFewLogins = 3;
 constexpr int kMostLogins = 9;
 /// A login that takes longer, such as that of a host which does not answer, is not waited for.
 constexpr Duration kLoginTime = std::chrono::seconds(12);
-constexpr int kRefused = 7;      // swarmsmith-worker: another build
-constexpr int kCannotRun = 126;  // the shell of that host
-constexpr int kNoProgram = 127;  // the same
-constexpr int kSshFailed = 255;  // ssh itself
+constexpr int kBuildRefused = 7;  // swarmsmith-worker: another build
+constexpr int kCannotRun = 126;   // the shell of that host
+constexpr int kNoProgram = 127;   // the same
+constexpr int kSshFailed = 255;   // ssh itself
 
 bool is_sent_to(const SshWorkersOptions& options, const SshHost& host) {
   return !options.bundles.empty() && host.program.empty();
@@ -56,7 +56,7 @@ std::string reason(int status, const std::string& said, bool sent) {
   switch (WEXITSTATUS(status)) {
     case 0:
       return "the worker was drained";
-    case kRefused:
+    case kBuildRefused:
       return sent ? "bundle and coordinator are different builds (`./dev bundle` makes it anew)"
                   : "the worker there and the coordinator are different builds; it is not started "
                     "again";
@@ -133,7 +133,7 @@ Expected<SshWorkers> SshWorkers::start(SshWorkersOptions options) {
 }
 
 SshWorkers::~SshWorkers() {
-  stop(kEndGrace);
+  stop(kFarewell);
 }
 
 void SshWorkers::launch(Worker& worker, TimePoint now) {
@@ -216,17 +216,17 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   }
   if (!worker.begun) most_logins_ = kFewLogins;
   worker.trouble = reason(status, worker.said, ships);
-  worker.refused = code == kRefused;
+  worker.refused = code == kBuildRefused;
   // A worker ends well only when it is asked to.
-  const bool quick = code == 0 && now - worker.started < kShortLife;
+  const bool quick = code == 0 && now - worker.started < kShortConnection;
   worker.quick_ends = quick ? worker.quick_ends + 1 : 0;
-  if (worker.quick_ends >= kMostQuickEnds) {
+  if (worker.quick_ends >= kMostShortConnections) {
     worker.trouble =
         "the worker there ends as soon as it is started, with code 0; is it "
         "swarmsmith-worker? It is not started again";
     worker.refused = true;
   }
-  if (now - worker.started >= kShortLife) worker.backoff.reset();
+  if (now - worker.started >= kShortConnection) worker.backoff.reset();
   worker.start_at = now + worker.backoff.next();
 }
 
@@ -239,7 +239,7 @@ std::string SshWorkers::tend(TimePoint now) {
       on_ended(worker, *status, now);
     }
     if (worker.ssh.runs()) {
-      const bool is_late = worker.sends == nullptr && now - worker.started >= kShortLife;
+      const bool is_late = worker.sends == nullptr && now - worker.started >= kShortConnection;
       if (worker.connected) {
         worker.trouble.clear();
       } else if (is_late) {

@@ -21,9 +21,12 @@ Expected<std::vector<Patch>> patches_of(const RealRunRows& rows) {
   for (const RealPatchRow& row : rows.patches) {
     const auto color = parse_color(row.color);
     if (!color) return broken(rows, no_such_color(row.color));
-    Patch patch{.shape = Rectangle{{row.x, row.y}, row.width_m, row.height_m}, .color = *color};
-    if (row.radius_m > 0) patch.shape = Disc{{row.x, row.y}, row.radius_m};
-    patches.push_back(std::move(patch));
+    Patch& patch = patches.emplace_back();
+    patch.color = *color;
+    if (row.radius_m > 0)
+      patch.shape = Disc{{row.x, row.y}, row.radius_m};
+    else
+      patch.shape = Rectangle{{row.x, row.y}, row.width_m, row.height_m};
   }
   return patches;
 }

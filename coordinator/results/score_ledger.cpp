@@ -19,7 +19,7 @@ std::string select_scores() {
          " AND pair IS NOT NULL ORDER BY purpose = 'score', candidate, pair";
 }
 
-std::int64_t integer(const StoreReader::Cell& cell) {
+std::int64_t integer_at(const StoreReader::Cell& cell) {
   return integer_in(cell.text).value_or(0);
 }
 
@@ -28,15 +28,15 @@ std::int64_t integer(const StoreReader::Cell& cell) {
 Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
   ScoreLedger ledger;
   const auto take = [&](const std::vector<StoreReader::Cell>& row) {
-    const CandidateId candidate{integer(row[0])};
+    const CandidateId candidate{integer_at(row[0])};
     const DesignId design = design_of(candidate);
     const Purpose purpose = purpose_of_word(row[1].text).value_or(Purpose::Score);
-    const LedgerScore known{.key = {candidate, purpose, integer(row[2])},
-                            .instance = integer(row[3]),
+    const LedgerScore known{.key = {candidate, purpose, integer_at(row[2])},
+                            .instance = integer_at(row[3]),
                             .score = number_in(row[6].text).value_or(0),
-                            .state_digest = static_cast<std::uint64_t>(integer(row[7]))};
+                            .state_digest = static_cast<std::uint64_t>(integer_at(row[7]))};
     const std::string& source = row[5].text;
-    const std::int64_t seed = integer(row[4]);
+    const std::int64_t seed = integer_at(row[4]);
     if (purpose == Purpose::Score) {
       ledger.pairs_.emplace(Pair{design, source, seed, known.instance}, known.key.pair);
       std::int64_t& last = ledger.last_pair_[design];

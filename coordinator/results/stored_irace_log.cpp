@@ -23,12 +23,12 @@ namespace swarmsmith {
 namespace {
 
 using Cell = StoreReader::Cell;
-using Cells = std::vector<Cell>;
+using LogCells = std::vector<Cell>;
 
 /// The layout of the log, for functions of irace that look at its version; they drop the last word.
 constexpr const char* kLayout = "4.2.0.swarmsmith";
 
-std::int64_t integer(const Cell& cell) {
+std::int64_t integer_of(const Cell& cell) {
   return integer_in(cell.text).value_or(0);
 }
 double number(const Cell& cell) {
@@ -36,7 +36,7 @@ double number(const Cell& cell) {
 }
 /// NULL is 0.
 std::int64_t number_of_candidate(const Cell& cell) {
-  const std::int64_t id = integer(cell);
+  const std::int64_t id = integer_of(cell);
   return id == 0 ? 0 : number_of(CandidateId{id});
 }
 
@@ -136,7 +136,7 @@ class Reading {
     double cost = 0;
   };
 
-  Expected<void> each(const std::string& sql, const std::function<void(const Cells&)>& on_row) {
+  Expected<void> each(const std::string& sql, const std::function<void(const LogCells&)>& on_row) {
     const auto end = store_.query(
         sql,
         {.rows = std::numeric_limits<std::int64_t>::max(),
@@ -144,7 +144,7 @@ class Reading {
          .bytes = std::numeric_limits<std::int64_t>::max(),
          .memory = std::int64_t{1} << 30U},
         [](const auto&) {},
-        [&](const Cells& cells) {
+        [&](const LogCells& cells) {
           on_row_(++rows_);
           on_row(cells);
         });
@@ -192,18 +192,18 @@ Expected<void> Reading::read_design() {
       "SELECT mission, method, flavour, repetition, seed, budget, state, reason, campaign "
       "FROM v_designs" +
           of_design_,
-      [&](const Cells& cells) {
+      [&](const LogCells& cells) {
         found = true;
         row_ = {.id = design_,
                 .mission = cells[0].text,
                 .method = cells[1].text,
                 .flavour = cells[2].text,
-                .repetition = integer(cells[3]),
-                .seed = integer(cells[4]),
-                .budget = integer(cells[5])};
+                .repetition = integer_of(cells[3]),
+                .seed = integer_of(cells[4]),
+                .budget = integer_of(cells[5])};
         log_.completed = cells[6].text == "finished" ? cells[7].text : "Incomplete";
         if (log_.completed.empty()) log_.completed = "Finished";
-        campaign_ = integer(cells[8]);
+        campaign_ = integer_of(cells[8]);
       });
   if (!read) return read;
   if (!found) {
@@ -232,10 +232,10 @@ Expected<void> Reading::read_imported_settings() {
   std::string columns = "json_extract(deciding, '$.imported'), json_extract(deciding, '$.irace')";
   for (const std::string& file : irace_setting_files())
     columns += ", json_extract(deciding, '$.\"" + file + "\"')";
-  Cells kept;
+  LogCells kept;
   const auto read =
       each("SELECT " + columns + " FROM v_campaigns WHERE campaign = " + std::to_string(campaign_),
-           [&](const Cells& cells) { kept = cells; });
+           [&](const LogCells& cells) { kept = cells; });
   if (!read) return read;
   if (kept.empty() || kept[0].text != "irace log") {
     return bad_input("no race made it: it was imported", to_string(design_));
@@ -262,17 +262,17 @@ Expected<void> Reading::read_imported_settings() {
 Expected<void> Reading::read_iterations() {
   return each("SELECT iteration, planned, soft_restart FROM v_iterations" + of_design_ +
                   "ORDER BY iteration",
-              [&](const Cells& cells) {
-                log_.iterations = integer(cells[1]);
-                if (integer(cells[2]) != 0) log_.soft_restarts.push_back(integer(cells[0]));
+              [&](const LogCells& cells) {
+                log_.iterations = integer_of(cells[1]);
+                if (integer_of(cells[2]) != 0) log_.soft_restarts.push_back(integer_of(cells[0]));
               });
 }
 
 Expected<void> Reading::read_configurations() {
   return each(
       "SELECT number, parent FROM v_candidates" + of_design_ + "ORDER BY candidate",
-      [&](const Cells& cells) {
-        const std::int64_t id = integer(cells[0]);
+      [&](const LogCells& cells) {
+        const std::int64_t id = integer_of(cells[0]);
         configurations_.emplace(id, log_.configurations.size());
         log_.configurations.push_back({.id = id,
                                        .parent = number_of_candidate(cells[1]),
@@ -286,7 +286,7 @@ Expected<void> Reading::read_values() {
     places.emplace(log_.parameters[i].name, i);
   std::optional<std::string> unknown;
   const auto read = each("SELECT candidate, parameter, value FROM v_parameters" + of_design_,
-                         [&](const Cells& cells) {
+                         [&](const LogCells& cells) {
                            const auto place = places.find(cells[1].text);
                            if (place == places.end()) {
                              unknown = cells[1].text;
@@ -309,10 +309,10 @@ Expected<void> Reading::read_values() {
 Expected<void> Reading::read_pairs() {
   const auto read = each(
       "SELECT purpose, number, instance, seed FROM pair" + of_design_ + "ORDER BY purpose, number",
-      [&](const Cells& cells) {
-        const auto purpose = static_cast<Purpose>(integer(cells[0]));
-        const std::int64_t pair = integer(cells[1]);
-        const std::pair what{integer(cells[2]), integer(cells[3])};
+      [&](const LogCells& cells) {
+        const auto purpose = static_cast<Purpose>(integer_of(cells[0]));
+        const std::int64_t pair = integer_of(cells[1]);
+        const std::pair what{integer_of(cells[2]), integer_of(cells[3])};
         if (purpose == Purpose::Evaluator) tasks_.emplace(pair, what);
         if (purpose == Purpose::Race) pairs_.emplace(what, pair);
         if (purpose == Purpose::Test)
@@ -325,18 +325,18 @@ Expected<void> Reading::read_pairs() {
                               .seed = what.second});
       });
   if (!read) return read;
-  return each("SELECT iteration, pair, step FROM v_race_steps" + of_design_,
-              [&](const Cells& cells) {
-                steps_.emplace(std::pair{integer(cells[0]), integer(cells[1])}, integer(cells[2]));
-              });
+  return each(
+      "SELECT iteration, pair, step FROM v_race_steps" + of_design_, [&](const LogCells& cells) {
+        steps_.emplace(std::pair{integer_of(cells[0]), integer_of(cells[1])}, integer_of(cells[2]));
+      });
 }
 
 Expected<void> Reading::read_elites() {
   return each("SELECT iteration, rank, candidate FROM v_convergence" + of_design_ +
                   "ORDER BY iteration, rank",
-              [&](const Cells& cells) {
+              [&](const LogCells& cells) {
                 log_.elites.push_back(
-                    {integer(cells[0]), integer(cells[1]), number_of_candidate(cells[2])});
+                    {integer_of(cells[0]), integer_of(cells[1]), number_of_candidate(cells[2])});
               });
 }
 
@@ -344,13 +344,13 @@ Expected<void> Reading::read_runs() {
   const auto read = each(
       "SELECT candidate, purpose, pair, iteration, status, score, time, bound FROM v_evaluations " +
           of_design_ + "AND purpose IN ('race', 'test', 'evaluator') AND used <> 0",
-      [&](const Cells& cells) {
+      [&](const LogCells& cells) {
         const std::int64_t configuration = number_of_candidate(cells[0]);
-        const std::int64_t pair = integer(cells[2]);
+        const std::int64_t pair = integer_of(cells[2]);
         const double cost = cells[4].text == "ok" ? to_cost(number(cells[5]))
                                                   : std::numeric_limits<double>::infinity();
         if (cells[1].text == "race") {
-          log_.runs.push_back({.iteration = integer(cells[3]),
+          log_.runs.push_back({.iteration = integer_of(cells[3]),
                                .pair = pair,
                                .configuration = configuration,
                                .cost = cost,
@@ -365,7 +365,7 @@ Expected<void> Reading::read_runs() {
           if (of == pairs.end()) return;
           Costs& last = judged_[{configuration, test ? -of->second : of->second}];
           if (pair >= last.task) {
-            last = {.task = pair, .iteration = integer(cells[3]), .cost = cost};
+            last = {.task = pair, .iteration = integer_of(cells[3]), .cost = cost};
           }
         }
       });
@@ -404,7 +404,7 @@ Expected<double> Reading::read_lowered_bound() {
       "SELECT json_extract(text, '$.bound_max'), json_extract(text, '$.mean') FROM event "
       "WHERE kind = 'time estimated' AND json_extract(text, '$.design') = '" +
           to_string(design_) + "' ORDER BY seq DESC LIMIT 1",
-      [&](const Cells& cells) {
+      [&](const LogCells& cells) {
         // Said before the first race, it is not the last word yet.
         lowered = log_.elites.empty() ? std::min(number(cells[0]), 2 * number(cells[1]))
                                       : number(cells[0]);

@@ -10,6 +10,7 @@
 #include "coordinator/service/paused_designs.h"
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 namespace {

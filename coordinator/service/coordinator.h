@@ -1,5 +1,6 @@
 #pragma once
 
+#include <google/protobuf/arena.h>
 #include <cstdint>
 #include <deque>
 #include <map>

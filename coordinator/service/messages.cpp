@@ -4,6 +4,7 @@
 
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 namespace {
@@ -156,7 +157,7 @@ std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation)
   return encode(message);
 }
 
-CommandKind command_kind_of(pb::Command::Kind kind) {
+CommandKind command_kind_of(pb::Command_Kind kind) {
   for (const CommandKind known : {CommandKind::Pause, CommandKind::Resume, CommandKind::Cancel,
                                   CommandKind::Extend, CommandKind::Forgive}) {
     if (message_kind_of(known) == kind) return known;
@@ -164,7 +165,7 @@ CommandKind command_kind_of(pb::Command::Kind kind) {
   return CommandKind::Unknown;
 }
 
-pb::Command::Kind message_kind_of(CommandKind kind) {
+pb::Command_Kind message_kind_of(CommandKind kind) {
   switch (kind) {
     case CommandKind::Pause:
       return pb::Command::KIND_PAUSE;

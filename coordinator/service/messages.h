@@ -1,12 +1,14 @@
 #pragma once
 
+#include <google/protobuf/arena.h>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "coordinator/pool/scheduler_types.h"
-#include "proto/wire.pb.h"
+#include "proto/wire_fwd.h"
 
 namespace swarmsmith {
 
@@ -41,9 +43,9 @@ std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t in
 std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation);
 
 /// What people's programs ask, as rows have it: Unknown for what this version does not know.
-CommandKind command_kind_of(pb::Command::Kind kind);
+CommandKind command_kind_of(pb::Command_Kind kind);
 /// The same back; not of Unknown.
-pb::Command::Kind message_kind_of(CommandKind kind);
+pb::Command_Kind message_kind_of(CommandKind kind);
 /// Answers to them.
 std::string command_reply_of(bool done, const std::string& sentence);
 std::string status_reply_of(const std::string& json);

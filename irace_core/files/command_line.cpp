@@ -8,9 +8,9 @@ namespace swarmsmith {
 namespace {
 
 /// Takes the words one after the other.
-class Reader {
+class WordReader {
  public:
-  Reader(std::span<const std::string> words, const std::filesystem::path& folder)
+  WordReader(std::span<const std::string> words, const std::filesystem::path& folder)
       : words_(words), folder_(folder) {}
 
   IraceCommandLineOrErrors read() {
@@ -117,7 +117,7 @@ class Reader {
 
 IraceCommandLineOrErrors read_irace_command_line(std::span<const std::string> words,
                                                  const std::filesystem::path& folder) {
-  return Reader(words, folder).read();
+  return WordReader(words, folder).read();
 }
 
 }  // namespace swarmsmith

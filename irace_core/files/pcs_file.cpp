@@ -56,7 +56,7 @@ struct Comparison {
   std::vector<std::string> values;
 };
 
-constexpr std::array<std::pair<std::string_view, Operation>, 7> kOperators = {{
+constexpr std::array<std::pair<std::string_view, Operation>, 7> kPcsOperators = {{
     {"==", Operation::Equal},
     {"!=", Operation::NotEqual},
     {"<=", Operation::LessEqual},
@@ -81,7 +81,7 @@ Expected<Comparison> read_comparison(LineReader line) {
     found.values = split_list(*list);
     return line.at_comment_or_end() ? Expected<Comparison>(found) : begin.expected(wanted);
   }
-  for (const auto& [text, operation] : kOperators) {
+  for (const auto& [text, operation] : kPcsOperators) {
     if (!line.rest().starts_with(text)) continue;
     line.advance(text.size());
     found.operation = operation;
@@ -102,8 +102,8 @@ std::size_t find_outside(std::string_view text, std::string_view separator) {
   return std::string_view::npos;
 }
 
-Expected<Domain> numeric_domain(const std::string& bounds, bool whole, bool log,
-                                const std::string& where) {
+Expected<Domain> pcs_domain(const std::string& bounds, bool whole, bool log,
+                            const std::string& where) {
   const std::vector<std::string> items = split_list(bounds);
   const auto lower = number_of(items.front());
   const auto upper = number_of(items.back());
@@ -178,7 +178,7 @@ Expected<void> PcsReader::read_parameter(const std::string& name, LineReader lin
     return before_flags.expected(is_choice ? "the end of the line" : "i, l, il, log or the end");
   }
   if (!is_choice) {
-    auto numeric = numeric_domain(*domain, is_whole, is_log, place);
+    auto numeric = pcs_domain(*domain, is_whole, is_log, place);
     if (!numeric) return Unexpected(numeric.error());
     parameter.domain = std::move(*numeric);
   } else if (type == "ordinal") {

@@ -52,9 +52,9 @@ Expected<IraceValue> value_for(const IraceOption& option, const r::Vector& vecto
 }
 
 /// A file and those that it includes.
-class Reader {
+class ScenarioReader {
  public:
-  Reader(const fs::path& top, const ScenarioSurroundings& surroundings)
+  ScenarioReader(const fs::path& top, const ScenarioSurroundings& surroundings)
       : top_(top), surroundings_(surroundings) {
     environment_.environment_variable = surroundings.environment_variable;
   }
@@ -208,7 +208,7 @@ class Reader {
 
 IraceScenarioFileOrErrors parse_irace_scenario(std::string_view text, const fs::path& file,
                                                const ScenarioSurroundings& surroundings) {
-  Reader reader(file, surroundings);
+  ScenarioReader reader(file, surroundings);
   reader.read(text, file);
   return reader.take();
 }

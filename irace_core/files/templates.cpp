@@ -118,12 +118,12 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSet = {{
 }};
 
 std::string wrapped_comment(const std::string& text) {
-  constexpr std::size_t kWidth = 78;
+  constexpr std::size_t kCommentWidth = 78;
   std::string result;
   std::string line = "#";
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
-    if (line.size() + 1 + end - begin > kWidth && line.size() > 1) {
+    if (line.size() + 1 + end - begin > kCommentWidth && line.size() > 1) {
       result += line + "\n";
       line = "#";
     }

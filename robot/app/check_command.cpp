@@ -12,13 +12,13 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Words {
+struct CheckWords {
   std::string robots;
   std::string seconds;
   TransportWords transport;
 };
 
-ExitCode check(const Words& words, Output& output) {
+ExitCode check(const CheckWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   const auto seconds = number_option(words.seconds, "--seconds", 0.1, 3600);
@@ -68,7 +68,7 @@ ExitCode check(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_robot_check(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<CheckWords>();
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
   options.text("--seconds", words->seconds, "How long to wait for answers (default 5)");

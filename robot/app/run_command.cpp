@@ -25,7 +25,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Words {
+struct RunWords {
   std::string robot;
   std::optional<std::int64_t> index;
   std::string machine;
@@ -107,7 +107,7 @@ Expected<void> read_max_ages(const std::vector<std::string>& words, NodeSettings
   return {};
 }
 
-Expected<void> read_name(const Words& words, NodeSettings& settings) {
+Expected<void> read_name(const RunWords& words, NodeSettings& settings) {
   auto name = robot_name(words.robot);
   if (!name) return Unexpected(name.error());
   settings.robot = std::move(*name);
@@ -122,7 +122,7 @@ Expected<void> read_name(const Words& words, NodeSettings& settings) {
   return {};
 }
 
-Expected<NodeSettings> settings_of(const Words& words, bool lock_step) {
+Expected<NodeSettings> settings_of(const RunWords& words, bool lock_step) {
   NodeSettings settings;
   if (const auto read = read_name(words, settings); !read) return Unexpected(read.error());
   settings.seed = words.seed.value_or(1);
@@ -171,7 +171,7 @@ Expected<NodeSettings> settings_of(const Words& words, bool lock_step) {
 }
 
 /// What the node listens to.
-EndOptions end_options(const Words& words, const PerFeed<bool>& needed, Pace pace) {
+EndOptions end_options(const RunWords& words, const PerFeed<bool>& needed, Pace pace) {
   EndOptions end;
   end.keep = pace == Pace::Clock ? Keep::Newest : Keep::All;
   end.wheels = words.wheels == "floats"  ? WheelsForm::Floats
@@ -198,7 +198,7 @@ EndOptions end_options(const Words& words, const PerFeed<bool>& needed, Pace pac
 
 /// Puts this thread ahead of all that is not urgent; threads that it starts are as before. Returns
 /// what the log says of it.
-std::string schedule(const Words& words, Output& output) {
+std::string schedule(const RunWords& words, Output& output) {
   constexpr int kPriority = 20;
   if (words.normal_priority) return "normal priority";
   const sched_param wanted{.sched_priority = kPriority};
@@ -234,7 +234,7 @@ ExitCode exit_code_of(NodeLoop::Ending ending) {
   return ExitCode::Failed;
 }
 
-ExitCode run(const Words& words, Output& output) {
+ExitCode run(const RunWords& words, Output& output) {
   const Pace pace = words.lock_step.empty()       ? Pace::Clock
                     : words.lock_step == "senses" ? Pace::Senses
                                                   : Pace::CountedTopics;
@@ -287,7 +287,7 @@ ExitCode run(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_robot_run(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<RunWords>();
   constexpr auto kNeeded = Options::Need::Required;
   options.text("--robot ROBOT", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);
   options.text("--machine MACHINE|FILE", words->machine,

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Duration kTurn = std::chrono::milliseconds(20);
 
-struct Words {
+struct StartWords {
   std::string robots;
   std::string run;
   std::string seconds;
@@ -71,7 +71,7 @@ JsonObject verdicts_of(const RunStarter& starter) {
   return verdicts;
 }
 
-ExitCode answer(const Words& words, const RunStarter& starter, const std::string& file,
+ExitCode answer(const StartWords& words, const RunStarter& starter, const std::string& file,
                 Output& output) {
   const bool valid = starter.verdict() != RunVerdict::Invalid;
   if (output.json) {
@@ -110,7 +110,7 @@ ExitCode answer(const Words& words, const RunStarter& starter, const std::string
   return valid ? ExitCode::Done : ExitCode::InvalidRun;
 }
 
-ExitCode start(const Words& words, Output& output) {
+ExitCode start(const StartWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   if (!is_plain_name(words.run)) {
@@ -176,7 +176,7 @@ ExitCode start(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_robot_start(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<StartWords>();
   options.text("--run NAME", words->run, "Name of the run; no robot takes one twice",
                Options::Need::Required);
   options.text("--robots ROBOTS", words->robots,

@@ -16,14 +16,14 @@ namespace {
 constexpr Duration kAgainEvery = std::chrono::milliseconds(200);
 constexpr Duration kPatience = std::chrono::seconds(5);
 
-struct Words {
+struct StopWords {
   std::string robots;
   bool kill = false;
   TransportWords transport;
 };
 
 /// Tells them again and again until each stands, whatever run it is.
-ExitCode stop(const Words& words, Output& output) {
+ExitCode stop(const StopWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   const auto end = open_operator_end(words.transport, *names);
@@ -67,7 +67,7 @@ ExitCode stop(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_robot_stop(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<StopWords>();
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
   options.flag("--kill", words->kill, "And let no run start until the nodes are restarted");

@@ -27,7 +27,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Words {
+struct WorldWords {
   std::string mission;
   std::string profile = "rvr";
   std::string seeds = "1";
@@ -65,7 +65,7 @@ struct Plan {
   Duration patience{};
 };
 
-Duration duration_of(double seconds) {
+Duration world_duration(double seconds) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
 }
 
@@ -77,7 +77,7 @@ Unexpected complain(const std::vector<Error>& errors, const char* option, Output
   return bad_input(last.message, last.where.empty() ? option : last.where);
 }
 
-Expected<void> check_words(const Words& words) {
+Expected<void> check_words(const WorldWords& words) {
   if (words.lock_step == words.real_time) {
     return bad_input(
         "say how time goes: --lock-step (the world waits for the nodes: exact) or --real-time (by "
@@ -97,7 +97,7 @@ Expected<void> check_words(const Words& words) {
   return {};
 }
 
-SensorTopics sensors_of(const Words& words) {
+SensorTopics sensors_of(const WorldWords& words) {
   SensorTopics sensors = world_topics();
   sensors.scan = words.neighbours == "scan";
   sensors.neighbours = !sensors.scan;
@@ -108,7 +108,7 @@ SensorTopics sensors_of(const Words& words) {
   return sensors;
 }
 
-Expected<void> read_faults(const Words& words, Plan& plan) {
+Expected<void> read_faults(const WorldWords& words, Plan& plan) {
   for (const std::string& word : words.faults) {
     auto fault = parse_fault(word);
     if (!fault) return Unexpected(fault.error());
@@ -119,7 +119,7 @@ Expected<void> read_faults(const Words& words, Plan& plan) {
   return {};
 }
 
-Expected<void> read_robots(const Words& words, Plan& plan) {
+Expected<void> read_robots(const WorldWords& words, Plan& plan) {
   if (!words.robots.empty()) {
     auto names = robot_names(words.robots);
     if (!names) return Unexpected(names.error());
@@ -134,7 +134,7 @@ Expected<void> read_robots(const Words& words, Plan& plan) {
                    "--robots");
 }
 
-Expected<Plan> plan_of(const Words& words, Output& output) {
+Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   if (const auto good = check_words(words); !good) return Unexpected(good.error());
   Plan plan;
   auto mission = find_mission(words.mission, {});
@@ -172,10 +172,10 @@ Expected<Plan> plan_of(const Words& words, Output& output) {
   if (const auto read = read_faults(words, plan); !read) return Unexpected(read.error());
   const auto wait = number_option(words.wait, "--wait", 0, 86'400);
   if (!wait) return Unexpected(wait.error());
-  plan.wait = duration_of(wait->value_or(60));
+  plan.wait = world_duration(wait->value_or(60));
   const auto patience = number_option(words.patience, "--patience", 0.05, 3600);
   if (!patience) return Unexpected(patience.error());
-  plan.patience = duration_of(patience->value_or(5));
+  plan.patience = world_duration(patience->value_or(5));
   return plan;
 }
 
@@ -238,7 +238,7 @@ std::optional<TimePoint> start_of(const StateMessage& message) {
   if (!state || (state->phase != Phase::Armed && state->phase != Phase::Running)) return {};
   const double now_unix_s =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-  return SystemClock().now() + duration_of(state->start_unix_s - now_unix_s);
+  return SystemClock().now() + world_duration(state->start_unix_s - now_unix_s);
 }
 
 ExitCode exit_code_of(const Error& error) {
@@ -249,7 +249,8 @@ ExitCode exit_code_of(const Error& error) {
 
 class World {
  public:
-  World(const Words& words, const Plan& plan, WorldEnd& end, TrajectoryTable& table, Output& output)
+  World(const WorldWords& words, const Plan& plan, WorldEnd& end, TrajectoryTable& table,
+        Output& output)
       : words_(words), plan_(plan), end_(end), table_(table), output_(output) {
     options_.patience = plan.patience;
     options_.tell = [&output](const std::string& text) { print_note(output, text); };
@@ -378,7 +379,7 @@ class World {
     return ExitCode::Done;
   }
 
-  const Words& words_;
+  const WorldWords& words_;
   const Plan& plan_;
   WorldEnd& end_;
   TrajectoryTable& table_;
@@ -386,7 +387,7 @@ class World {
   WorldOptions options_;
 };
 
-ExitCode run(const Words& words, Output& output) {
+ExitCode run(const WorldWords& words, Output& output) {
   const auto plan = plan_of(words, output);
   if (!plan) return fail(output, ExitCode::Usage, plan.error());
   auto table = TrajectoryTable::open(words.csv);
@@ -400,7 +401,7 @@ ExitCode run(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_robot_world(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<WorldWords>();
   options.text("--mission MISSION|FILE", words->mission,
                "aggregation, grid_exploration, color_selection or a file", Options::Need::Required);
   options.text("--profile PROFILE|FILE", words->profile,

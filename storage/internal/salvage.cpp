@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
 
@@ -16,7 +17,7 @@ namespace {
 using sqlite::Connection;
 using sqlite::Statement;
 
-std::vector<TableShape> shapes_of_schema(std::int64_t schema) {
+std::vector<TableShape> shapes_made(std::int64_t schema) {
   std::vector<TableShape> shapes;
   // From the earliest on: columns that a later one has added may be missing in a record.
   std::map<std::pair<std::string, bool>, std::size_t> first_columns;
@@ -30,6 +31,16 @@ std::vector<TableShape> shapes_of_schema(std::int64_t schema) {
   for (TableShape& shape : shapes)
     shape.least_columns = first_columns.at({shape.tree, shape.has_rowids});
   return shapes;
+}
+
+/// Made once: a guess asks for those of each schema, for each size of pages.
+const std::vector<TableShape>& shapes_of_schema(std::int64_t schema) {
+  static std::mutex mutex;
+  static std::map<std::int64_t, std::vector<TableShape>> made;
+  const std::scoped_lock lock(mutex);
+  const auto known = made.find(schema);
+  return known != made.end() ? known->second
+                             : made.emplace(schema, shapes_made(schema)).first->second;
 }
 
 /// A row of sqlite_schema that names a table or an index: its name and the page that its tree
@@ -247,7 +258,7 @@ PageFind salvage_pages(PageImage& image, Connection& into) {
   found.schema_is_guessed = said < 1 || said > kSchemaVersion;
   found.schema = found.schema_is_guessed ? guess(image) : said;
   found.pages = static_cast<std::int64_t>(image.numbers().size());
-  const std::vector<TableShape> shapes = shapes_of_schema(found.schema);
+  const std::vector<TableShape>& shapes = shapes_of_schema(found.schema);
   Salvager salvager(image, shapes);
   std::vector<std::int64_t> doubled(shapes.size());
   {

@@ -107,15 +107,24 @@ const Tables& tables_made(std::int64_t schema) {
   return known->second;
 }
 
+/// What a store of a schema has, with views where it is today's; made once.
+const Objects& objects_made(std::int64_t schema) {
+  static std::mutex mutex;
+  static std::map<std::int64_t, Objects> made;
+  const std::scoped_lock lock(mutex);
+  if (const auto known = made.find(schema); known != made.end()) return known->second;
+  const bool with_views = schema == kSchemaVersion;
+  Objects objects = objects_of(made_anew(schema, with_views), with_views);
+  return made.emplace(schema, std::move(objects)).first->second;
+}
+
 constexpr const char* kNotOurs = "is not as Swarmsmith made it";
 
 }  // namespace
 
 std::vector<std::string> foreign_objects(const Connection& connection, std::int64_t schema) {
-  const bool with_views = schema == kSchemaVersion;
-  const Connection ours = made_anew(schema, with_views);
-  const Objects wanted = objects_of(ours, with_views);
-  const Objects found = objects_of(connection, with_views);
+  const Objects& wanted = objects_made(schema);
+  const Objects found = objects_of(connection, schema == kSchemaVersion);
   std::vector<std::string> foreign;
   for (const auto& [key, what] : found) {
     const auto& [type, name] = key;
@@ -123,8 +132,11 @@ std::vector<std::string> foreign_objects(const Connection& connection, std::int6
     if (known == wanted.end()) {
       foreign.push_back(type + " " + name);
     } else if (known->second != what) {
-      const std::string how = type == "table"
-                                  ? difference(columns_of(ours, name), columns_of(connection, name))
+      const Tables& tables = tables_made(schema);
+      const auto ours = std::ranges::find(
+          tables, name, [](const auto& each) -> const auto& { return each.first; });
+      const std::string how = type == "table" && ours != tables.end()
+                                  ? difference(ours->second, columns_of(connection, name))
                                   : "another text";
       foreign.push_back(fmt::format("{} {} ({})", type, name, how));
     }

@@ -172,7 +172,7 @@ class SimulatedCluster {
   TimePoint clock(int index) { return now_ + process(index).skew; }
   void plan_faults();
   void plan_commands();
-  void command(pb::Command::Kind kind, std::int64_t design);
+  void command(pb::Command_Kind kind, std::int64_t design);
   void resume_all();
   void forgive();
   void drain_worker(int worker, Duration after);

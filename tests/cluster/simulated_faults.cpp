@@ -1,6 +1,7 @@
 #include "tests/cluster/simulated_cluster.h"
 
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith::cluster {
 namespace {

@@ -5,6 +5,7 @@
 #include "coordinator/service/paused_designs.h"
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith::cluster {
 namespace {

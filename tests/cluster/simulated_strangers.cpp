@@ -7,6 +7,7 @@
 #include "coordinator/pool/task_key.h"
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 #include "storage/answer.h"
 #include "tests/cluster/simulated_cluster.h"
 

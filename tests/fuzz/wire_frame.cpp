@@ -1,4 +1,5 @@
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace swarmsmith::fuzz {

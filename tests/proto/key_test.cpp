@@ -1,4 +1,5 @@
 #include "proto/task_messages.h"
+#include "proto/wire.pb.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 namespace {

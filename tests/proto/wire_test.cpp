@@ -1,4 +1,5 @@
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 
 #include <gtest/gtest.h>
 #include <limits>

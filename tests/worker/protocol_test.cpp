@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "proto/task_messages.h"
+#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 namespace {

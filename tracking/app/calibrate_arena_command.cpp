@@ -26,7 +26,7 @@ constexpr int kLooks = 20;
 /// A video is looked at over at least this many frames, so that a passing hand is outvoted.
 constexpr std::int64_t kFrames = 200;
 
-struct Arguments {
+struct ArenaArguments {
   std::vector<std::string> words;
   std::string arena;
   std::string camera;
@@ -36,8 +36,9 @@ struct Arguments {
 };
 
 /// The floor tags in some twenty pictures.
-Expected<std::vector<std::vector<TagLook>>> looks_of(const Arguments& arguments, const Rig& rig,
-                                                     const CameraModel& model, Output& output) {
+Expected<std::vector<std::vector<TagLook>>> looks_of(const ArenaArguments& arguments,
+                                                     const Rig& rig, const CameraModel& model,
+                                                     Output& output) {
   auto detector = TagDetector::of_family(rig.family);
   if (!detector) return Unexpected(detector.error());
   std::vector<std::vector<TagLook>> looks;
@@ -111,7 +112,7 @@ std::string place_json(const PlaceCalibration& calibration, const std::string& f
 }
 
 /// What is asked, from pictures or from the last calibration's medians.
-Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
+Expected<PlaceQuestion> question_of(const ArenaArguments& arguments, const Rig& rig,
                                     const CameraSetup& camera, const Arena& arena, Output& output) {
   PlaceQuestion question;
   question.survey = rig.references;
@@ -145,7 +146,7 @@ Error beyond_reach(const CameraSetup& camera, double share) {
                   camera.model_file);
 }
 
-ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& camera,
+ExitCode solve(const ArenaArguments& arguments, const Rig& rig, const CameraSetup& camera,
                const Arena& arena, Output& output) {
   const auto model = rig.files.find(camera.model_file);
   if (model == rig.files.end()) {
@@ -177,7 +178,7 @@ ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& ca
   return ExitCode::Done;
 }
 
-ExitCode run(const Arguments& arguments, Output& output) {
+ExitCode run(const ArenaArguments& arguments, Output& output) {
   if (arguments.again == !arguments.words.empty()) {
     return fail(output, ExitCode::Usage,
                 "give a video or pictures of the empty arena, or --again to solve from the last "
@@ -199,7 +200,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 }  // namespace
 
 Run declare_calibrate_arena(Options& options) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ArenaArguments>();
   options.words("PICTURES FILE", arguments->words,
                 "A video or bag of the arena with its floor tags, or pictures or folders of them");
   options.text("--arena FILE", arguments->arena, "Arena file", Options::Need::Required);

@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t kLooks = 300;
 constexpr std::size_t kMostViews = 40;
 
-struct Arguments {
+struct CameraArguments {
   std::vector<std::string> words;
   std::string board;
   std::string file;
@@ -38,7 +38,7 @@ struct Target {
 };
 
 /// The file of `-o`, else the `model` of the arena file's camera, else the camera's name.
-tl::expected<Target, std::vector<Error>> target_of(const Arguments& arguments) {
+tl::expected<Target, std::vector<Error>> target_of(const CameraArguments& arguments) {
   Target target;
   if (arguments.arena.empty()) {
     target.file = (arguments.camera.empty() ? "ceiling" : arguments.camera) + ".camera.toml";
@@ -142,7 +142,7 @@ Expected<void> write_map(const CameraSolution& solution, const std::vector<Board
   return write_whole_file(file, residual_map_svg(solution, views));
 }
 
-ExitCode solve(const Arguments& arguments, const Target& target, const Board& board,
+ExitCode solve(const CameraArguments& arguments, const Target& target, const Board& board,
                const Finds& finds, Output& output) {
   const Lens lens = arguments.lens == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
   print_note(output, fmt::format("the board is in {} of {} pictures; solving",
@@ -175,7 +175,7 @@ ExitCode solve(const Arguments& arguments, const Target& target, const Board& bo
   return ExitCode::Done;
 }
 
-ExitCode run(const Arguments& arguments, Output& output) {
+ExitCode run(const CameraArguments& arguments, Output& output) {
   const auto board = parse_board(arguments.board);
   if (!board) return fail(output, ExitCode::Usage, board.error());
   const auto target = target_of(arguments);
@@ -207,7 +207,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 }  // namespace
 
 Run declare_calibrate_camera(Options& options) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CameraArguments>();
   options.words("PICTURES FILE", arguments->words,
                 "Pictures of the board, folders of them, or a video or bag of it",
                 Options::Need::Required);

@@ -15,7 +15,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Arguments {
+struct RobotArguments {
   std::string robot;
   std::string spin;
   std::string straight;
@@ -55,7 +55,7 @@ JsonObject offset_json(const OffsetCalibration& calibration, const std::string& 
 }
 
 /// Of one of the robot's tags: offset of the spin, yaw of the straight run.
-Expected<OffsetCalibration> solve_tag(const Arguments& arguments, const Rig& rig,
+Expected<OffsetCalibration> solve_tag(const RobotArguments& arguments, const Rig& rig,
                                       const CameraSetup& camera, const RobotSetup& robot,
                                       Output& output) {
   const auto named = [](Error error, const std::string& video) {
@@ -81,7 +81,7 @@ Expected<OffsetCalibration> solve_tag(const Arguments& arguments, const Rig& rig
 }
 
 /// Of all of its tags, from the same films.
-Expected<OffsetCalibration> solve(const Arguments& arguments, const Rig& rig,
+Expected<OffsetCalibration> solve(const RobotArguments& arguments, const Rig& rig,
                                   const CameraSetup& camera, const RobotSetup& robot,
                                   Output& output) {
   auto calibration = solve_tag(arguments, rig, camera, robot, output);
@@ -101,7 +101,7 @@ void date(OffsetCalibration& calibration) {
     tag.made = calibration.made;
 }
 
-ExitCode run(const Arguments& arguments, Output& output) {
+ExitCode run(const RobotArguments& arguments, Output& output) {
   if (arguments.reverse && arguments.straight.empty()) {
     return fail(output, ExitCode::Usage, "--reverse applies to a straight run: --straight VIDEO");
   }
@@ -156,7 +156,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 }  // namespace
 
 Run declare_calibrate_robot(Options& options) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RobotArguments>();
   options.text("NAME", arguments->robot, "The robot, as the arena file names it",
                Options::Need::Required);
   options.text("--spin FILE", arguments->spin, "Video of the robot turning on the spot, two turns",

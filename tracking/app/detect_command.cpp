@@ -20,7 +20,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Words {
+struct DetectWords {
   std::string source;
   std::string family = "tag36h11";
   std::string csv;
@@ -87,7 +87,7 @@ void add(Finds& finds, const Frame& frame, const std::vector<Detection>& seen) {
   }
 }
 
-Expected<Finds> look(const Words& words, Output& output) {
+Expected<Finds> look(const DetectWords& words, Output& output) {
   auto detector = TagDetector::of_family(words.family);
   if (!detector) return Unexpected(detector.error());
   auto source = FrameSource::open(words.source);
@@ -170,7 +170,7 @@ void print(const Finds& finds, Output& output) {
                                  kSmall_px, small));
 }
 
-ExitCode run(const Words& words, Output& output) {
+ExitCode run(const DetectWords& words, Output& output) {
   const auto finds = look(words, output);
   if (!finds) return fail(output, exit_code_of_tracking(finds.error()), finds.error());
   if (words.csv == "-") {
@@ -188,7 +188,7 @@ ExitCode run(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_detect(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<DetectWords>();
   options.text("SOURCE FILE", words->source, "Video, picture, folder of pictures or bag",
                Options::Need::Required);
   options.text("--family FAMILY", words->family, "Family of the tags (default tag36h11)");

@@ -29,7 +29,7 @@ constexpr std::int64_t kPort = 8080;
 constexpr std::size_t kDelaysKept = 100;
 constexpr std::chrono::milliseconds kPatience{200};
 
-struct Words {
+struct LiveWords {
   std::string arena;
   std::string source;
   std::string view;
@@ -226,7 +226,7 @@ ExitCode answer(Watched& watched, Output& output) {
   return ExitCode::Done;
 }
 
-ExitCode live(const Words& words, Output& output) {
+ExitCode live(const LiveWords& words, Output& output) {
   const auto failed = [&](const Error& error) {
     return fail(output, exit_code_of_tracking(error), error);
   };
@@ -277,7 +277,7 @@ ExitCode live(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_live(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<LiveWords>();
   options.text("--arena FILE", words->arena, "Arena file", Options::Need::Required);
   options.text("--camera CAMERA|FILE", words->source,
                "What to watch: camera:0, an address, a video file, a folder of images, a bag",

@@ -32,7 +32,7 @@ constexpr double kAround_s = 1;
 /// Floor tags are shown where they were within so long.
 constexpr double kReferenceHolds_s = 5;
 
-struct Words {
+struct OverlayWords {
   ScoreArguments run;
   std::string video;
   std::string camera;
@@ -50,7 +50,7 @@ struct DrawnRun {
   std::size_t camera = 0;
 };
 
-OrRefusal<DrawnRun> run_of_videos(const Words& words, Output& output) {
+OrRefusal<DrawnRun> run_of_videos(const OverlayWords& words, Output& output) {
   auto plan = plan_run(words.run);
   if (!plan) return tl::unexpected(std::move(plan.error()));
   auto observations = watch_run(*plan, output);
@@ -64,7 +64,7 @@ OrRefusal<DrawnRun> run_of_videos(const Words& words, Output& output) {
   return run;
 }
 
-OrRefusal<DrawnRun> run_of_store(const Words& words) {
+OrRefusal<DrawnRun> run_of_store(const OverlayWords& words) {
   const std::string store = store_word(words.run.store);
   if (store.empty())
     return refused(
@@ -86,7 +86,7 @@ OrRefusal<DrawnRun> run_of_store(const Words& words) {
 }
 
 /// Which camera, and that its video is the one that was scored.
-std::optional<Refusal> settle_video(const Words& words, DrawnRun& run) {
+std::optional<Refusal> settle_video(const OverlayWords& words, DrawnRun& run) {
   const auto& cameras = run.rig.cameras;
   if (!words.camera.empty()) {
     const auto found = std::find_if(cameras.begin(), cameras.end(),
@@ -191,8 +191,8 @@ class Sink {
   std::unique_ptr<VideoWriter> writer_;
 };
 
-Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s, const Words& words,
-                            Output& output) {
+Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s,
+                            const OverlayWords& words, Output& output) {
   Mission mission = run.log.mission;
   mission.arena.patches.insert(mission.arena.patches.end(), run.analysis.scored.patches.begin(),
                                run.analysis.scored.patches.end());
@@ -229,7 +229,7 @@ Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s, con
 }
 
 /// `--at` as seconds of the run.
-Expected<std::optional<double>> instant_of(const Words& words) {
+Expected<std::optional<double>> instant_of(const OverlayWords& words) {
   if (words.at.empty()) return std::optional<double>();
   double value = 0;
   const char* const end = words.at.data() + words.at.size();
@@ -240,7 +240,7 @@ Expected<std::optional<double>> instant_of(const Words& words) {
   return std::optional<double>(value);
 }
 
-ExitCode overlay(const Words& words, Output& output) {
+ExitCode overlay(const OverlayWords& words, Output& output) {
   const auto at_s = instant_of(words);
   if (!at_s) return fail(output, ExitCode::Usage, at_s.error());
   const bool is_stored =
@@ -263,7 +263,7 @@ ExitCode overlay(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_overlay(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<OverlayWords>();
   ScoreArguments& run = words->run;
   constexpr Options::Range kTags{0, 65'535};
   options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",

@@ -12,7 +12,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Arguments {
+struct OverrideArguments {
   std::string run;
   std::string store;
   std::string verdict;
@@ -24,7 +24,7 @@ bool is_blank(const std::string& text) {
   return std::ranges::all_of(text, [](unsigned char c) { return std::isspace(c) != 0; });
 }
 
-ExitCode run(const Arguments& arguments, Output& output) {
+ExitCode run(const OverrideArguments& arguments, Output& output) {
   for (const auto& [option, text] :
        {std::pair("--who", arguments.who), std::pair("--reason", arguments.reason)}) {
     if (!is_blank(text)) continue;
@@ -68,7 +68,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 }  // namespace
 
 Run declare_track_override(Options& options) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<OverrideArguments>();
   options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
   options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},
                  "The new verdict", Options::Need::Required);

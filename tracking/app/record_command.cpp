@@ -18,7 +18,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Words {
+struct RecordWords {
   std::string source;
   std::string file;
   std::string seconds;
@@ -48,7 +48,7 @@ std::optional<double> counting_rate(const SourceInfo& info, std::optional<double
   return std::nullopt;
 }
 
-ExitCode answer(const Words& words, const Recording& recording, Output& output) {
+ExitCode answer(const RecordWords& words, const Recording& recording, Output& output) {
   if (output.json) {
     output.out << JsonObject()
                       .add("file", words.file)
@@ -65,7 +65,7 @@ ExitCode answer(const Words& words, const Recording& recording, Output& output) 
   return ExitCode::Done;
 }
 
-ExitCode record(const Words& words, Output& output) {
+ExitCode record(const RecordWords& words, Output& output) {
   const auto failed = [&](const Error& error) {
     return fail(output, exit_code_of_tracking(error), error);
   };
@@ -110,7 +110,7 @@ ExitCode record(const Words& words, Output& output) {
 }  // namespace
 
 Run declare_record(Options& options) {
-  auto words = std::make_shared<Words>();
+  auto words = std::make_shared<RecordWords>();
   options.text("SOURCE FILE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);
   options.text("FILE", words->file, "Video to write, a .mkv", Options::Need::Required);

@@ -16,7 +16,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-struct Arguments {
+struct RescoreArguments {
   std::vector<std::string> runs;
   std::string store;
   std::string arena;
@@ -84,7 +84,7 @@ struct Again {
   RunAnalysis analysis;
 };
 
-OrRefusal<Again> score_again(const Arguments& arguments, RealRunRows before) {
+OrRefusal<Again> score_again(const RescoreArguments& arguments, RealRunRows before) {
   auto stored = stored_run(before);
   if (!stored) return refused(std::move(stored.error()));
   std::string arena_text = before.arena_file;
@@ -137,7 +137,7 @@ void print_again(const std::string& word, const Again& again, bool all_checks, O
              << word << " is now: " << result_text(again.log, again.analysis, all_checks);
 }
 
-ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output& output) {
+ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word, Output& output) {
   const std::string path = store_word(arguments.store);
   const auto reader = read_store(path);
   if (!reader) return fail(output, reader.error());
@@ -154,7 +154,7 @@ ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output
 }
 
 /// All of them, whatever becomes of one; the first that is not well decides the exit code.
-ExitCode run(const Arguments& arguments, Output& output) {
+ExitCode run(const RescoreArguments& arguments, Output& output) {
   if (store_word(arguments.store).empty()) {
     return fail(output, ExitCode::Usage,
                 "no store given; name its file with --store, or set SWARMSMITH_STORE");
@@ -170,7 +170,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 }  // namespace
 
 Run declare_track_rescore(Options& options) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RescoreArguments>();
   options.words("RUN", arguments->runs, "Runs of the store: r7", Options::Need::Required);
   options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
   options.text("--arena FILE", arguments->arena,

@@ -48,7 +48,7 @@ std::optional<Number> number_of(std::string_view text) {
 }
 
 /// Of a text that may be anything, as it stands in a sentence.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 30;
   std::string shown;
   for (const char c : text.substr(0, kMost))
@@ -86,7 +86,7 @@ Expected<Columns> columns_of(const std::vector<std::string>& names, std::string_
   for (std::size_t i = 0; i < names.size(); ++i) {
     auto& column = names[i] == "frame" ? frame : time;
     if (names[i] != "frame" && time_column(names[i]) == nullptr) continue;
-    if (column) return bad_times("column " + quoted(names[i]) + " is there twice", "line 1");
+    if (column) return bad_times("column " + in_quotes(names[i]) + " is there twice", "line 1");
     column = i;
   }
   if (frame && time) {
@@ -95,7 +95,7 @@ Expected<Columns> columns_of(const std::vector<std::string>& names, std::string_
   return bad_times(
       "a file of frame times begins with the columns `frame,time_s` (or `time_ms`, "
       "`time_us`, `time_ns`, or `time` with dates like 2026-11-18T11:06:40.250), this one with " +
-          quoted(header),
+          in_quotes(header),
       "line 1");
 }
 
@@ -131,12 +131,12 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
       return bad_times(
           fmt::format("frame {} is expected here, not {}: frames count from 0, without "
                       "gaps",
-                      times.size(), quoted(cells[columns->frame])),
+                      times.size(), in_quotes(cells[columns->frame])),
           where);
     }
     auto time = number_of<double>(cells[columns->time]);
     if (time && columns->unit_s == 0) {
-      return bad_times(quoted(cells[columns->time]) +
+      return bad_times(in_quotes(cells[columns->time]) +
                            " has no unit; name the column `time_s`, `time_ms`, `time_us` or "
                            "`time_ns`",
                        where);
@@ -144,7 +144,7 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
     if (time) *time *= columns->unit_s;
     if (!time) time = iso_time(cells[columns->time]);
     if (!time || !std::isfinite(*time)) {
-      return bad_times(quoted(cells[columns->time]) +
+      return bad_times(in_quotes(cells[columns->time]) +
                            " is not a time: neither a number nor a date like "
                            "2026-11-18T11:06:40.250",
                        where);

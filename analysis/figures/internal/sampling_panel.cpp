@@ -16,10 +16,6 @@ namespace {
 constexpr std::string_view kFrame = "#999999";
 constexpr std::string_view kDensityColor = "#2c5f8a";
 
-TextStyle ink(TextStyle::Anchor anchor) {
-  return {.size = kTextSize, .anchor = anchor, .fill = std::string(kInk)};
-}
-
 std::size_t shade_of(double density) {
   std::size_t shade = 0;
   while (shade + 1 < kDensities.size() && density > kDensities[shade + 1])

@@ -9,9 +9,6 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kColumnWidth = 84;
-constexpr double kWholeWidth = 174;
-
 /// `text` with the design's number for each "#".
 std::string of_design(std::string_view text, DesignId design) {
   std::string result;

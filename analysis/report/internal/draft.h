@@ -14,6 +14,10 @@
 
 namespace swarmsmith {
 
+/// Widths of figures in papers, mm: a column, and both.
+inline constexpr double kColumnWidth = 84;
+inline constexpr double kWholeWidth = 174;
+
 /// A report while it is written: the page, where its rows come from, and the first thing that went
 /// wrong, after which nothing more is read.
 class ReportDraft {

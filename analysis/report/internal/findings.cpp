@@ -12,8 +12,6 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kWholeWidth = 174;
-constexpr double kColumnWidth = 84;
 /// What a first page has room for; the rest is below.
 constexpr std::size_t kMostSentences = 6;
 constexpr std::size_t kMostMissions = 3;

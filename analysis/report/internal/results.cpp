@@ -19,8 +19,6 @@ namespace swarmsmith {
 namespace {
 
 /// A page of a paper, for figures of all designs.
-constexpr double kWholeWidth = 174;
-constexpr double kColumnWidth = 84;
 constexpr double kMiddleWidth = 120;
 
 struct ScoreGroup {

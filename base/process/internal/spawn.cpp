@@ -105,7 +105,7 @@ bool make_pipe(Descriptor& reader, Descriptor& writer) {
   return writer.get() >= 0;
 }
 
-std::vector<char*> pointers_to(const std::vector<std::string>& words) {
+std::vector<char*> argument_pointers(const std::vector<std::string>& words) {
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);
   for (const std::string& word : words)
@@ -149,10 +149,10 @@ void Descriptor::reset() {
 
 Expected<Child> spawn(const std::string& program, const std::vector<std::string>& words,
                       const std::string& folder) {
-  const std::vector<char*> pointers = pointers_to(words);
+  const std::vector<char*> pointers = argument_pointers(words);
   std::vector<std::string> through_shell{"sh", program};
   through_shell.insert(through_shell.end(), words.begin() + 1, words.end());
-  const std::vector<char*> shell_pointers = pointers_to(through_shell);
+  const std::vector<char*> shell_pointers = argument_pointers(through_shell);
 
   Child child;
   Descriptor output;

@@ -11,9 +11,9 @@ namespace swarmsmith {
 namespace {
 
 /// Reads the parameters of a kind, whatever it is, from the keys that it names.
-class FieldReader {
+class ScoreReader {
  public:
-  FieldReader(TableReader& table, std::string kind) : table_(table), kind_(std::move(kind)) {}
+  ScoreReader(TableReader& table, std::string kind) : table_(table), kind_(std::move(kind)) {}
 
   void operator()(const ScoreField& field, double& value) {
     need(field, "1");
@@ -99,7 +99,7 @@ std::optional<ScoreRule> read_score(TableReader& score) {
   }
   std::optional<ScoreRule> rule = score_of_kind(*kind);
   const std::size_t complaints = score.complaints();
-  FieldReader reader(score, *kind);
+  ScoreReader reader(score, *kind);
   visit_fields(*rule, reader);
   if (score.complaints() == complaints) {
     if (const auto fault = fault_of(*rule)) score.complain(fault->where, fault->message);

@@ -14,7 +14,7 @@ namespace {
 constexpr int kDodecagon = 12;
 /// A circle's walls; the arena is larger than the circle by a thousandth of its area.
 constexpr int kCircleSides = 60;
-constexpr std::size_t kMostCorners = 200;
+constexpr std::size_t kMostWallCorners = 200;
 constexpr Limits<double> kArea{0.01, 10'000};
 
 /// Keys of the walls, with the shapes that have them.
@@ -84,9 +84,9 @@ std::vector<Point> read_polygon(TableReader& arena) {
     corners = std::move(*joined_sides);
   }
   if (corners.empty()) return {};
-  if (corners.size() > kMostCorners) {
+  if (corners.size() > kMostWallCorners) {
     arena.complain(key, "`" + key + "` has " + std::to_string(corners.size()) +
-                            " corners; at most " + std::to_string(kMostCorners) + " are taken");
+                            " corners; at most " + std::to_string(kMostWallCorners) + " are taken");
     return {};
   }
   if (const auto flaw = flaw_of(corners)) {

@@ -204,7 +204,7 @@ TEST(MachineLayout, IsTheSameEachTime) {
 }
 
 TEST(MachineLayout, RefusesWhatIsNoMachine) {
-  EXPECT_THROW(lay_out({}, watermelon(), kPage), std::invalid_argument);
+  EXPECT_THROW(lay_out(Machine{}, watermelon(), kPage), std::invalid_argument);
   EXPECT_THROW(lay_out(fullest_machine({{0}}), watermelon(), kPage), std::invalid_argument);
   EXPECT_THROW(lay_out(fullest_machine({{2}, {}}), watermelon(), kPage), std::invalid_argument);
   EXPECT_THROW(lay_out(fullest_machine({{1}, {}}), watermelon(), 50), std::invalid_argument);

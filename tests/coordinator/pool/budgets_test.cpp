@@ -4,6 +4,7 @@
 
 #include "coordinator/service/coordinator.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 #include "tests/coordinator/synthetic_campaign.h"
 #include "tests/support/flat_campaign.h"
 

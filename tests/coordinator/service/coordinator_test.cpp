@@ -4,6 +4,7 @@
 
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 #include "tests/coordinator/synthetic_campaign.h"
 
 namespace swarmsmith {

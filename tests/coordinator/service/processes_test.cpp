@@ -17,6 +17,7 @@
 #include "proto/scenario/scenario.h"
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"

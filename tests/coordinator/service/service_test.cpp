@@ -8,6 +8,7 @@
 #include "base/rng.h"
 #include "proto/task_messages.h"
 #include "proto/wire.h"
+#include "proto/wire.pb.h"
 #include "tests/coordinator/synthetic_campaign.h"
 #include "tests/support/memory_store.h"
 #include "worker/service.h"
