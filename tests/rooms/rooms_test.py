@@ -11,7 +11,7 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "robot", "analysis", "coordinator", "console",
        "cli", "tracking", "web")
-WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE")
+WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE", "LATE")
 
 
 # Standard headers, and names that only they are sure to bring. Another version of the library has them somewhere else.
@@ -54,7 +54,7 @@ def libraries(texts):
     for folder, text in texts.items():
         text = re.sub(r"#[^\n]*", "", text)
         variables = sets_of([text])
-        for kind, arguments in re.findall(r"swarmsmith_(component|program)\(([^)]*)\)", text):
+        for kind, arguments in re.findall(r"swarmsmith_(component|program|late_program)\(([^)]*)\)", text):
             name, *words = re.sub(r"\$\{(\w+)\}", lambda found: " ".join(variables.get(found[1], [])), arguments).split()
             lists = {word: [] for word in WORDS}
             kept = None
