@@ -115,7 +115,7 @@ TEST(SolveOffsetTest, EachLimitRefusesWithItsValue) {
   EXPECT_THAT(faults(spin({.drift_m_s = 0.01})), HasSubstr("crept at 10.4"));
   EXPECT_THAT(faults(spin({.turns = 0, .heading_noise_rad = 0})), HasSubstr("do not show a turn"));
   EXPECT_THAT(faults(spin({.turns = 0})), HasSubstr("turned by 0 degrees"));
-  EXPECT_THAT(faults({}), HasSubstr("0 samples"));
+  EXPECT_THAT(faults(std::vector<TagSample>{}), HasSubstr("0 samples"));
   // It drives in a circle of 0.3 m.
   std::vector<TagSample> curve = spin({});
   for (TagSample& sample : curve) {
