@@ -4,7 +4,8 @@
 #include <opencv2/core/version.hpp>
 #include <vector>
 
-/// OpenCV's ChArUco boards. Version 4.7 gave them getters in place of members, and made a dictionary a value.
+/// OpenCV's ChArUco boards. Version 4.7 gave them getters in place of members, and made a
+/// dictionary a value.
 namespace swarmsmith::charuco {
 
 using Board = cv::Ptr<cv::aruco::CharucoBoard>;

@@ -130,7 +130,8 @@ ColorImage Pictures::color(const AVFrame& frame) {
 
 void fill(AVFrame& frame, const ColorImage& image, Scaler& kept) {
   if (kept == nullptr) {
-    // Two pixels make one of colour; without the flag, a last one takes the next row's for its pair.
+    // Two pixels make one of colour; without the flag, a last one takes the next row's for its
+    // pair.
     const int how = frame.width % 2 == 0 ? kExact : kExact | SWS_FULL_CHR_H_INP;
     kept.reset(sws_getContext(frame.width, frame.height, AV_PIX_FMT_BGR24, frame.width,
                               frame.height, without_range(static_cast<AVPixelFormat>(frame.format)),
