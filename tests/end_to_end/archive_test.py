@@ -52,18 +52,18 @@ class Archived(ProgramTest):
 
     def into(self, root):
         """Puts the archive into a home in `root`; what to put before a command there."""
-        home = root / "home/somebody"
+        home = root / "home/user"
         home.mkdir(parents=True)
         shutil.copytree(self.unpacked, home / self.unpacked.name)
         shutil.copytree(home / self.unpacked.name / "share/doc/swarmsmith/examples/lab", home / "lab")
         (root / "etc").mkdir(exist_ok=True)
         (root / "etc/ld.so.preload").write_text("/of/another/libc.so\n")
         self.root, self.home = root, home
-        self.bin = pathlib.Path("/home/somebody", self.unpacked.name, "bin")
+        self.bin = pathlib.Path("/home/user", self.unpacked.name, "bin")
 
     def there(self, program, *words, folder=""):
         mine = [] if os.geteuid() == 0 else ["--map-root-user"]
-        return ["unshare", *mine, "--root", str(self.root), "--wd", f"/home/somebody/{folder}", str(self.bin / program), *map(str, words)]
+        return ["unshare", *mine, "--root", str(self.root), "--wd", f"/home/user/{folder}", str(self.bin / program), *map(str, words)]
 
     def answers(self):
         """All programs say their version, the demo gives this build's bits, a film is scored, pages are shown."""
