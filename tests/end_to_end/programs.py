@@ -3,7 +3,9 @@ import contextlib
 import json
 import os
 import pathlib
+import random
 import signal
+import socket
 import sqlite3
 import subprocess
 import tempfile
@@ -41,6 +43,20 @@ max_experiments = {budget}
 [simulator]
 profile = "argos3"
 """
+
+
+def free_ports(count):
+    """Free ports that the system never gives to a program that asks for any port. A test needs such a port when it
+    starts a program later, or again: the tests beside it make connections all the time."""
+    first_of_any = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
+    ports = set()
+    for port in random.sample(range(first_of_any // 2, first_of_any), 1000):
+        with contextlib.suppress(OSError), socket.socket() as holder:
+            holder.bind(("127.0.0.1", port))
+            ports.add(port)
+        if len(ports) == count:
+            return sorted(ports)
+    raise AssertionError(f"no {count} free ports below {first_of_any}")
 
 
 def call(*arguments, timeout=300, cwd=None):

@@ -19,7 +19,7 @@ import tempfile
 import time
 import unittest
 
-from programs import BIN, CAMPAIGN, PATIENCE, SWARMSMITH, call, children_of, send  # noqa: F401
+from programs import BIN, CAMPAIGN, PATIENCE, SWARMSMITH, call, children_of, free_ports, send  # noqa: F401
 
 WORKER = str(BIN / "swarmsmith-worker")
 LONG = os.environ.get("SWARMSMITH_LONG") == "1"
@@ -196,8 +196,9 @@ class FaultTest(unittest.TestCase):
         self.started += 1
         return kind(self, f"{self.started}-{name}", command, env, prefix)
 
-    def serve(self, *arguments, bind="127.0.0.1:*", env=None, prefix=(), wait=True):
-        """A coordinator that listens; with `wait`, its address is known."""
+    def serve(self, *arguments, bind=None, env=None, prefix=(), wait=True):
+        """A coordinator that listens; with `wait`, its address is known. Another one can be started there later."""
+        bind = bind or f"127.0.0.1:{free_ports(1)[0]}"
         it = self.start("serve", SWARMSMITH, "serve", self.file, "--store", self.store, "--json",
                         "--bind", bind, *arguments, env=env, prefix=prefix, kind=Coordinator)
         if wait:

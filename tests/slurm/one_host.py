@@ -9,7 +9,6 @@ import contextlib
 import ctypes
 import os
 import pathlib
-import random
 import shutil
 import signal
 import socket
@@ -17,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from programs import free_ports
 
 PROGRAMS = {"munged": "munge", "slurmctld": "slurmctld", "slurmd": "slurmd",
             "sbatch": "slurm-client", "squeue": "slurm-client"}
@@ -70,20 +71,6 @@ def why_not():
     except OSError:
         return f"the name of this host ({socket.gethostname()}) has no address: see /etc/hosts"
     return None
-
-
-def free_ports(count):
-    """Ports that nobody has right now, and that the system gives to nobody who asks for any port: tests beside
-    this one make connections all the time, and a daemon needs a while until it has its port."""
-    first_of_any = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
-    ports = set()
-    for port in random.sample(range(first_of_any // 2, first_of_any), 1000):
-        with contextlib.suppress(OSError), socket.socket() as holder:
-            holder.bind(("127.0.0.1", port))
-            ports.add(port)
-        if len(ports) == count:
-            return sorted(ports)
-    raise AssertionError(f"no {count} free ports below {first_of_any}")
 
 
 def wait_for(condition, what, limit_s=60, pause_s=0.1):

@@ -5,7 +5,8 @@ import shutil
 import socket
 import subprocess
 
-from one_host import _end_with_the_test, free_ports, wait_for
+from one_host import _end_with_the_test, wait_for
+from programs import free_ports
 
 SERVER = """\
 ListenAddress 127.0.0.1
