@@ -602,14 +602,14 @@ class Dashboard final : public HttpSite {
       if (runs && store.place && now->status.campaigns &&
           *store.place < now->status.campaigns->size())
         status = &(*now->status.campaigns)[*store.place];
-      const auto state = read_campaign_state(**reader, is_written, status == nullptr);
+      const auto state = read_campaign_state(**reader, is_written, status);
       if (!state) return Unexpected(state.error());
       campaigns +=
           (i == 0 ? "" : ",") + campaign_json(c, options_.is_snapshot ? kSomeStore : store.file,
-                                              *state, status, runs ? seconds_left(now->status) : -1,
+                                              *state, runs ? seconds_left(now->status) : -1,
                                               static_cast<bool>(options_.act))
                                     .text();
-      std::ranges::move(looks_of(c, *state, status), std::back_inserter(looks));
+      std::ranges::move(looks_of(c, *state), std::back_inserter(looks));
     }
     {
       const std::scoped_lock lock(mutex_);
@@ -626,7 +626,7 @@ class Dashboard final : public HttpSite {
             .add("engine", kEngineVersion)
             .add("may_act", static_cast<bool>(options_.act))
             .add("running", runs)
-            .add("status", JsonPiece{runs ? head_json(now->status) : std::string("null")})
+            .add("status", runs ? std::optional(head_json(now->status)) : std::nullopt)
             .add("looks", looks_json(looks))
             .add("campaigns", JsonPiece{"[" + campaigns + "]"}));
   }
@@ -636,8 +636,8 @@ class Dashboard final : public HttpSite {
     if (now && Clock::now() - now->when < kStale)
       return json_answer(
           answer_object()
-              .add("workers", JsonPiece{fleet_json(now->status)})
-              .add("quarantine", JsonPiece{quarantine_json(now->status.quarantine)}));
+              .add("workers", fleet_json(now->status))
+              .add("quarantine", quarantine_json(now->status.quarantine)));
     std::string all;
     std::vector<QuarantineStatus> quarantine;
     for (const DashboardStore& store : options_.stores) {
@@ -653,7 +653,7 @@ class Dashboard final : public HttpSite {
     }
     return json_answer(answer_object()
                            .add("workers", JsonPiece{"[" + all + "]"})
-                           .add("quarantine", JsonPiece{quarantine_json(quarantine)}));
+                           .add("quarantine", quarantine_json(quarantine)));
   }
 
   Expected<Answer> history(const SiteRequest& request) {

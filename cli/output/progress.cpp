@@ -98,11 +98,8 @@ void Progress::add_line(const std::string& line) {
 }
 
 void Progress::write_events(const LiveStatus& live) {
-  std::int64_t left = 0;
-  for (const ProgressModel& model : models_)
-    left += model.budget() - model.used();
   for (std::size_t i = 0; i < models_.size(); ++i)
-    output_.out << of_campaign(progress_json(models_[i], live, left), names_[i]) << '\n';
+    output_.out << of_campaign(progress_json(models_[i], live), names_[i]) << '\n';
   output_.out << std::flush;
 }
 
@@ -138,6 +135,8 @@ void Progress::update(const LiveStatus& live, TimePoint now) {
 }
 
 void Progress::finish(const LiveStatus& live) {
+  for (ProgressModel& model : models_)
+    model.drop_open_steps();
   switch (form_) {
     case Form::Silent:
       break;

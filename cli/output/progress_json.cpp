@@ -154,20 +154,22 @@ std::string of_campaign(std::string event, const std::string& name) {
   return event;
 }
 
-std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left) {
-  const bool known = live.evaluations_per_s > 0;
+std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
+  const CampaignTotals totals = model.totals();
+  const double seconds = seconds_left(live);
   return event_object("progress")
-      .add("designs", model.designs())
-      .add("designs_finished", model.finished())
-      .add("used", model.used())
-      .add("budget", model.budget())
+      .add("designs", totals.designs)
+      .add("designs_finished", totals.finished)
+      .add("used", totals.used)
+      .add("in_step", totals.in_step)
+      .add("budget", totals.budget)
+      .add("left", totals.left)
       .add("workers", live.workers)
       .add("slots", live.slots)
       .add("leased", live.leased)
       .add("done", live.done)
       .add("rate", live.evaluations_per_s)
-      .add("eta_s",
-           known ? std::optional(static_cast<double>(left) / live.evaluations_per_s) : std::nullopt)
+      .add("eta_s", seconds < 0 ? std::nullopt : std::optional(seconds))
       .add("failed", live.failed)
       .add("rejected", live.rejected)
       .add("requeued", live.requeued)

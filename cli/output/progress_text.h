@@ -53,8 +53,8 @@ std::string event_line(const EventRow& event);
 /// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none
 /// (candidates, pairs, single evaluations, totals).
 std::string event_json(const Row& row);
-/// {"v":1,"event":"progress",...}; `left` experiments of all campaigns make the expected time.
-std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left);
+/// {"v":1,"event":"progress",...}; the expected time is that of all campaigns.
+std::string progress_json(const ProgressModel& model, const LiveStatus& live);
 /// The event with the name of its campaign; unchanged without one.
 std::string of_campaign(std::string event, const std::string& name);
 

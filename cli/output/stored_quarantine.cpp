@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/text/json.h"
 #include "cli/output/query_output.h"
 
 namespace swarmsmith::cli {
@@ -56,19 +55,6 @@ std::vector<std::string> quarantine_lines(const std::vector<QuarantineStatus>& q
                     "\"` lets it work again");
   }
   return lines;
-}
-
-std::string quarantine_json(const std::vector<QuarantineStatus>& quarantine) {
-  return json_list(quarantine,
-                   [](const QuarantineStatus& one) {
-                     return JsonObject()
-                         .add("who", one.who)
-                         .add("reason", one.reason)
-                         .add("since", one.since)
-                         .add("worker", one.worker)
-                         .add("workers", one.workers);
-                   })
-      .text;
 }
 
 std::string workers_with_quarantine() {

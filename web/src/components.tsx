@@ -106,8 +106,8 @@ export function Bar({ value, of, name }: { value: number; of: number; name: stri
 }
 
 /// "1 200 of 3 000, 40 %" of a budget.
-export function used_of({ used, budget }: { used: number; budget: number }): Children {
-  return [whole(used), " ", <small>of {whole(budget)}, {percent(budget > 0 ? used / budget : 0)}</small>];
+export function used_of({ used, budget, left }: { used: number; budget: number; left: number }): Children {
+  return [whole(used), " ", <small>of {whole(budget)}, {percent(budget > 0 ? 1 - left / budget : 0)}</small>];
 }
 
 interface ChoiceProps {
