@@ -23,7 +23,8 @@ namespace {
 /// who race now.
 constexpr const char* kDesigns =
     "SELECT d.design, d.campaign, "
-    "coalesce((SELECT s.alive_after FROM race_step AS s WHERE s.design = d.design AND s.iteration = "
+    "coalesce((SELECT s.alive_after FROM race_step AS s WHERE s.design = d.design AND s.iteration "
+    "= "
     "d.iteration ORDER BY s.step DESC LIMIT 1), (SELECT i.configurations FROM iteration AS i WHERE "
     "i.design = d.design AND i.number = d.iteration)) AS alive, "
     "coalesce((SELECT max(s.step) FROM race_step AS s WHERE s.design = d.design), 0) + d.iteration "
@@ -137,7 +138,8 @@ std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& stat
   for (const CampaignStatus& campaign : state.campaigns) {
     for (const DesignStatus& design : campaign.designs) {
       const std::string id = to_string(design.id);
-      if (design.state == DesignState::Stopped) looks.push_back({id + " has stopped", c + "/" + id});
+      if (design.state == DesignState::Stopped)
+        looks.push_back({id + " has stopped", c + "/" + id});
     }
   }
   return looks;

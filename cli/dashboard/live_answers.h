@@ -34,8 +34,8 @@ struct StoredCampaignState {
   std::vector<QuarantineStatus> quarantine;  ///< while no process writes the store
 };
 
-/// `now`: what the coordinator that runs it says; null for none, and then from the store. Errors: as
-/// a query's.
+/// `now`: what the coordinator that runs it says; null for none, and then from the store. Errors:
+/// as a query's.
 Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written,
                                                   const CampaignStatus* now);
 

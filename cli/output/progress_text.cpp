@@ -47,7 +47,7 @@ std::string bar(std::int64_t used, std::int64_t budget) {
 struct Totals : CampaignTotals {
   explicit Totals(std::span<const ProgressModel> models) {
     for (const ProgressModel& model : models) {
-      over += model.totals().is_over();
+      over += model.totals().are_over();
       for (const auto& [id, progress] : model.by_design())
         add(progress);
     }
@@ -192,9 +192,8 @@ std::string elite_line(const EliteRow& elite, const DesignProgress& progress,
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
                        const std::string& best_mean) {
   std::string text = to_string(state.design) + " " +
-                     std::string(shown_state(progress, state.state)) + "  " +
-                     progress.mission + " " + progress.method + " " +
-                     std::to_string(progress.repetition);
+                     std::string(shown_state(progress, state.state)) + "  " + progress.mission +
+                     " " + progress.method + " " + std::to_string(progress.repetition);
   // Without a budget there is no race.
   if (progress.budget > 0 || state.used > 0) {
     text += "  " + grouped(state.used) + "/" + grouped(progress.budget);
@@ -204,7 +203,7 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
   const bool as_it_should =
       state.best && (state.reason.starts_with("not enough") ||
                      (progress.options && (state.reason == "the budget is used" ||
-                                          state.reason == "limit of iterations")));
+                                           state.reason == "limit of iterations")));
   if (!state.reason.empty() && !as_it_should) text += "  (" + state.reason + ")";
   return text;
 }

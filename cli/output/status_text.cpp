@@ -83,8 +83,8 @@ void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
   if (status.campaigns) {
     for (const CampaignStatus& one : *status.campaigns) {
       const CampaignTotals totals = one.totals();
-      lines.push_back(fmt::format("campaign {}  {}  designs {}/{}  experiments {}", one.name, one.state,
-                                  totals.finished, totals.designs, experiments(totals)));
+      lines.push_back(fmt::format("campaign {}  {}  designs {}/{}  experiments {}", one.name,
+                                  one.state, totals.finished, totals.designs, experiments(totals)));
       if (!one.trouble.empty()) lines.push_back("  trouble: " + one.trouble);
     }
   }
@@ -155,12 +155,14 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         if (is_racing != racing) continue;
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
-        lines.push_back(fmt::format(
-            "{:<5} {:<11}{:>9}/{:<9} {} {:<9} {} {}{}{}", to_string(one.id),
-            shown_state(campaign, one), one.used, one.budget, part,
-            one.best ? fmt::format("{:.4g}", one.best_mean) : "", one.mission, one.method,
-            several ? "  " + campaign.name : "", one.stage.empty() ? "" : "  " + one.stage) +
-            (one.state == DesignState::Stopped && !one.reason.empty() ? "  (" + one.reason + ")" : ""));
+        lines.push_back(fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<9} {} {}{}{}", to_string(one.id),
+                                    shown_state(campaign, one), one.used, one.budget, part,
+                                    one.best ? fmt::format("{:.4g}", one.best_mean) : "",
+                                    one.mission, one.method, several ? "  " + campaign.name : "",
+                                    one.stage.empty() ? "" : "  " + one.stage) +
+                        (one.state == DesignState::Stopped && !one.reason.empty()
+                             ? "  (" + one.reason + ")"
+                             : ""));
       }
     }
   }
@@ -247,8 +249,8 @@ std::vector<std::string> status_lines(const LiveStatus& status, const Screen& sc
   const std::size_t room = screen.height > lines.size() ? screen.height - lines.size() : 0;
   // Half each, and what the one does not need for the other.
   const std::size_t want_hosts = hosts.empty() ? 0 : hosts.size() + 2;
-  add_table(lines, "design state           used/budget             best      mission method", designs,
-            std::max(room / 2, room - std::min(room, want_hosts)));
+  add_table(lines, "design state           used/budget             best      mission method",
+            designs, std::max(room / 2, room - std::min(room, want_hosts)));
   add_table(lines, "host                 here gone slots  held   busy  evals/s failed silent",
             hosts, screen.height > lines.size() ? screen.height - lines.size() : 0);
   if (lines.size() > screen.height) lines.resize(screen.height);
@@ -263,8 +265,9 @@ std::string status_summary(const LiveStatus& status) {
   const bool all_there =
       launcher.name.empty() || (launcher.running >= launcher.wanted && launcher.note.empty());
   return fmt::format("experiments {}  workers {}  slots {}  {:.0f}/s  {}{}{}",
-                     experiments(totals_of(status)), status.workers, status.slots, status.evaluations_per_s,
-                     shares(status.slot_times_last_minute), eta(status), troubles(status)) +
+                     experiments(totals_of(status)), status.workers, status.slots,
+                     status.evaluations_per_s, shares(status.slot_times_last_minute), eta(status),
+                     troubles(status)) +
          (all_there ? "" : "  " + to_text(status.launcher)) +
          (status.trouble.empty() ? "" : "  NOTHING IS STORED: " + status.trouble);
 }

@@ -29,7 +29,8 @@ constexpr const char* kDesigns =
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written) {
   std::vector<CampaignStatus> campaigns;
   std::map<std::string, std::size_t> places;  // by number
-  const auto heads = select(store, "SELECT campaign, name, state FROM v_campaigns ORDER BY campaign");
+  const auto heads =
+      select(store, "SELECT campaign, name, state FROM v_campaigns ORDER BY campaign");
   if (!heads) return Unexpected(heads.error());
   for (const auto& cells : heads->cells) {
     places.emplace(cells[0].text, campaigns.size());

@@ -8,8 +8,8 @@
 
 namespace swarmsmith::cli {
 
-/// The campaigns of a store as a coordinator would describe them. `is_written`: a process writes the
-/// store; without one, a campaign that is not finished is "interrupted". Errors: as a query's.
+/// The campaigns of a store as a coordinator would describe them. `is_written`: a process writes
+/// the store; without one, a campaign that is not finished is "interrupted". Errors: as a query's.
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written);
 
 }  // namespace swarmsmith::cli

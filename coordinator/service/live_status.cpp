@@ -182,7 +182,8 @@ CampaignStatus campaign_of(const nlohmann::json& json) {
     const nlohmann::json& one = json.at("designs")[i];
     DesignStatus& design = campaign.designs[i];
     // A word of another version says nothing.
-    design.state = design_state_of(one.at("state").get<std::string>()).value_or(DesignState::Waiting);
+    design.state =
+        design_state_of(one.at("state").get<std::string>()).value_or(DesignState::Waiting);
     design.stage = one.value("stage", "");
     design.search = one.value("search", "");
   }
@@ -254,11 +255,11 @@ JsonPiece fleet_json(const LiveStatus& status) {
 }
 
 JsonObject to_json(const LiveStatus& status) {
-  return std::move(
-      head_json(status)
-          .add("campaigns", status.campaigns ? json_list(*status.campaigns, json_of_campaign)
+  return std::move(head_json(status)
+                       .add("campaigns", status.campaigns
+                                             ? json_list(*status.campaigns, json_of_campaign)
                                              : JsonPiece{"[]"})
-          .add("fleet", fleet_json(status)));
+                       .add("fleet", fleet_json(status)));
 }
 
 Expected<LiveStatus> live_status_of(const std::string& text) {
@@ -275,7 +276,8 @@ Expected<LiveStatus> live_status_of(const std::string& text) {
     for (const nlohmann::json& one : json.at("campaigns"))
       campaigns.push_back(campaign_of(one));
     status.campaigns = std::make_shared<const std::vector<CampaignStatus>>(std::move(campaigns));
-    status.fleet = std::make_shared<const std::vector<WorkerStatus>>(list_of<WorkerStatus>(json, "fleet"));
+    status.fleet =
+        std::make_shared<const std::vector<WorkerStatus>>(list_of<WorkerStatus>(json, "fleet"));
     return status;
   } catch (const nlohmann::json::exception& error) {
     return unexpected(ErrorKind::Corrupt, std::string("no status: ") + error.what(),

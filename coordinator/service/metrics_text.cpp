@@ -85,8 +85,7 @@ auto of_designs(Get get) {
     if (!status.campaigns) return;
     for (const CampaignStatus& campaign : *status.campaigns) {
       for (const DesignStatus& design : campaign.designs) {
-        out.add({{"campaign", campaign.name}, {"design", to_string(design.id)}},
-                get(design));
+        out.add({{"campaign", campaign.name}, {"design", to_string(design.id)}}, get(design));
       }
     }
   };
@@ -189,8 +188,7 @@ std::vector<Metric> campaign_metrics() {
       {"swarmsmith_failed_total", "counter", "Attempts without a score, by reason", write_failed},
       {"swarmsmith_campaign_used", "gauge", "Experiments that the races of a campaign have used",
        of_campaigns([](const CampaignStatus& one) { return one.totals().used; })},
-      {"swarmsmith_campaign_budget", "gauge",
-       "Budget of the races in experiments",
+      {"swarmsmith_campaign_budget", "gauge", "Budget of the races in experiments",
        of_campaigns([](const CampaignStatus& one) { return one.totals().budget; })},
       {"swarmsmith_campaign_left", "gauge",
        "Experiments that the races may still use; none of a race that is over",

@@ -28,7 +28,7 @@ struct DesignStatus {
   std::int64_t iteration = 0;
   CandidateId best{};
   double best_mean = 0;
-  bool paused = false;  ///< nothing of it is leased until a person resumes it
+  bool paused = false;   ///< nothing of it is leased until a person resumes it
   std::string reason{};  ///< why it ended
   /// Where its search is, as people read it, and the search's name (irace_core/search/stage.h);
   /// empty for an iterated race, and then not in the JSON.
@@ -50,7 +50,7 @@ struct CampaignTotals {
   std::int64_t budget = 0;
   std::int64_t left = 0;
 
-  bool is_over() const { return finished + stopped == designs; }
+  bool are_over() const { return finished + stopped == designs; }
   void add(const DesignStatus& design);
 };
 CampaignTotals totals_of(std::span<const DesignStatus> designs);

@@ -37,7 +37,8 @@ void Telemetry::on_rows(std::size_t index, std::span<const Row> rows, TimePoint 
   Campaign& campaign = campaigns_[index];
   for (const Row& row : rows) {
     campaign.progress.add(row);
-    if (const auto* state = std::get_if<CampaignStateRow>(&row)) campaign.status.state = state->state;
+    if (const auto* state = std::get_if<CampaignStateRow>(&row))
+      campaign.status.state = state->state;
     const auto* step = std::get_if<RaceStepRow>(&row);
     if (step == nullptr) continue;
     const auto [last, is_first] = campaign.last_step.try_emplace(step->design, now);

@@ -68,7 +68,8 @@ TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {
   const std::string text = joined(status_lines(cluster(), {200, 100}));
   EXPECT_THAT(text, HasSubstr("last minute  busy 75 %  barrier 20 %  on the way 5 %\n"));
   EXPECT_THAT(text, HasSubstr("[##############################bbbbbbbboo]"));
-  EXPECT_THAT(text, HasSubstr("campaign thesis  running  designs 20/30  experiments 20800/30000 (70 %)"));
+  EXPECT_THAT(text,
+              HasSubstr("campaign thesis  running  designs 20/30  experiments 20800/30000 (70 %)"));
   EXPECT_THAT(text, HasSubstr("ETA 1m30s"));
 }
 
