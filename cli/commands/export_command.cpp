@@ -85,7 +85,7 @@ enum Column {
 };
 
 CandidateId candidate_of(const std::vector<StoreReader::Cell>& cells) {
-  return {std::stoll(cells[kCandidate].text)};
+  return {cells[kCandidate].integer()};
 }
 
 /// With parameters and modules, which are JSON already.

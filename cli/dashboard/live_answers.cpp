@@ -178,18 +178,17 @@ Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_wr
   const auto designs = select(store, kDesigns, kRecordLimits);
   if (!designs) return Unexpected(designs.error());
   for (const auto& cells : designs->cells) {
-    using Type = StoreReader::Cell::Type;
-    StoredDesign& design = state.designs[{std::atoll(cells[0].text.c_str())}];
-    if (cells[2].type != Type::Null) design.alive = std::atoll(cells[2].text.c_str());
-    design.version = std::atoll(cells[3].text.c_str());
+    StoredDesign& design = state.designs[cells[0].id<DesignId>()];
+    if (!cells[2].is_null()) design.alive = cells[2].integer();
+    design.version = cells[3].integer();
   }
   const auto event = select(store,
                             "SELECT coalesce(max(seq), 0), coalesce(sum(kind = 'evaluation "
                             "rejected'), 0) FROM event",
                             kRecordLimits);
   if (!event) return Unexpected(event.error());
-  state.last_event = std::atoll(event->cells.front()[0].text.c_str());
-  state.rejected = std::atoll(event->cells.front()[1].text.c_str());
+  state.last_event = event->cells.front()[0].integer();
+  state.rejected = event->cells.front()[1].integer();
   if (is_written) return state;
   auto quarantine = stored_quarantine(store);
   if (!quarantine) return Unexpected(quarantine.error());

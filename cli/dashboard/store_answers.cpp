@@ -140,7 +140,7 @@ Expected<std::optional<JsonObject>> tests_of(const Question& question) {
   if (rows->cells.empty()) return std::optional<JsonObject>();
   std::vector<double> scores;
   for (const auto& cells : rows->cells)
-    scores.push_back(std::strtod(cells.front().text.c_str(), nullptr));
+    scores.push_back(cells.front().real());
   const MeanInterval interval = mean_interval(scores);
   return std::optional(JsonObject()
                            .add("n", scores.size())

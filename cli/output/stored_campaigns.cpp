@@ -1,7 +1,6 @@
 #include "cli/output/stored_campaigns.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <string>
 #include <utility>
@@ -11,14 +10,6 @@
 
 namespace swarmsmith::cli {
 namespace {
-
-/// Of a cell; 0 for null.
-template <class Number>
-Number number_of(const StoreReader::Cell& cell) {
-  Number value{};
-  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-  return value;
-}
 
 constexpr const char* kDesigns =
     "SELECT design, campaign, mission, method, repetition, state, used, budget, iteration, "
@@ -46,16 +37,16 @@ Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool 
   const auto stages = StoredStages::read(store);
   if (!stages) return Unexpected(stages.error());
   for (const auto& cells : designs->cells) {
-    DesignStatus design{.id = {number_of<std::int64_t>(cells[0])},
+    DesignStatus design{.id = cells[0].id<DesignId>(),
                         .mission = cells[2].text,
                         .method = cells[3].text,
-                        .repetition = number_of<std::int64_t>(cells[4]),
+                        .repetition = cells[4].integer(),
                         .state = design_state_of(cells[5].text).value_or(DesignState::Waiting),
-                        .used = number_of<std::int64_t>(cells[6]),
-                        .budget = number_of<std::int64_t>(cells[7]),
-                        .iteration = number_of<std::int64_t>(cells[8]),
-                        .best = {number_of<std::int64_t>(cells[9])},
-                        .best_mean = number_of<double>(cells[10]),
+                        .used = cells[6].integer(),
+                        .budget = cells[7].integer(),
+                        .iteration = cells[8].integer(),
+                        .best = cells[9].id<CandidateId>(),
+                        .best_mean = cells[10].real(),
                         .reason = cells[11].text};
     const auto command = paused.find(design.id);
     design.paused = command != paused.end() && command->second && !is_over(design.state);

@@ -40,7 +40,7 @@ Expected<std::vector<QuarantineStatus>> stored_quarantine(StoreReader& store) {
     all.push_back({.who = who,
                    .reason = cells[4].text,
                    .since = cells[3].text,
-                   .worker = is_one ? std::atoll(cells[1].text.c_str()) : 0});
+                   .worker = is_one ? cells[1].integer() : 0});
   }
   return all;
 }

@@ -68,7 +68,7 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
                         " has no winner yet; name the candidate that ran: --candidate",
                     store});
   }
-  return CandidateId{std::stoll(best.text)};
+  return CandidateId{best.integer()};
 }
 
 /// As robots' logs have it; what is no text of the grammar, as of a program, stays as it is.
