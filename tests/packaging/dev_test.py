@@ -72,5 +72,62 @@ class Packages(unittest.TestCase):
             self.assertIn(words[-1].removeprefix("--"), done.stderr)
 
 
+class Gates(unittest.TestCase):
+    """A gate of real tests: which of them run, and what is remembered."""
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmsmith-gate-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for words in (["init", "-q"], ["config", "user.name", "a"], ["config", "user.email", "a@b"]):
+            subprocess.run(["git", *words], cwd=self.folder, check=True)
+        (self.folder / ".gitignore").write_text("/build*\n/marks\n")
+        (self.folder / "source.cpp").write_text("int a;\n")
+        (self.folder / "build").mkdir()
+        (self.folder / "marks").mkdir()
+        (self.folder / "build/CTestTestfile.cmake").write_text("".join(
+            f"add_test(\"{name}\" \"sh\" \"-c\" \"echo >>'{self.folder}/marks/{name}'; {words}\")\n" for name, words in
+            (("one", "true"), ("two words", f"test -e {self.folder}/marks/mended"), ("three", "true"),
+             ("reporting", "test ! -e ../marks/leak || echo leak >${ASAN_OPTIONS#log_path=}"))))
+        subprocess.run("git add -A && git commit -qm one", shell=True, cwd=self.folder, check=True)
+
+    def gate(self):
+        """`gate here`, a gate of the tests of build/, by the functions of ./dev."""
+        done = subprocess.run(
+            ["bash", "-c", f"cd {SOURCE} && . ./dev help >/dev/null && cd {self.folder} && set +e && jobs=1\n"
+             "packages_for() { :; }; what_runs() { echo these; }; gate_here() { tests_gate build; }; gate here"],
+            capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stdout
+
+    def runs(self):
+        return {mark.name: len(mark.read_text()) for mark in (self.folder / "marks").iterdir() if mark.name not in ("mended", "leak")}
+
+    def test_goes_on_where_it_stopped_for_the_same_tree(self):
+        code, table = self.gate()
+        self.assertNotEqual(code, 0)
+        self.assertIn("3 of 4 tests", table)
+        self.assertIn("RED", table)
+        (self.folder / "marks/mended").touch()
+        code, table = self.gate()
+        self.assertEqual((code, "4 of 4 tests" in table, "RED" in table), (0, True, False), table)
+        self.assertEqual(self.runs(), {"one": 1, "two words": 2, "three": 1, "reporting": 1})
+        code, table = self.gate()
+        self.assertEqual((code, "green" in table), (0, True), table)
+        self.assertEqual(self.runs()["two words"], 2)
+
+    def test_another_tree_begins_anew_also_before_it_is_in_a_commit(self):
+        (self.folder / "marks/mended").touch()
+        self.assertEqual(self.gate()[0], 0)
+        (self.folder / "source.cpp").write_text("int b;\n")
+        self.assertEqual(self.gate()[0], 0)
+        self.assertEqual(set(self.runs().values()), {2})
+
+    def test_a_report_of_a_sanitizer_is_red_whatever_the_tests_say(self):
+        (self.folder / "marks/mended").touch()
+        (self.folder / "marks/leak").touch()
+        code, table = self.gate()
+        self.assertNotEqual(code, 0)
+        self.assertIn("RED", table)
+
+
 if __name__ == "__main__":
     unittest.main()
