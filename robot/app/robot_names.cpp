@@ -1,9 +1,6 @@
 #include "robot/app/robot_names.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 
 #include "base/text/csv.h"
 #include "robot/runtime/order.h"
@@ -31,8 +28,9 @@ Expected<std::string> robot_name(const std::string& word) {
     return kStem + std::to_string(number_of(word));
   }
   if (!is_plain_name(word) || (word[0] >= '0' && word[0] <= '9') || word[0] == '-')
-    return bad_input("`" + word + "` is no robot's name: a letter, then letters, digits and _",
-                     "--robot");
+    return bad_input(
+        "`" + word + "` is not a valid robot name (a letter, then letters, digits or _)",
+        "--robot");
   return word;
 }
 
@@ -69,15 +67,6 @@ Expected<std::vector<std::string>> robot_names(const std::string& words) {
   if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
     return bad_input("the robot " + *twice + " is there twice", "--robots");
   return names;
-}
-
-Expected<std::optional<double>> number_option(const std::string& text, const char* option,
-                                              double least, double most) {
-  if (text.empty()) return std::optional<double>();
-  const auto value = number_in(text);
-  if (!value || !(*value >= least && *value <= most))
-    return bad_input(fmt::format("`{}` is no number from {} to {}", text, least, most), option);
-  return value;
 }
 
 }  // namespace swarmsmith::cli

@@ -38,6 +38,9 @@ Expected<std::unique_ptr<WorldEnd>> open_world_end(const TransportWords& words,
 Expected<std::unique_ptr<OperatorEnd>> open_operator_end(const TransportWords& words,
                                                          const std::vector<std::string>& names);
 
+/// `--wheels`.
+void declare_wheels(Options& options, WheelsForm& wheels);
+
 /// What to exit with when an end cannot be opened: 2 for wrong words, else 5.
 ExitCode exit_code_of_transport(const Error& error);
 

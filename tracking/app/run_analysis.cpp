@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/control/treads.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/observing/sync_event.h"
 #include "tracking/robots/robot_logs.h"
@@ -67,7 +68,6 @@ void check_start(const Observations& observations, const RunLog& log, std::vecto
 
 /// Nodes cut commands that are faster than they allow.
 void know_speeds(const std::vector<RobotLog>& logs, TrackLimits& limits) {
-  constexpr double kTreadDistance_m = 0.147;
   double most = 0;
   for (const RobotLog& log : logs)
     most = std::max(most, log.record.head.max_mps);
