@@ -2,12 +2,12 @@
 #include <memory>
 
 #include "base/output_file.h"
-#include "base/suggestion.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
+#include "tracking/app/run_checks.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
@@ -31,10 +31,7 @@ Expected<RobotSetup> robot_of(const Rig& rig, const std::string& name) {
     if (robot.name == name) return robot;
     names.push_back(robot.name);
   }
-  return Unexpected(error_of(IssueCode::Config,
-                             "the arena has no robot \"" + name + "\"" + did_you_mean(name, names) +
-                                 "; it has: " + joined(names),
-                             rig.file));
+  return Unexpected(unknown("robot", name, names, rig.file));
 }
 
 JsonObject offset_json(const OffsetCalibration& calibration, const std::string& file) {

@@ -30,7 +30,8 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
                                           Output& output);
 
 /// The camera of a name, or the only one when the name is empty. E_CONFIG lists the known ones.
-Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name);
+Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name,
+                                const std::string& option = "--camera");
 
 /// A file that an arena file names, from where this program runs.
 std::string beside(const std::string& arena_file, const std::string& file);

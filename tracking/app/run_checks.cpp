@@ -17,14 +17,6 @@ std::vector<std::string> names_of(const std::vector<Setup>& setups) {
   return names;
 }
 
-Error unknown(const std::string& what, const std::string& name,
-              const std::vector<std::string>& known, const std::string& file) {
-  return error_of(IssueCode::Config,
-                  "the arena has no " + what + " \"" + name + "\"" + did_you_mean(name, known) +
-                      "; it has: " + joined(known),
-                  file);
-}
-
 void check_camera(const Rig& rig, const CameraSetup& camera, std::vector<Error>& errors) {
   const auto lacks = [&](const std::string& file, const std::string& how) {
     errors.push_back(error_of(
@@ -40,6 +32,14 @@ void check_camera(const Rig& rig, const CameraSetup& camera, std::vector<Error>&
 }
 
 }  // namespace
+
+Error unknown(const std::string& what, const std::string& name,
+              const std::vector<std::string>& known, const std::string& file) {
+  return error_of(IssueCode::Config,
+                  "the arena has no " + what + " \"" + name + "\"" + did_you_mean(name, known) +
+                      "; it has: " + joined(known),
+                  file);
+}
 
 std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
   std::vector<Error> errors;

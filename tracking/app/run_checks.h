@@ -9,6 +9,10 @@
 
 namespace swarmsmith::cli {
 
+/// E_CONFIG for a name that the arena file does not have: "robot", rvr9, those that it has, its file.
+Error unknown(const std::string& what, const std::string& name,
+              const std::vector<std::string>& known, const std::string& file);
+
 /// Fills in what a log with one camera need not say, and checks its names against the rig: cameras
 /// of videos, robots that took part. Returns everything that is wrong.
 std::vector<Error> settle_names(RunLog& log, const Rig& rig);
