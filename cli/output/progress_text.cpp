@@ -25,15 +25,6 @@ std::string optional_text(const std::optional<double>& value, const char* format
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-/// Hours may have more than two digits.
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long long>(seconds);
-  char buffer[64];
-  const int size = std::snprintf(buffer, sizeof buffer, "%02lld:%02lld:%02lld", whole / 3600,
-                                 whole / 60 % 60, whole % 60);
-  return {buffer, static_cast<std::size_t>(size)};
-}
-
 /// How much of the whole budget is used.
 std::string bar(std::int64_t used, std::int64_t budget) {
   constexpr std::int64_t kCells = 20;
