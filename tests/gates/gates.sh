@@ -39,7 +39,7 @@ fuzz_seconds=${SWARMSMITH_FUZZ_SECONDS:-60}
 # The digest of all files, also of those that are in no commit yet.
 tree_digest() {
   local index=$PWD/build-gate/index
-  cp "$(git rev-parse --git-dir)/index" "$index"
+  cp -p "$(git rev-parse --git-dir)/index" "$index"  # by its time, git knows which files it must read
   GIT_INDEX_FILE=$index git add -A && GIT_INDEX_FILE=$index git write-tree | cut -c 1-16
 }
 
@@ -61,7 +61,7 @@ gate_tidy() {
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target swarmsmith_pb
   sed -n 's/^ *"file": "\(.*\)".*/\1/p' build-asan/compile_commands.json | grep -v '/tests/\|\.pb\.cc$' | sort -u >build-gate/units
-  grep -vxFf "$gate_done" build-gate/units | xargs -r -P "$jobs" -I{} sh -c 'clang-tidy -p build-asan --quiet \
+  { grep -vxFf "$gate_done" build-gate/units || true; } | xargs -r -P "$jobs" -I{} sh -c 'clang-tidy -p build-asan --quiet \
     --checks=-bugprone-suspicious-include --extra-arg=-Xclang --extra-arg=-analyzer-opt-analyze-headers \
     --extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=max-nodes=25000 "$1" && echo "$1" >>"$2"' \
     sh {} "$gate_done"
@@ -74,15 +74,14 @@ test_jobs() { echo $((2 * jobs)); }
 # tests_gate FOLDER [CTEST-ARGUMENT...]: the tests that are not green yet, by their numbers. Reports of sanitizers go to
 # files, also those of processes that are killed; any of them is red, whatever the tests say.
 tests_gate() {
-  local folder=$1 open reports=${gate_done%.done}-reports status=0 log=build-gate/tests.log
+  local folder=$1 open reports=${gate_done%.done}-reports status=0
   shift
   open=$(ctest --test-dir "$folder" -N "$@" | sed -n 's/^ *Test *#\([0-9]*\): .*/\1/p' | grep -vxFf "$gate_done" | paste -sd,) || true
-  : >$log
   mkdir -p "$reports"
   [ -z "$open" ] || ASAN_OPTIONS=log_path=$reports/report UBSAN_OPTIONS=print_stacktrace=1:log_path=$reports/report \
     TSAN_OPTIONS=log_path=$reports/report:suppressions=$PWD/tests/thread_sanitizer.supp \
-    ctest --test-dir "$folder" --output-on-failure -j "$(test_jobs)" -I "0,0,0,$open" | tee $log |
-    tee >(sed -nu 's/.*Test *#\([0-9]*\): .* \(Passed\|\*\*\*Skipped\) .*/\1/p' >>"$gate_done") || status=$?
+    ctest --test-dir "$folder" --output-on-failure -j "$(test_jobs)" -I "0,0,0,$open" | tee >(cat >&2) |
+    sed -nu 's/.*Test *#\([0-9]*\): .* \(Passed\|\*\*\*Skipped\) .*/\1/p' >>"$gate_done" || status=$?
   find "$reports" -type f -exec cat {} + | sed -n 1,400p  # head would end find, and the gate with it
   [ -z "$(ls "$reports")" ] || status=1
   echo "$(sort -u "$gate_done" | wc -l) of $(ctest --test-dir "$folder" -N "$@" | sed -n 's/^Total Tests: //p') tests" >&3
@@ -141,7 +140,7 @@ gate_fuzz() {
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target fuzzers
   mkdir -p build-fuzz/found
-  grep -vf <(sed 's/.*/^& /' "$gate_done") build-asan/fuzzers.txt |
+  { grep -vf <(sed 's/.*/^& /' "$gate_done") build-asan/fuzzers.txt || true; } |
     xargs -r -P 2 -L 1 tests/fuzz/run_one "$fuzz_seconds" "$gate_done"
   echo "$(wc -l <build-asan/fuzzers.txt) targets" >&3
 }
