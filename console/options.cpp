@@ -10,7 +10,7 @@
 #include "base/suggestion.h"
 #include "base/text/csv.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// CLI11 lists what is required in the usage line.
@@ -150,4 +150,4 @@ std::vector<DeclaredOption> Options::declared() const {
   return options;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -18,7 +18,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The store that SWARMSMITH_STORE names; empty when it names none.
 std::string store_of_environment();
@@ -90,4 +90,4 @@ class Options {
   std::map<std::string, std::vector<std::string>> choices_;  ///< by name
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -18,7 +18,7 @@
 namespace swarmsmith {
 
 /// How a worker process ends, for batch systems and launchers.
-enum class ExitCode : int {
+enum class WorkerExit : int {
   Done = 0,  ///< drained: everything was reported or given back
   Usage = 2,
   Unreachable = 5,    ///< no coordinator for ten minutes
@@ -78,7 +78,7 @@ struct Say {
 };
 /// The process is to end.
 struct Leave {
-  ExitCode code = ExitCode::Done;
+  WorkerExit code = WorkerExit::Done;
   std::string reason;
 };
 using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
@@ -132,7 +132,7 @@ class WorkerProtocol {
 
   void greet(TimePoint now);
   void lose(TimePoint now);
-  void leave(ExitCode code, const std::string& reason);
+  void leave(WorkerExit code, const std::string& reason);
   void handle(const pb::ToWorker& message, TimePoint now);
   void on_welcome(const pb::Welcome& welcome, TimePoint now);
   void on_reject(const pb::Reject& reject);

@@ -11,7 +11,7 @@ namespace swarmsmith::cli {
 /// All commands, in the order of the help. A new one: a file of its own with its `declare_`
 /// function, which CMakeLists.txt lists, a line here, an entry in commands.cpp, a section in
 /// docs/command-line.md.
-std::span<const Command> commands();
+std::span<const ProgramCommand> commands();
 
 /// Runs `swarmsmith` with the words after its name (console/program.h).
 ExitCode run_program(const std::vector<std::string>& arguments, Output& output);

@@ -39,15 +39,15 @@ void read_flags(const IraceSettings& settings, Output& output) {
   }
 }
 
-const Command& this_command() {
-  for (const Command& command : commands()) {
+const ProgramCommand& this_command() {
+  for (const ProgramCommand& command : commands()) {
     if (command.run_words == run_irace) return command;
   }
   throw std::logic_error("irace is no command");
 }
 
 void print_help(Output& output) {
-  const Command& command = this_command();
+  const ProgramCommand& command = this_command();
   output.out << command.summary << "\nUsage: swarmsmith irace [OPTIONS]\n\n"
              << irace_option_help() << '\n'
              << wrapped(command.details) << '\n';

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <random>
 #include <utility>
+#include <variant>
 
 #include "base/text/whole_file.h"
-#include "cli/irace/cost_events.h"
 #include "cli/irace/irace_console.h"
 #include "cli/irace/irace_report.h"
+#include "cli/output/progress.h"
+#include "cli/output/run_listener.h"
 #include "cli/run/campaign_run.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
@@ -19,6 +21,7 @@
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/options.h"
 #include "irace_core/iterated_race.h"
+#include "programs/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -40,6 +43,34 @@ std::string times_line(TimePoint begin) {
       seconds(own.ru_utime, children.ru_utime), seconds(own.ru_stime, children.ru_stime),
       wall.count());
 }
+
+/// The events of `run --json` with costs in place of scores.
+class CostEvents final : public RunListener {
+ public:
+  explicit CostEvents(Progress& progress) : progress_(progress) {}
+
+  void restore(std::size_t campaign, const Row& row) override { progress_.restore(campaign, row); }
+  void update(const LiveStatus& live, TimePoint now) override { progress_.update(live, now); }
+  void finish(const LiveStatus& live) override { progress_.finish(live); }
+
+  void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override {
+    Row told = row;
+    if (auto* step = std::get_if<RaceStepRow>(&told)) {
+      step->mean_best = to_cost(step->mean_best);
+    } else if (auto* elite = std::get_if<EliteRow>(&told)) {
+      elite->mean = to_cost(elite->mean);
+    } else if (auto* state = std::get_if<DesignStateRow>(&told)) {
+      state->best_mean = to_cost(state->best_mean);
+    } else if (auto* conflict = std::get_if<ConflictRow>(&told)) {
+      conflict->kept_score = to_cost(conflict->kept_score);
+      conflict->other_score = to_cost(conflict->other_score);
+    }
+    progress_.add(campaign, told, now);
+  }
+
+ private:
+  Progress& progress_;
+};
 
 std::string no_result(const std::string& reason) {
   return "there is no best configuration: " + with_irace_option_names(reason) +

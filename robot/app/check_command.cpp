@@ -9,7 +9,7 @@
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct CheckWords {
@@ -74,4 +74,4 @@ Run declare_robot_check(Options& options) {
   return [words](Output& output) { return check(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

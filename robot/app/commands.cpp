@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::string_view kRunDetails = R"(Examples:
@@ -96,4 +96,4 @@ std::vector<std::string> without_ros_words(std::vector<std::string> words) {
   return plain;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

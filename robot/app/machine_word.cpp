@@ -5,7 +5,7 @@
 #include "base/text/whole_file.h"
 #include "sim/files/machine_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 Expected<FiledMachine> filed_machine(const std::string& word) {
@@ -49,4 +49,4 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   return RobotMachine{std::move(*known), std::move(*controller)};
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// A controller with the flavour that says what its modules do.
 struct RobotMachine {
@@ -20,4 +20,4 @@ struct RobotMachine {
 Expected<RobotMachine> robot_machine(const std::string& word, std::string flavour,
                                      std::optional<TurnClock> turn_clock);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

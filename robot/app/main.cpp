@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
   swarmsmith::begin_program();
-  using namespace swarmsmith::cli;
+  using namespace swarmsmith;
   Output output = standard_output();
   const Program program{"swarmsmith robot",
                         "Runs machines on real robots, or in a simulated world.", robot_commands(),

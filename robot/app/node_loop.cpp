@@ -7,7 +7,7 @@
 
 #include "base/overloaded.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Duration kTellEvery = std::chrono::milliseconds(500);
@@ -155,7 +155,7 @@ void NodeLoop::answer(const SensesMessage& senses) {
     return;
   }
   if (senses.cycle == 1) open_log();
-  const swarmsmith::Command& command = *decision->command;  // cli has another
+  const Command& command = *decision->command;
   end_.send(AnswerMessage{.seed = senses.seed,
                           .cycle = senses.cycle,
                           .left_mps = command.left_mps,
@@ -276,4 +276,4 @@ void NodeLoop::close() {
   end_.flush(kFlush);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -9,7 +9,7 @@
 #include "base/text/text_table.h"
 #include "robot/app/node_loop.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kShownDigest = 8;
@@ -104,4 +104,4 @@ std::string roll_json(const RollCall& roll, TimePoint now) {
       .text;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

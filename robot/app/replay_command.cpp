@@ -9,7 +9,7 @@
 #include "robot/log/log_file.h"
 #include "robot/runtime/replay.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// 0: the same commands; 1: others; 2: no log that can be read.
@@ -61,4 +61,4 @@ Run declare_robot_replay(Options& options) {
   return [files](Output& output) { return replay_all(*files, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

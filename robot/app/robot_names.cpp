@@ -5,7 +5,7 @@
 #include "base/text/csv.h"
 #include "robot/runtime/order.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr const char* kStem = "rvr";
@@ -69,4 +69,4 @@ Expected<std::vector<std::string>> robot_names(const std::string& words) {
   return names;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

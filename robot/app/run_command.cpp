@@ -23,7 +23,7 @@
 #include "sim/files/color_text.h"
 #include "sim/mission/colors.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RunWords {
@@ -294,4 +294,4 @@ Run declare_robot_run(Options& options) {
   return [words](Output& output) { return run(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -9,7 +9,7 @@
 #include "base/text/whole_file.h"
 #include "robot/log/log_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 std::string file_of(const RunFileWords& words, const std::string& name) {
@@ -117,4 +117,4 @@ Expected<std::string> RunFileWords::write_file(
   return file;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

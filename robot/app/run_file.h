@@ -9,7 +9,7 @@
 #include "robot/log/track_log.h"
 #include "robot/runtime/roll_call.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The run log that `start` writes for the camera's side: words that only a person knows, and what
 /// the run was (robot/log/track_log.h).
@@ -28,4 +28,4 @@ struct RunFileWords {
                                    const std::function<void(const std::string&)>& note) const;
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -12,7 +12,7 @@
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Duration kTurn = std::chrono::milliseconds(20);
@@ -187,4 +187,4 @@ Run declare_robot_start(Options& options) {
   return [words](Output& output) { return start(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

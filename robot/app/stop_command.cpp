@@ -10,7 +10,7 @@
 #include "robot/app/robot_names.h"
 #include "robot/app/transports.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Duration kAgainEvery = std::chrono::milliseconds(200);
@@ -75,4 +75,4 @@ Run declare_robot_stop(Options& options) {
   return [words](Output& output) { return stop(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

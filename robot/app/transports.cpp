@@ -12,7 +12,7 @@
 #include "robot/ros/ros_ends.h"
 #include "robot/zeromq/zmq_ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 RosOptions ros_options(const TransportWords& words, const EndOptions& end) {
@@ -160,4 +160,4 @@ ExitCode exit_code_of_transport(const Error& error) {
              : ExitCode::Unreachable;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

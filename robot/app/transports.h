@@ -8,7 +8,7 @@
 #include "console/output.h"
 #include "robot/transport/ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The words that say how messages travel.
 struct TransportWords {
@@ -44,4 +44,4 @@ void declare_wheels(Options& options, WheelsForm& wheels);
 /// What to exit with when an end cannot be opened: 2 for wrong words, else 5.
 ExitCode exit_code_of_transport(const Error& error);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

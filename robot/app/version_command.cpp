@@ -2,7 +2,7 @@
 #include "robot/app/commands.h"
 #include "robot/ros/ros_ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 std::string robot_program_name() {
   return "swarmsmith-robot " SWARMSMITH_VERSION;
@@ -24,4 +24,4 @@ Run declare_robot_version(Options&) {
   };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

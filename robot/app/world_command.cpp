@@ -24,7 +24,7 @@
 #include "sim/files/profile_file.h"
 #include "sim/mission/trajectory_csv.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct WorldWords {
@@ -431,4 +431,4 @@ Run declare_robot_world(Options& options) {
   return [words](Output& output) { return run(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -18,7 +18,7 @@
 #include "tracking/rig/picture_size.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Pictures that medians are taken over; more bring nothing.
@@ -210,4 +210,4 @@ Run declare_calibrate_arena(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -12,7 +12,7 @@
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RobotArguments {
@@ -168,4 +168,4 @@ Run declare_calibrate_robot(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -21,7 +21,7 @@
 #include "tracking/observing/observe.h"
 #include "tracking/rig/picture_size.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// The sidecar beside a video or a folder, if there is one.
@@ -187,4 +187,4 @@ void print_cautions(Output& output, const std::vector<std::string>& cautions) {
     print_note(output, "note: " + caution);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -9,7 +9,7 @@
 #include "tracking/rig/rig.h"
 #include "tracking/video/frame_source.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Pictures of several words, each a picture, a folder of pictures, a video, a bag or a camera.
 struct PictureSource {
@@ -42,4 +42,4 @@ std::string utc_now();
 /// Prints what a person should know of a calibration that is fit.
 void print_cautions(Output& output, const std::vector<std::string>& cautions);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

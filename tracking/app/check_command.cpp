@@ -8,7 +8,7 @@
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// What a rig has of one calibration, for people and for scripts.
@@ -189,4 +189,4 @@ Run declare_track_check(Options& options) {
   return [file](Output& output) { return run(*file, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

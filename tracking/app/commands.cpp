@@ -6,7 +6,7 @@
 
 #include "tracking/video/frame_source.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::string_view kPrintTagsDetails = R"(Example:
@@ -111,52 +111,58 @@ screen. A video file plays at its own speed. Frames that come too fast are dropp
 counted; a recording has them all. Ctrl-C ends it.)";
 
 constexpr std::array kCommands = {
-    Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
-    Command{"check", "List what an arena has, what is missing and what comes next", "",
-            declare_track_check},
-    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
-            declare_track_score},
-    Command{"rescore", "Score stored runs again, with corrected files", "", declare_track_rescore},
-    Command{"override", "Override a run's verdict", "", declare_track_override},
-    Command{"detect", "List the tags in a video or in pictures", kDetectDetails, declare_detect},
-    Command{"calibrate camera", "Find a camera's lens from pictures of a board",
-            kCalibrateCameraDetails, declare_calibrate_camera},
-    Command{"calibrate arena", "Find where a camera hangs from the floor tags",
-            kCalibrateArenaDetails, declare_calibrate_arena},
-    Command{"calibrate robot", "Find where a robot's tag sits on it from a spin",
-            kCalibrateRobotDetails, declare_calibrate_robot},
-    Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
-            declare_print_tags},
-    Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,
-            declare_print_board},
-    Command{"print survey", "A form to fill in with the places of the floor tags",
-            kPrintSurveyDetails, declare_print_survey},
-    Command{"report", "Write the quality report of a stored run, a page of HTML",
-            kTrackReportDetails, declare_track_report},
-    Command{"profile", "Make a simulator profile of what scored runs tell of your robots",
-            kTrackProfileDetails, declare_track_profile},
-    Command{"record", "Record a camera with the time of each frame",
-            R"(A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any
+    ProgramCommand{"init", "Write an arena.toml and a run.toml to begin with", "",
+                   declare_track_init},
+    ProgramCommand{"check", "List what an arena has, what is missing and what comes next", "",
+                   declare_track_check},
+    ProgramCommand{"score", "Score a filmed run and keep it in a store", kScoreDetails,
+                   declare_track_score},
+    ProgramCommand{"rescore", "Score stored runs again, with corrected files", "",
+                   declare_track_rescore},
+    ProgramCommand{"override", "Override a run's verdict", "", declare_track_override},
+    ProgramCommand{"detect", "List the tags in a video or in pictures", kDetectDetails,
+                   declare_detect},
+    ProgramCommand{"calibrate camera", "Find a camera's lens from pictures of a board",
+                   kCalibrateCameraDetails, declare_calibrate_camera},
+    ProgramCommand{"calibrate arena", "Find where a camera hangs from the floor tags",
+                   kCalibrateArenaDetails, declare_calibrate_arena},
+    ProgramCommand{"calibrate robot", "Find where a robot's tag sits on it from a spin",
+                   kCalibrateRobotDetails, declare_calibrate_robot},
+    ProgramCommand{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
+                   declare_print_tags},
+    ProgramCommand{"print board", "A board to calibrate a camera with, in true scale",
+                   kPrintBoardDetails, declare_print_board},
+    ProgramCommand{"print survey", "A form to fill in with the places of the floor tags",
+                   kPrintSurveyDetails, declare_print_survey},
+    ProgramCommand{"report", "Write the quality report of a stored run, a page of HTML",
+                   kTrackReportDetails, declare_track_report},
+    ProgramCommand{"profile", "Make a simulator profile of what scored runs tell of your robots",
+                   kTrackProfileDetails, declare_track_profile},
+    ProgramCommand{
+        "record", "Record a camera with the time of each frame",
+        R"(A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any
 other word that OpenCV opens (`opencv:WORD`). FILE.times.csv, beside FILE.mkv, has the time
 of each frame in seconds from the first one. Ctrl-C ends a recording. Whatever happens, the
 recording stays readable, except the last half second.
 
   swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130)",
-            declare_record},
-    Command{"overlay", "Draw the tracking of a run over its video", kOverlayDetails,
-            declare_overlay},
-    Command{"live", "Watch a camera: show robots and tags as it films", kLiveDetails, declare_live},
-    Command{"version", "Print the versions of program and libraries", "", declare_track_version},
+        declare_record},
+    ProgramCommand{"overlay", "Draw the tracking of a run over its video", kOverlayDetails,
+                   declare_overlay},
+    ProgramCommand{"live", "Watch a camera: show robots and tags as it films", kLiveDetails,
+                   declare_live},
+    ProgramCommand{"version", "Print the versions of program and libraries", "",
+                   declare_track_version},
 };
 
 }  // namespace
 
-std::span<const Command> track_commands() {
+std::span<const ProgramCommand> track_commands() {
   return kCommands;
 }
 
 bool means_a_recording(const std::string& word) {
-  const bool is_command = std::ranges::any_of(kCommands, [&](const Command& command) {
+  const bool is_command = std::ranges::any_of(kCommands, [&](const ProgramCommand& command) {
     return command.name == word || command.name.starts_with(word + " ");
   });
   std::error_code trouble;
@@ -169,4 +175,4 @@ ExitCode exit_code_of_tracking(const Error& error) {
                                                                                 : ExitCode::Failed;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,11 +4,11 @@
 
 #include "console/program.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// All commands of swarmsmith-track, in the order of the help. A new one: a file of its own with
 /// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
-std::span<const Command> track_commands();
+std::span<const ProgramCommand> track_commands();
 
 Run declare_track_score(Options& options);
 Run declare_track_rescore(Options& options);
@@ -39,4 +39,4 @@ bool means_a_recording(const std::string& word);
 /// duplicate id in the map, 1 for all else.
 ExitCode exit_code_of_tracking(const Error& error);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -18,7 +18,7 @@
 #include "tracking/observing/other_family.h"
 #include "tracking/rig/issue.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct DetectWords {
@@ -193,4 +193,4 @@ Run declare_detect(Options& options) {
   return [words](Output& output) { return run(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -9,7 +9,7 @@
 #include "embedded/kRunTemplate.h"
 #include "tracking/app/commands.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// A file to begin with.
@@ -57,4 +57,4 @@ Run declare_track_init(Options& options) {
   return [folder](Output& output) { return run(*folder, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

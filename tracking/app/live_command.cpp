@@ -20,7 +20,7 @@
 #include "tracking/rig/rig_file.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -223,4 +223,4 @@ Run declare_live(Options& options) {
   return [words](Output& output) { return live(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

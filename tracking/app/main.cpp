@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   swarmsmith::begin_program();
-  using namespace swarmsmith::cli;
+  using namespace swarmsmith;
   Output output = standard_output();
   swarmsmith::set_check_listener([&](const std::string& text) { print_note(output, text); });
   const Program program{

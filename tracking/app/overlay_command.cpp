@@ -20,7 +20,7 @@
 #include "tracking/video/picture_bytes.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
@@ -275,4 +275,4 @@ Run declare_overlay(Options& options) {
   return [words](Output& output) { return overlay(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

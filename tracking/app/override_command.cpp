@@ -6,7 +6,7 @@
 #include "tracking/app/commands.h"
 #include "tracking/app/run_store.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct OverrideArguments {
@@ -69,4 +69,4 @@ Run declare_track_override(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

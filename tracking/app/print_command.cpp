@@ -14,7 +14,7 @@
 #include "tracking/printing/survey_sheet.h"
 #include "tracking/printing/tag_sheet.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// The thesis' arena; what a survey form shows unless told otherwise.
@@ -180,4 +180,4 @@ Run declare_print_survey(Options& options) {
   return [arguments](Output& output) { return print_survey(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -16,7 +16,7 @@
 #include "tracking/app/watch_run.h"
 #include "tracking/profile/lab_profile.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct ProfileArguments {
@@ -241,4 +241,4 @@ Run declare_track_profile(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -15,7 +15,7 @@
 #include "tracking/video/frame_source.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RecordWords {
@@ -123,4 +123,4 @@ Run declare_record(Options& options) {
   return [words](Output& output) { return record(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@
 #include "tracking/app/run_store.h"
 #include "tracking/report/quality.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct ReportArguments {
@@ -63,4 +63,4 @@ Run declare_track_report(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -13,7 +13,7 @@
 #include "tracking/report/result_text.h"
 #include "tracking/scoring/real_run_rows.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RescoreArguments {
@@ -173,4 +173,4 @@ Run declare_track_rescore(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,7 +4,7 @@
 
 #include "robot/log/log_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& folder,
                             const std::optional<RanMachine>& machine) {
@@ -33,4 +33,4 @@ RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& fold
   return files;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -15,7 +15,7 @@
 #include "tracking/scoring/real_run_rows.h"
 #include "tracking/scoring/score_run.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Question kWhole{"film read to its end", "", "a film that was cut, or copied in part"};
@@ -153,4 +153,4 @@ RealRunRows AnalysedRun::rows(const std::string& arena_text, CandidateId candida
   return rows;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

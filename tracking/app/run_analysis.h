@@ -10,7 +10,7 @@
 #include "tracking/rig/run_log.h"
 #include "tracking/scoring/run_findings.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// A run: its sightings and known facts, and all that follows from them.
 struct AnalysedRun {
@@ -34,4 +34,4 @@ OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, 
 /// The run of a store, once more.
 OrRefusal<AnalysedRun> analyse_again(const RealRunRows& rows);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

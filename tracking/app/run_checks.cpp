@@ -5,7 +5,7 @@
 #include "base/suggestion.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 template <class Setup>
@@ -144,4 +144,4 @@ std::optional<std::vector<Patch>> said_patches(const RunLog& log) {
   return patches;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -10,7 +10,7 @@
 #include "tracking/rig/rig_file.h"
 #include "tracking/scoring/run_patches.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,4 +225,4 @@ OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
   return plan;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -8,7 +8,7 @@
 #include "sim/files/mission_file.h"
 #include "tracking/app/score_arguments.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Other commands hold a store for less than that.
@@ -163,4 +163,4 @@ OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word) 
   return run;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -11,7 +11,7 @@
 #include "tracking/robots/robot_logs.h"
 #include "tracking/scoring/run_findings.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// What ran on the robots.
 struct RanControl {
@@ -42,4 +42,4 @@ OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word);
 /// The same words, checked; exit code 2.
 OrRefusal<std::string> named_store(const std::string& option);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -10,7 +10,7 @@
 #include "tracking/report/quality.h"
 #include "tracking/report/result_text.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Opened again only now: a campaign may have run while the video was looked at.
@@ -95,4 +95,4 @@ Run declare_track_score(Options& options) {
   return [arguments](Output& output) { return score(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@ extern "C" {
 #include <libavformat/version.h>
 }
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 std::string track_program_name() {
   return "swarmsmith-track " SWARMSMITH_VERSION ", OpenCV " CV_VERSION
@@ -32,4 +32,4 @@ Run declare_track_version(Options&) {
   };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -10,7 +10,7 @@
 #include "tracking/scoring/measured_layout.h"
 #include "tracking/scoring/run_patches.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 ObserveOptions observe_options(const RunPlan& plan) {
@@ -120,4 +120,4 @@ OrRefusal<AnalysedRun> watch_run(RunPlan& plan, Output& output) {
   return analyse(std::move(observations), plan.whole_rig, plan.log, plan.takes_tags_for_centres);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -3,7 +3,7 @@
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_plan.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Looks through the plan's videos, once, and says how far it is. A layout that is to be measured
 /// is, from pictures on the way, and goes into the run's log.
@@ -13,4 +13,4 @@ OrRefusal<AnalysedRun> watch_run(RunPlan& plan, Output& output);
 /// may be one of several cameras, the SHA-256 of that of the bag and the topic.
 Expected<std::string> sha256_of_source(const std::string& word);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

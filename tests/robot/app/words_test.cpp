@@ -5,7 +5,7 @@
 #include "robot/app/machine_word.h"
 #include "robot/app/robot_names.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using testing::ElementsAre;
@@ -45,4 +45,4 @@ TEST(MachineWord, NeedsAFlavour) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith
