@@ -244,7 +244,7 @@ ExitCode overlay(const OverlayWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_overlay(Options& options) {
+CommandRun declare_overlay(Options& options) {
   auto words = std::make_shared<OverlayWords>();
   ScoreArguments& run = words->run;
   constexpr Options::Range kTags{0, 65'535};
