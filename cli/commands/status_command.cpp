@@ -1,7 +1,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <algorithm>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -81,8 +83,35 @@ void write_text(Output& output, const LiveStatus& status, const StoredFacts& fac
     output.out << as_shown(line, Layout::Escaped) << "\n";
 }
 
+std::size_t column_of(const Rows& rows, const char* name) {
+  return static_cast<std::size_t>(std::ranges::find(rows.columns, name) - rows.columns.begin());
+}
+
+/// States and stages are those of the campaigns: the store has what its last writer said.
+void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns) {
+  const std::size_t state = column_of(facts.campaign, "state");
+  for (std::size_t i = 0; i < facts.campaign.cells.size() && i < campaigns.size(); ++i)
+    facts.campaign.cells[i][state].text = campaigns[i].state;
+  std::map<std::string, std::pair<std::string, std::string>> words;
+  bool has_stages = false;
+  for (const CampaignStatus& campaign : campaigns) {
+    for (const DesignStatus& design : campaign.designs) {
+      words[to_string(design.id)] = {std::string(campaign.word_of_design(design)), design.stage};
+      has_stages = has_stages || !design.stage.empty();
+    }
+  }
+  const std::size_t of_design = column_of(facts.designs, "state");
+  if (has_stages) facts.designs.columns.emplace_back("stage");
+  for (auto& cells : facts.designs.cells) {
+    const auto& [word, stage] = words[cells.front().text];
+    cells[of_design].text = word;
+    if (has_stages) cells.push_back({StoreReader::Cell::Type::Text, stage});
+  }
+}
+
 /// What a coordinator says, with what its store knows besides.
-std::string json_of(const LiveStatus& status, const StoredFacts& facts) {
+std::string json_of(const LiveStatus& status, StoredFacts facts) {
+  correct(facts, *status.campaigns);
   Rows paused{.columns = {"design"}};
   for (const CampaignStatus& campaign : *status.campaigns) {
     for (const DesignStatus& design : campaign.designs) {

@@ -155,18 +155,25 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         if (is_racing != racing) continue;
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
-        lines.push_back(fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<9} {} {}{}{}", to_string(one.id),
-                                    shown_state(campaign, one), one.used, one.budget, part,
-                                    one.best ? fmt::format("{:.4g}", one.best_mean) : "",
-                                    one.mission, one.method, several ? "  " + campaign.name : "",
-                                    one.stage.empty() ? "" : "  " + one.stage) +
-                        (one.state == DesignState::Stopped && !one.reason.empty()
-                             ? "  (" + one.reason + ")"
-                             : ""));
+        lines.push_back(
+            fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<9} {} {}{}{}", to_string(one.id),
+                        shown_state(campaign, one), one.used, one.budget, part,
+                        one.best ? fmt::format("{:.4g}", one.best_mean) : "", one.mission,
+                        one.method, several ? "  " + campaign.name : "",
+                        one.stage.empty() ? "" : "  " + one.stage) +
+            (is_over(one.state) && !one.reason.empty() ? "  (" + one.reason + ")" : ""));
       }
     }
   }
   return lines;
+}
+
+bool has_stages(const LiveStatus& status) {
+  const auto has = [](const DesignStatus& design) { return !design.stage.empty(); };
+  return status.campaigns &&
+         std::ranges::any_of(*status.campaigns, [&](const CampaignStatus& campaign) {
+           return std::ranges::any_of(campaign.designs, has);
+         });
 }
 
 struct Host {
@@ -249,7 +256,9 @@ std::vector<std::string> status_lines(const LiveStatus& status, const Screen& sc
   const std::size_t room = screen.height > lines.size() ? screen.height - lines.size() : 0;
   // Half each, and what the one does not need for the other.
   const std::size_t want_hosts = hosts.empty() ? 0 : hosts.size() + 2;
-  add_table(lines, "design state           used/budget             best      mission method",
+  add_table(lines,
+            std::string("design state           used/budget             best      mission method") +
+                (has_stages(status) ? "  stage" : ""),
             designs, std::max(room / 2, room - std::min(room, want_hosts)));
   add_table(lines, "host                 here gone slots  held   busy  evals/s failed silent",
             hosts, screen.height > lines.size() ? screen.height - lines.size() : 0);
