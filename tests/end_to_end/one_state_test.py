@@ -47,11 +47,11 @@ class OneState(ProgramTest):
                                    start_new_session=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.stdout.close)
-        self.addCleanup(self._end, process)
         events = self.events = []
         reader = threading.Thread(target=lambda: events.extend(line for line in process.stdout), daemon=True)
         reader.start()
         self.addCleanup(reader.join)
+        self.addCleanup(self._end, process)  # first of all
         said = []
         for line in process.stderr:
             said.append(line)
@@ -192,7 +192,8 @@ class OneState(ProgramTest):
     def test_of_which_a_design_is_cancelled(self):
         self.file.write_text(self.file.read_text().replace(f"max_experiments = {self.budget}", "max_experiments = 100000"))
         process = self.run_it()
-        self.until(lambda: self.store.exists() and call("cancel", self.store).returncode == 0, "no cancelling")
+        for design in ("d1", "d2"):
+            self.until(lambda: self.store.exists() and call("cancel", self.store, design).returncode == 0, "no cancelling")
         process.wait(timeout=120 * PATIENCE)
         rest = self.at_rest()
         self.assertEqual((rest["designs_stopped"], rest["left"], rest["d2.state"]), (2, 0, "stopped"))
