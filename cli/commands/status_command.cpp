@@ -83,30 +83,22 @@ void write_text(Output& output, const LiveStatus& status, const StoredFacts& fac
     output.out << as_shown(line, Layout::Escaped) << "\n";
 }
 
-std::size_t column_of(const Rows& rows, const char* name) {
-  return static_cast<std::size_t>(std::ranges::find(rows.columns, name) - rows.columns.begin());
-}
-
 /// States and stages are those of the campaigns: the store has what its last writer said.
 void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns) {
-  const std::size_t state = column_of(facts.campaign, "state");
+  const std::size_t state = facts.campaign.column("state");
   for (std::size_t i = 0; i < facts.campaign.cells.size() && i < campaigns.size(); ++i)
     facts.campaign.cells[i][state].text = campaigns[i].state;
-  std::map<std::string, std::pair<std::string, std::string>> words;
-  bool has_stages = false;
+  tell_states(facts.designs, campaigns);
+  std::map<std::string, std::string> stages;
   for (const CampaignStatus& campaign : campaigns) {
     for (const DesignStatus& design : campaign.designs) {
-      words[to_string(design.id)] = {std::string(campaign.word_of_design(design)), design.stage};
-      has_stages = has_stages || !design.stage.empty();
+      if (!design.stage.empty()) stages[to_string(design.id)] = design.stage;
     }
   }
-  const std::size_t of_design = column_of(facts.designs, "state");
-  if (has_stages) facts.designs.columns.emplace_back("stage");
-  for (auto& cells : facts.designs.cells) {
-    const auto& [word, stage] = words[cells.front().text];
-    cells[of_design].text = word;
-    if (has_stages) cells.push_back({StoreReader::Cell::Type::Text, stage});
-  }
+  if (stages.empty()) return;
+  facts.designs.columns.emplace_back("stage");
+  for (auto& cells : facts.designs.cells)
+    cells.push_back({StoreReader::Cell::Type::Text, stages[cells.front().text]});
 }
 
 /// What a coordinator says, with what its store knows besides.

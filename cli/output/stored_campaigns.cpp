@@ -60,4 +60,19 @@ Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool 
   return campaigns;
 }
 
+void tell_states(Rows& designs, const std::vector<CampaignStatus>& campaigns) {
+  const std::size_t id = designs.column("design");
+  const std::size_t state = designs.column("state");
+  if (std::max(id, state) >= designs.columns.size()) return;
+  std::map<std::string, std::string_view> words;
+  for (const CampaignStatus& campaign : campaigns) {
+    for (const DesignStatus& design : campaign.designs)
+      words[to_string(design.id)] = campaign.word_of_design(design);
+  }
+  for (auto& cells : designs.cells) {
+    if (const auto word = words.find(cells[id].text); word != words.end())
+      cells[state].text = word->second;
+  }
+}
+
 }  // namespace swarmsmith::cli
