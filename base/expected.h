@@ -24,7 +24,10 @@ struct Error {
   std::string message;
   std::string where;
 
-  friend bool operator==(const Error&, const Error&) = default;
+  /// Not defaulted: ROS's side of robots is C++17.
+  friend bool operator==(const Error& a, const Error& b) {
+    return a.kind == b.kind && a.message == b.message && a.where == b.where;
+  }
 };
 
 /// A value of `T`, or the reason why there is none. Has the interface of C++23's std::expected, so

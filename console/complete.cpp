@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Kinds that are names of files.
@@ -156,4 +156,4 @@ std::vector<std::string> typed_words(std::span<const std::string> given) {
   return words;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

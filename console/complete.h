@@ -9,7 +9,7 @@
 
 #include "console/declared.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// What may stand at the end of a command line that is being typed.
 struct Offer {
@@ -41,4 +41,4 @@ void write_offer(std::ostream& out, const Offer& offer, std::string_view begin);
 /// three. Never empty.
 std::vector<std::string> typed_words(std::span<const std::string> given);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

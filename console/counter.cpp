@@ -4,7 +4,7 @@
 
 #include "console/terminal.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 Counter::Counter(Output& output, std::string verb, std::string noun)
     : output_(&output),
       verb_(std::move(verb)),
@@ -24,4 +24,4 @@ void Counter::tell(std::int64_t done, std::int64_t of) {
   }
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

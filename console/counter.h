@@ -6,7 +6,7 @@
 
 #include "console/output.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Shows a count on the error stream once work takes longer than two seconds: on a terminal one
 /// line that disappears at the end, elsewhere a line now and then.
@@ -25,4 +25,4 @@ class Counter {
   std::chrono::steady_clock::time_point next_;
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

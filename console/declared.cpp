@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 DeclaredOption declared(const CLI::Option& option) {
@@ -61,4 +61,4 @@ JsonPiece declared_json(const std::vector<DeclaredOption>& options) {
   });
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

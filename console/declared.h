@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// An option or a word of a command, as the command has declared it.
 struct DeclaredOption {
@@ -34,4 +34,4 @@ std::vector<DeclaredOption> declared_options(const CLI::App& app);
 /// repeats.
 JsonPiece declared_json(const std::vector<DeclaredOption>& options);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

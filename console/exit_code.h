@@ -1,6 +1,6 @@
 #pragma once
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// What every command of the program exits with; a promise to scripts (docs/command-line.md).
 enum class ExitCode : int {
@@ -16,4 +16,4 @@ enum class ExitCode : int {
   Terminated = 143,      ///< by SIGTERM; `run` goes on
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -14,7 +14,7 @@
 #include <typeinfo>
 #include <variant>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::uint64_t kMegabyte = 1U << 20U;
@@ -89,4 +89,4 @@ std::string sentence_of_fault(const std::exception& fault) {
   return fault.what();
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

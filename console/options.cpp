@@ -1,13 +1,16 @@
 #include "console/options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
 #include "base/environment.h"
 #include "base/suggestion.h"
+#include "base/text/csv.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// CLI11 lists what is required in the usage line.
@@ -67,17 +70,54 @@ void Options::words(const std::string& name, std::vector<std::string>& values,
   need_it(option, need);
 }
 
-void Options::choice(const std::string& names, std::string& value,
-                     const std::vector<std::string>& choices, const std::string& help, Need need) {
-  const auto check = [choices, names](const std::string& given) -> std::string {
+void Options::limit(CLI::Option* option, const std::vector<std::string>& choices) {
+  const auto check = [choices](const std::string& given) -> std::string {
     if (std::find(choices.begin(), choices.end(), given) != choices.end()) return {};
     return "\"" + given + "\" is none of: " + joined(choices) + did_you_mean(given, choices);
   };
-  CLI::Option* option = app_->add_option(names, value, help + " (" + joined(choices) + ")");
   describe(option, "WORD");
   choices_[option->get_single_name()] = choices;
   option->check(check, "", "choice");
+}
+
+void Options::choice(const std::string& names, std::string& value,
+                     const std::vector<std::string>& choices, const std::string& help, Need need) {
+  CLI::Option* option = app_->add_option(names, value, help + " (" + joined(choices) + ")");
+  limit(option, choices);
   need_it(option, need);
+}
+
+void Options::choose(const std::string& names, const std::vector<std::string>& choices,
+                     const std::string& help, const std::function<void(std::size_t)>& take) {
+  const auto found = [choices, take](const std::string& given) {
+    take(static_cast<std::size_t>(std::ranges::find(choices, given) - choices.begin()));
+  };
+  limit(app_->add_option_function<std::string>(names, found, help + " (" + joined(choices) + ")"),
+        choices);
+}
+
+void Options::read_number(const std::string& names, Bounds bounds, const std::string& help,
+                          const std::function<void(double)>& take) {
+  const auto [name, kind] = names_and_value(names);
+  const auto check = [bounds](const std::string& given) -> std::string {
+    const auto number = number_in(given);
+    if (number && *number >= bounds.least && *number <= bounds.most) return {};
+    return fmt::format("`{}` is not a number from {} to {}", given, bounds.least, bounds.most);
+  };
+  CLI::Option* option = app_->add_option_function<std::string>(
+      name, [take](const std::string& given) { take(*number_in(given)); }, help);
+  describe(option, kind);
+  option->check(check, "", "number");
+}
+
+void Options::number(const std::string& names, double& value, Bounds bounds,
+                     const std::string& help) {
+  read_number(names, bounds, help, [&value](double given) { value = given; });
+}
+
+void Options::number(const std::string& names, std::optional<double>& value, Bounds bounds,
+                     const std::string& help) {
+  read_number(names, bounds, help, [&value](double given) { value = given; });
 }
 
 void Options::integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
@@ -110,4 +150,4 @@ std::vector<DeclaredOption> Options::declared() const {
   return options;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

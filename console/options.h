@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "console/declared.h"
@@ -17,7 +18,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The store that SWARMSMITH_STORE names; empty when it names none.
 std::string store_of_environment();
@@ -44,6 +45,15 @@ class Options {
   /// One of `choices`, which the help lists.
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help, Need need = Need::Optional);
+  /// The same as values: "floats" is WheelsForm::Floats.
+  template <class Value>
+  void choice(const std::string& names, Value& value,
+              const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) {
+    std::vector<std::string> words;
+    for (const auto& [word, meaning] : choices)
+      words.push_back(word);
+    choose(names, words, help, [&value, choices](std::size_t i) { value = choices[i].second; });
+  }
   struct Range {
     std::int64_t least;
     std::int64_t most;
@@ -52,6 +62,15 @@ class Options {
   /// group the digits: 100_000.
   void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                const std::string& help);
+  /// A number, as text(): with what it counts behind its name. The value stays as it is if the
+  /// option is not given.
+  struct Bounds {
+    double least;
+    double most;
+  };
+  void number(const std::string& names, double& value, Bounds bounds, const std::string& help);
+  void number(const std::string& names, std::optional<double>& value, Bounds bounds,
+              const std::string& help);
   /// Lines below the options, above the command's details.
   void explain(const std::string& lines);
 
@@ -60,10 +79,15 @@ class Options {
 
  private:
   void describe(CLI::Option* option, const std::string& value);
+  void limit(CLI::Option* option, const std::vector<std::string>& choices);
+  void choose(const std::string& names, const std::vector<std::string>& choices,
+              const std::string& help, const std::function<void(std::size_t)>& take);
+  void read_number(const std::string& names, Bounds bounds, const std::string& help,
+                   const std::function<void(double)>& take);
 
   CLI::App* app_;
   std::map<std::string, std::string> kinds_;                 ///< by name
   std::map<std::string, std::vector<std::string>> choices_;  ///< by name
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

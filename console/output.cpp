@@ -10,7 +10,7 @@
 #include "base/shown_text.h"
 #include "console/terminal.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Verbatim kRed{"\x1b[31m"};
@@ -73,4 +73,4 @@ ExitCode fail(Output& output, ExitCode code, const Error& error) {
   return code;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

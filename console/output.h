@@ -9,7 +9,7 @@
 #include "base/expected.h"
 #include "console/exit_code.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Where a command writes, and how: answers to `out`, all else to `err`.
 struct Output {
@@ -37,4 +37,4 @@ void print_note(Output& output, std::string_view text);
 ExitCode fail(Output& output, ExitCode code, const std::string& message);
 ExitCode fail(Output& output, ExitCode code, const Error& error);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

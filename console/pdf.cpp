@@ -11,7 +11,7 @@
 
 #include "base/process/process.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{256} << 20U;
@@ -111,4 +111,4 @@ Expected<std::string> pdf_of_svgs(std::span<const std::string> pages) {
   return converted({"PDF", "%PDF", {"-f", "pdf"}}, pages);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -6,7 +6,7 @@
 
 #include "base/expected.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// A drawing as PDF of the same size, with text as text, by the program rsvg-convert of the Debian
 /// package librsvg2-bin. The same drawing gives the same bytes: the date within is 1970.
@@ -21,4 +21,4 @@ Expected<std::string> png_of_svg(std::string_view svg);
 /// Several drawings, a page each.
 Expected<std::string> pdf_of_svgs(std::span<const std::string> pages);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

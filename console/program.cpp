@@ -9,17 +9,17 @@
 #include "base/suggestion.h"
 #include "console/wrapped.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 std::string overview(const Program& program) {
   std::size_t width = 10;
-  for (const Command& command : program.commands)
+  for (const ProgramCommand& command : program.commands)
     width = std::max(width, command.name.size());
   const std::string name(program.name);
   std::string text =
       std::string(program.purpose) + "\n\nUsage: " + name + " COMMAND [OPTIONS]\n\nCommands:\n";
-  for (const Command& command : program.commands) {
+  for (const ProgramCommand& command : program.commands) {
     text += "  " + std::string(command.name) + std::string(width - command.name.size(), ' ') +
             "  " + std::string(command.summary) + "\n";
   }
@@ -28,9 +28,9 @@ std::string overview(const Program& program) {
 }
 
 /// The command that the first words name, or null; a name of two words goes before one of one.
-const Command* find_command(const Program& program, const std::vector<std::string>& words) {
-  const Command* found = nullptr;
-  for (const Command& command : program.commands) {
+const ProgramCommand* find_command(const Program& program, const std::vector<std::string>& words) {
+  const ProgramCommand* found = nullptr;
+  for (const ProgramCommand& command : program.commands) {
     if (words.size() > 1 && command.name == words[0] + " " + words[1]) return &command;
     if (command.name == words[0]) found = &command;
   }
@@ -39,7 +39,7 @@ const Command* find_command(const Program& program, const std::vector<std::strin
 
 std::vector<std::string> names_of(const Program& program) {
   std::vector<std::string> names;
-  for (const Command& command : program.commands)
+  for (const ProgramCommand& command : program.commands)
     names.emplace_back(command.name);
   return names;
 }
@@ -72,7 +72,8 @@ std::vector<std::string> option_names(const CLI::App& app) {
 }
 
 /// Words that no option took.
-ExitCode complain_about_extras(const CLI::App& app, const Program& program, const Command& command,
+ExitCode complain_about_extras(const CLI::App& app, const Program& program,
+                               const ProgramCommand& command,
                                const std::vector<std::string>& extras, Output& output) {
   std::string word = extras.front();
   for (const std::string& extra : extras) {
@@ -121,7 +122,7 @@ void declare_common(CLI::App& app, Output& output, bool& no_color) {
 /// The parser of one command, made when it is asked for.
 class Parser {
  public:
-  Parser(const Program& program, const Command& command, Output& output)
+  Parser(const Program& program, const ProgramCommand& command, Output& output)
       : app_(std::string(command.summary),
              std::string(program.name) + " " + std::string(command.name)),
         options_(app_) {
@@ -133,18 +134,18 @@ class Parser {
   }
 
   CLI::App& app() { return app_; }
-  const Run& run() const { return run_; }
+  const CommandRun& run() const { return run_; }
   bool no_color() const { return no_color_; }
   std::vector<DeclaredOption> declared() const { return options_.declared(); }
 
  private:
   CLI::App app_;
   Options options_;
-  Run run_;
+  CommandRun run_;
   bool no_color_ = false;
 };
 
-ExitCode run_command(const Program& program, const Command& command,
+ExitCode run_command(const Program& program, const ProgramCommand& command,
                      std::vector<std::string> arguments, Output& output) {
   Parser parser(program, command, output);
   CLI::App& app = parser.app();
@@ -171,12 +172,12 @@ ExitCode run_command(const Program& program, const Command& command,
   return parser.run()(output);
 }
 
-bool becomes_another_program(const Command& command) {
+bool becomes_another_program(const ProgramCommand& command) {
   return command.run_words != nullptr && command.options == nullptr;
 }
 
 ExitCode print_declared(const Program& program, Output& output) {
-  const auto of_command = [&](const Command& command) {
+  const auto of_command = [&](const ProgramCommand& command) {
     std::vector<DeclaredOption> options;
     std::string details(command.details);
     if (command.options != nullptr) {
@@ -210,7 +211,7 @@ Offer offer_commands(const Program& program, std::span<const std::string> words)
     begin += word + " ";
   Offer offer;
   std::set<std::string_view> known;
-  for (const Command& command : program.commands) {
+  for (const ProgramCommand& command : program.commands) {
     if (!command.name.starts_with(begin)) continue;
     const std::string_view rest = command.name.substr(begin.size());
     const std::string_view next = rest.substr(0, rest.find(' '));
@@ -232,7 +233,7 @@ ExitCode complete(const Program& program, std::span<const std::string> given, Ou
     for (const char* word : {"--help", "--version"})
       offer.words.push_back({word, ""});
   }
-  const Command* command = words.empty() ? nullptr : find_command(program, words);
+  const ProgramCommand* command = words.empty() ? nullptr : find_command(program, words);
   if (command != nullptr && !asks_for_help) {
     const auto of_name = std::count(command->name.begin(), command->name.end(), ' ') + 1;
     const std::vector<std::string> rest(words.begin() + of_name, words.end());
@@ -276,7 +277,7 @@ ExitCode run_program(const Program& program, const std::vector<std::string>& arg
   if (first == "--declared") return print_declared(program, output);
   if (first == "--complete") return complete(program, std::span(arguments).subspan(1), output);
   if (first == "--version") return run_program(program, {"version"}, output);
-  const Command* command = find_command(program, arguments);
+  const ProgramCommand* command = find_command(program, arguments);
   if (command == nullptr) return unknown_command(program, arguments, output);
   const auto words = std::count(command->name.begin(), command->name.end(), ' ') + 1;
   std::vector<std::string> rest(arguments.begin() + words, arguments.end());
@@ -285,4 +286,4 @@ ExitCode run_program(const Program& program, const std::vector<std::string>& arg
   return run_command(program, *command, std::move(rest), output);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

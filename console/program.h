@@ -10,18 +10,18 @@
 #include "console/declared.h"
 #include "console/options.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// What remains of a command once its words are read.
-using Run = std::function<ExitCode(Output&)>;
+using CommandRun = std::function<ExitCode(Output&)>;
 
 /// One command of a program.
-struct Command {
+struct ProgramCommand {
   std::string_view name;     ///< one word, or two: "calibrate camera"
   std::string_view summary;  ///< one line
   std::string_view details;  ///< examples and what else a person needs, below the options
   /// Declares the command's options and returns what runs when they were read.
-  Run (*declare)(Options& options) = nullptr;
+  CommandRun (*declare)(Options& options) = nullptr;
   /// In place of `declare`, for a command that reads its words, help and flags itself.
   ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
   /// Changes the words before they are read.
@@ -35,7 +35,7 @@ struct Command {
 struct Program {
   std::string_view name;     ///< "swarmsmith"
   std::string_view purpose;  ///< a sentence, the first line of its help
-  std::span<const Command> commands;
+  std::span<const ProgramCommand> commands;
   std::string_view begin;  ///< last lines of its help: where a newcomer begins
   OfferValues values = nullptr;
 };
@@ -47,4 +47,4 @@ struct Program {
 ExitCode run_program(const Program& program, const std::vector<std::string>& arguments,
                      Output& output);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
@@ -46,4 +46,4 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
   }
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,7 +4,7 @@
 
 #include "base/shown_text.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Bytes at the end that may be the begin of a character.
@@ -73,4 +73,4 @@ void write_data(Output& output, std::string_view bytes) {
   }
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

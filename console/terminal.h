@@ -7,7 +7,7 @@
 
 #include "console/output.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The stream between a program and its terminal: all text passes as shown text
 /// (base/shown_text.h), whatever its source. Only text that the program marks as `Verbatim` passes
@@ -48,4 +48,4 @@ inline constexpr Verbatim kClearLine{"\r\x1b[2K"};
 /// files and pipes, shown on a terminal.
 void write_data(Output& output, std::string_view bytes);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -5,7 +5,7 @@
 
 #include "base/text/text_table.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// A line of the result that words are put into.
@@ -121,4 +121,4 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t first)
   return result;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

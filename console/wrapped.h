@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Columns of a terminal of the usual width.
 inline constexpr std::size_t kPageWidth = 80;
@@ -14,4 +14,4 @@ inline constexpr std::size_t kPageWidth = 80;
 /// behind a backslash. `first` columns of the first line are taken.
 std::string wrapped(std::string_view text, std::size_t width = kPageWidth, std::size_t first = 0);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -1,10 +1,15 @@
 #include "irace_core/ablation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
+#include "base/hash.h"
+#include "base/rng.h"
+#include "irace_core/internal/instances.h"
 #include "irace_core/internal/race.h"
 #include "irace_core/internal/ranking.h"
 
@@ -59,60 +64,311 @@ std::vector<AblationChange> ablation_changes(const ParameterSpace& space,
   return changes;
 }
 
-Expected<std::optional<std::size_t>> best_change(const Scenario& scenario, AblationType type,
-                                                 std::size_t changes, std::int64_t pairs,
-                                                 const AblationRuns& run) {
-  const auto count = static_cast<std::int64_t>(changes);
-  const bool races = type == AblationType::Racing && count > 1;
-  irace::RaceSettings settings{
-      .elitist = false,
-      .test_type = test_type_of(scenario),
-      .first_test = races ? scenario.first_test * scenario.block_size : pairs,
-      .pairs_between_tests = scenario.each_test * scenario.block_size,
-      .block_size = scenario.block_size,
-      .confidence = scenario.confidence,
-      .min_survival = races ? 1 : 0,
-      .max_experiments = count * pairs,
-      .target_evaluator = scenario.target_evaluator,
-      .bound_max = scenario.bound_max,
-      .min_measurable_time = scenario.min_measurable_time};
-  settings.pairs.resize(static_cast<std::size_t>(pairs));
-  std::iota(settings.pairs.begin(), settings.pairs.end(), std::int64_t{1});
-  std::vector<irace::Contestant> contestants;
-  for (std::int64_t i = 1; i <= count; ++i)
-    contestants.push_back({i, {}, {}});
-  irace::Race race(std::move(settings), std::move(contestants));
-  while (!race.finished()) {
-    std::vector<Experiment> wanted;
-    for (const irace::RaceRun& asked : race.wanted()) {
-      wanted.push_back({.configuration = static_cast<std::int64_t>(asked.column) + 1,
-                        .pair = race.pair_of(asked.task),
-                        .bound = asked.bound,
-                        .is_evaluation = asked.is_evaluation,
-                        .task = static_cast<std::int64_t>(asked.task) + 1});
-    }
-    const auto made = run(wanted);
-    if (!made) return Unexpected(made.error());
-    race.tell(*made);
+std::vector<std::size_t> change_between(const ParameterSpace& space, const Configuration& before,
+                                        const Configuration& after, const Configuration& target) {
+  const auto open = differences(before, target);
+  if (after == target) return open;
+  for (AblationChange& made : ablation_changes(space, before, target, open)) {
+    if (made.configuration == after) return std::move(made.changed);
   }
-  if (race.failure()) return Unexpected(*race.failure());
-  // As R: the ranks are those of all changes, also of those that the last test dropped.
-  std::vector<std::size_t> ranked;
-  std::vector<std::vector<double>> costs;
-  for (std::size_t c = 0; c < changes; ++c) {
-    if (race.is_rejected(c)) continue;
-    ranked.push_back(c);
-    costs.emplace_back(static_cast<std::size_t>(pairs), std::numeric_limits<double>::quiet_NaN());
-    for (const irace::Race::Result& result : race.results(c))
-      costs.back()[static_cast<std::size_t>(result.pair - 1)] = result.cost;
-  }
-  if (ranked.empty()) return std::optional<std::size_t>();
-  return ranked[best_by_ranks(costs, test_type_of(scenario))];
+  return differences(before, after);
 }
 
-std::size_t best_by_ranks(const std::vector<std::vector<double>>& costs, TestType type) {
-  const std::vector<double> ranks = irace::overall_ranks(costs, type);
-  return static_cast<std::size_t>(std::ranges::min_element(ranks) - ranks.begin());
+std::int64_t most_ablation_runs(const Configuration& source, const Configuration& target,
+                                std::int64_t pairs) {
+  // The source, the target, and with n parameters open a step of n changes at most.
+  const auto open = static_cast<std::int64_t>(differences(source, target).size());
+  return (1 + open * (open + 1) / 2) * pairs;
+}
+
+namespace {
+
+class Ablation final : public Search {
+ public:
+  Ablation(ParameterSpace space, const Scenario& scenario, const Configuration& source,
+           Configuration target)
+      : space_(std::move(space)),
+        scenario_(scenario),
+        target_(std::move(target)),
+        pairs_(one_by_one(scenario), Rng(scenario.seed).split("ablation")),
+        planned_(static_cast<std::int64_t>(differences(source, target_).size()) + 1) {
+    pairs_.extend_to(scenario.ablation_pairs);
+    begin({source});
+  }
+
+  bool finished() const override { return !race_; }
+  const std::optional<Error>& failure() const override { return failure_; }
+  std::span<const Experiment> wanted() const override { return wanted_; }
+  std::vector<Experiment> ahead(std::int64_t) const override { return {}; }
+  void tell(std::span<const Measurement> measurements) override;
+  std::vector<std::int64_t> alive() const override {
+    return race_ ? race_->alive_ids() : std::vector<std::int64_t>();
+  }
+  std::vector<RaceEvent> take_events() override { return std::exchange(events_, {}); }
+
+  Expected<void> extend(std::int64_t) override { return Unexpected(no_extension()); }
+  Expected<std::int64_t> least_extension() const override { return Unexpected(no_extension()); }
+
+  const Configuration& configuration(std::int64_t id) const override {
+    return members_.at(static_cast<std::size_t>(id - 1)).configuration;
+  }
+  const ParameterSpace& space() const override { return space_; }
+  std::span<const Elite> elites() const override { return elites_; }
+  std::int64_t experiments_used() const override { return used_ + (race_ ? race_->used() : 0); }
+  std::int64_t budget() const override { return scenario_.max_experiments; }
+  std::int64_t iteration() const override { return iteration_; }
+  std::int64_t n_iterations() const override { return planned_; }
+  std::int64_t n_alive() const override {
+    return race_ ? static_cast<std::int64_t>(race_->alive_count()) : 0;
+  }
+
+ private:
+  struct Member {
+    Configuration configuration;
+    std::vector<double> costs;  ///< by pair; NaN where it was not run
+  };
+
+  /// As R's ablation: instances in turn, whatever the blocks of races are.
+  static Scenario one_by_one(Scenario scenario) {
+    scenario.block_size = 1;
+    return scenario;
+  }
+
+  static Error no_extension() {
+    return {ErrorKind::BadInput, "an ablation ends at its target: there is nothing to extend", ""};
+  }
+
+  Member& member(std::int64_t id) { return members_[static_cast<std::size_t>(id - 1)]; }
+
+  /// Source and target are run on all pairs.
+  bool is_step() const { return iteration_ > 1 && !(members_.back().configuration == target_); }
+
+  void begin(std::vector<Configuration> configurations);
+  irace::RaceSettings settings(std::int64_t count) const;
+  void ask();
+  void report_steps();
+  void end_iteration();
+  /// The best of the race; nothing when all were rejected.
+  std::optional<std::int64_t> best() const;
+  std::vector<double> ranks(std::span<const std::int64_t> ids) const;
+  Elite elite(std::int64_t id, double rank) const;
+  void go_on();
+  void finish(std::string reason);
+
+  ParameterSpace space_;
+  Scenario scenario_;
+  Configuration target_;
+  irace::InstanceLog pairs_;
+  std::vector<Member> members_;     ///< by id
+  std::vector<std::int64_t> path_;  ///< ids
+  std::unique_ptr<irace::Race> race_;
+  std::vector<Experiment> wanted_;
+  std::vector<RaceEvent> events_;
+  std::vector<Elite> elites_;
+  std::optional<Error> failure_;
+  std::int64_t planned_;
+  std::int64_t iteration_ = 0;
+  std::int64_t steps_ = 0;
+  std::int64_t used_ = 0;  ///< before the race
+};
+
+void Ablation::begin(std::vector<Configuration> configurations) {
+  const auto count = static_cast<std::int64_t>(configurations.size());
+  const std::int64_t parent = path_.empty() ? 0 : path_.back();
+  ++iteration_;
+  events_.emplace_back(IterationStarted{
+      .iteration = iteration_,
+      .n_iterations = planned_,
+      .remaining = budget() - used_,
+      .budget = count * scenario_.ablation_pairs,
+      .n_configurations = count,
+      .new_pairs = iteration_ == 1 ? scenario_.ablation_pairs : 0,
+      .elites = path_.empty() ? std::vector<std::int64_t>() : std::vector{parent}});
+  std::vector<irace::Contestant> contestants;
+  for (Configuration& configuration : configurations) {
+    const auto id = static_cast<std::int64_t>(members_.size()) + 1;
+    events_.emplace_back(ConfigurationSampled{id, parent, iteration_, configuration});
+    members_.push_back({std::move(configuration),
+                        std::vector<double>(static_cast<std::size_t>(scenario_.ablation_pairs),
+                                            std::numeric_limits<double>::quiet_NaN())});
+    contestants.push_back({id, {}, {}});
+  }
+  race_ = std::make_unique<irace::Race>(settings(count), std::move(contestants));
+  ask();
+}
+
+irace::RaceSettings Ablation::settings(std::int64_t count) const {
+  const bool races = scenario_.ablation == AblationType::Racing && count > 1;
+  const std::int64_t pairs = scenario_.ablation_pairs;
+  irace::RaceSettings settings{
+      .elitist = false,
+      .test_type = test_type_of(scenario_),
+      .first_test = races ? scenario_.first_test * scenario_.block_size : pairs,
+      .pairs_between_tests = scenario_.each_test * scenario_.block_size,
+      .block_size = scenario_.block_size,
+      .confidence = scenario_.confidence,
+      .min_survival = races ? 1 : 0,
+      .max_experiments = count * pairs,
+      .target_evaluator = scenario_.target_evaluator,
+      .bound_max = scenario_.bound_max,
+      .min_measurable_time = scenario_.min_measurable_time};
+  settings.pairs.resize(static_cast<std::size_t>(pairs));
+  std::iota(settings.pairs.begin(), settings.pairs.end(), std::int64_t{1});
+  return settings;
+}
+
+void Ablation::ask() {
+  wanted_.clear();
+  const auto runs = race_->wanted();
+  for (const irace::RaceRun& run : runs) {
+    const std::int64_t pair = race_->pair_of(run.task);
+    Experiment& experiment =
+        wanted_.emplace_back(Experiment{.configuration = race_->contestant(run.column).id,
+                                        .pair = pair,
+                                        .instance = pairs_[pair].instance,
+                                        .seed = pairs_[pair].seed,
+                                        .bound = run.bound,
+                                        .is_evaluation = run.is_evaluation});
+    if (run.is_evaluation)
+      experiment.task = steps_ + 1 + static_cast<std::int64_t>(run.task - runs.front().task);
+  }
+}
+
+void Ablation::tell(std::span<const Measurement> measurements) {
+  if (measurements.size() != wanted_.size())
+    throw std::invalid_argument("an ablation is told a cost for each run that it wants");
+  for (std::size_t i = 0; i < wanted_.size(); ++i) {
+    const Experiment& run = wanted_[i];
+    if (run.is_evaluation != scenario_.target_evaluator) continue;
+    if (std::isnan(measurements[i].cost)) throw std::invalid_argument("a cost is not a number");
+    member(run.configuration).costs[static_cast<std::size_t>(run.pair - 1)] = measurements[i].cost;
+  }
+  race_->tell(measurements);
+  report_steps();
+  if (race_->finished()) {
+    end_iteration();
+  } else {
+    ask();
+  }
+}
+
+void Ablation::report_steps() {
+  for (RaceStep& step : race_->take_steps()) {
+    step.iteration = iteration_;
+    step.experiments_used += used_;
+    Digest digest;
+    digest.add(step.digest);
+    digest.add(step.experiments_used);
+    step.digest = digest.value64();
+    ++steps_;
+    events_.emplace_back(std::move(step));
+  }
+}
+
+void Ablation::end_iteration() {
+  wanted_.clear();
+  used_ += race_->used();
+  if (race_->failure()) {
+    failure_ = race_->failure();
+    return finish(failure_->message);
+  }
+  const auto found = best();
+  if (!found && is_step()) {
+    failure_ =
+        Error{ErrorKind::BadInput,
+              "the target rejected all changes of step " + std::to_string(iteration_ - 1), ""};
+    return finish(failure_->message);
+  }
+  path_.push_back(found.value_or(static_cast<std::int64_t>(members_.size())));
+  const bool is_over = path_.size() > 1 && configuration(path_.back()) == target_;
+  elites_ = {elite(path_.back(), 1)};
+  if (is_over) {
+    elites_.clear();
+    const std::vector<double> overall = ranks(path_);
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      elites_.push_back(elite(path_[i], overall[i]));
+    std::ranges::stable_sort(elites_, {}, &Elite::rank);
+  }
+  events_.emplace_back(
+      IterationEnded{iteration_, used_, budget() - used_, race_->stop_reason(), elites_});
+  if (is_over) return finish("the target is reached");
+  go_on();
+}
+
+std::optional<std::int64_t> Ablation::best() const {
+  // As R: the ranks are those of all changes, also of those that the last test dropped.
+  std::vector<std::int64_t> ids;
+  for (std::size_t column = 0; column < race_->size(); ++column) {
+    if (!race_->is_rejected(column)) ids.push_back(race_->contestant(column).id);
+  }
+  if (ids.empty()) return std::nullopt;
+  const std::vector<double> overall = ranks(ids);
+  return ids[static_cast<std::size_t>(std::ranges::min_element(overall) - overall.begin())];
+}
+
+std::vector<double> Ablation::ranks(std::span<const std::int64_t> ids) const {
+  std::vector<std::vector<double>> costs;
+  for (const std::int64_t id : ids)
+    costs.push_back(members_[static_cast<std::size_t>(id - 1)].costs);
+  return irace::overall_ranks(costs, test_type_of(scenario_));
+}
+
+Elite Ablation::elite(std::int64_t id, double rank) const {
+  // Source and target are on the way even when the target rejects them.
+  Elite found{.rank = rank, .configuration = id};
+  for (const double cost : members_[static_cast<std::size_t>(id - 1)].costs) {
+    if (!std::isfinite(cost)) continue;
+    found.mean += cost;
+    ++found.n;
+  }
+  if (found.n > 0) found.mean /= static_cast<double>(found.n);
+  return found;
+}
+
+void Ablation::go_on() {
+  const Configuration& current = configuration(path_.back());
+  const auto open = differences(current, target_);
+  auto changes = ablation_changes(space_, current, target_, open);
+  if (open.size() < 2 || changes.empty() || changes.front().configuration == target_)
+    return begin({target_});
+  std::vector<Configuration> next;
+  for (AblationChange& change : changes)
+    next.push_back(std::move(change.configuration));
+  begin(std::move(next));
+}
+
+void Ablation::finish(std::string reason) {
+  race_.reset();
+  if (failure_) elites_.clear();
+  events_.emplace_back(RaceFinished{std::move(reason), elites_});
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Search>> start_ablation(ParameterSpace space, const Scenario& scenario,
+                                                 const std::vector<Configuration>& ends) {
+  if (auto checked = check(scenario); !checked) return Unexpected(checked.error());
+  if (ends.size() != 2)
+    return bad_input("needs two given configurations, and has " + std::to_string(ends.size()),
+                     "ablation");
+  for (const Configuration& end : ends) {
+    if (auto checked = space.check(end); !checked) return Unexpected(checked.error());
+  }
+  if (ends[0] == ends[1]) return bad_input("its two configurations are the same", "ablation");
+  if (scenario.deterministic && scenario.ablation_pairs > scenario.n_instances) {
+    return bad_input("is " + std::to_string(scenario.ablation_pairs) + ", and there are " +
+                         std::to_string(scenario.n_instances) +
+                         " instances, each of which is used once (deterministic)",
+                     "ablation_pairs");
+  }
+  const std::int64_t most = most_ablation_runs(ends[0], ends[1], scenario.ablation_pairs);
+  if (scenario.max_experiments < most) {
+    return bad_input("a budget of " + std::to_string(scenario.max_experiments) +
+                         " experiments is too small for this ablation: it must be at least " +
+                         std::to_string(most),
+                     "max_experiments");
+  }
+  return std::make_unique<Ablation>(std::move(space), scenario, ends[0], ends[1]);
 }
 
 }  // namespace swarmsmith

@@ -2,15 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/expected.h"
-#include "irace_core/experiment.h"
 #include "irace_core/parameter_space.h"
 #include "irace_core/scenario.h"
+#include "irace_core/search.h"
 
 namespace swarmsmith {
 
@@ -34,25 +35,25 @@ std::vector<AblationChange> ablation_changes(const ParameterSpace& space,
                                              const Configuration& target,
                                              std::span<const std::size_t> open);
 
-/// How a step finds its best change: all changes are run on all pairs, or they race (the types of
-/// R's ablation()).
-enum class AblationType { Full, Racing };
+/// What made `after` of `before` on the way to `target`: a change, or all that was left at the end.
+std::vector<std::size_t> change_between(const ParameterSpace& space, const Configuration& before,
+                                        const Configuration& after, const Configuration& target);
 
-/// Makes experiments, and tells what came of each, in their order.
-using AblationRuns =
-    std::function<Expected<std::vector<Measurement>>(std::span<const Experiment> wanted)>;
+/// The most runs that the way can take.
+std::int64_t most_ablation_runs(const Configuration& source, const Configuration& target,
+                                std::int64_t pairs);
 
-/// The position of the best change of a step, by irace's overall ranks; the first of equals;
-/// nothing when all were rejected. It is a race that is not elitist, with the tests that the
-/// scenario asks for; capping is not used, and bounds are `bound_max`. Experiments count changes
-/// and pairs from 1; their instances and seeds are the caller's. Errors: those of `run`, and a
-/// target that went over its bound.
-Expected<std::optional<std::size_t>> best_change(const Scenario& scenario, AblationType type,
-                                                 std::size_t changes, std::int64_t pairs,
-                                                 const AblationRuns& run);
-
-/// The position of the best of configurations, by irace's overall ranks. `costs[c]` has a value a
-/// pair, NaN where it was not run: more pairs always come before fewer. The first of equals.
-std::size_t best_by_ranks(const std::vector<std::vector<double>>& costs, TestType type);
+/// The way from the first of two configurations to the second, as a search whose iterations are:
+/// the source, a step each, the target. All are run on the same `ablation_pairs` pairs of instance
+/// and seed. A step races the changes that are still open, not elitist and without capping, with
+/// the scenario's test (or runs all of them on all pairs), and its elite is the best change by
+/// irace's overall ranks, the first of equals. The elites of the last iteration are all on the way,
+/// best first: more pairs come before fewer.
+///
+/// Of the scenario count budget, seed, instances and their order, the test, `bound_max` and whether
+/// there is a targetEvaluator. Errors: not two configurations, or two that are the same; a budget
+/// below most_ablation_runs.
+Expected<std::unique_ptr<Search>> start_ablation(ParameterSpace space, const Scenario& scenario,
+                                                 const std::vector<Configuration>& ends);
 
 }  // namespace swarmsmith

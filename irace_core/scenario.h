@@ -21,6 +21,10 @@ enum class CappingType { Median, Mean, Worst, Best };
 /// Whether a bound holds for all that a configuration did in a race, or for one pair.
 enum class BoundType { Candidate, Instance };
 
+/// How a step of an ablation finds its best change: all changes are run on all pairs, or they race
+/// (the types of R's ablation()).
+enum class AblationType { Full, Racing };
+
 /// The options of an iterated race: irace's names and defaults (irace facts, 22). Zero means
 /// "automatic" where a default is given in words.
 struct Scenario {
@@ -75,6 +79,11 @@ struct Scenario {
   /// Asks for one task at a time, as irace does, and not for all up to the next test: nothing that
   /// a rejection makes void is run.
   bool one_task_at_a_time = false;
+
+  /// In place of a search: the way from the first given configuration to the second one
+  /// (irace_core/ablation.h), on so many pairs.
+  std::optional<AblationType> ablation;
+  std::int64_t ablation_pairs = 1;
 
   std::int64_t max_configurations_per_race = 1024;  ///< not an option of irace, there always 1024
 };

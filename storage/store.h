@@ -1,11 +1,13 @@
 #pragma once
 
+#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -189,6 +191,28 @@ class StoreReader {
   struct Cell {
     enum class Type { Null, Integer, Real, Text } type = Type::Null;
     std::string text;  ///< shortest form that reads back to the same value
+
+    bool is_null() const { return type == Type::Null; }
+    /// Of an integer or a real; 0 of anything else.
+    std::int64_t integer() const { return number<std::int64_t>(); }
+    double real() const { return number<double>(); }
+    /// None for null.
+    std::optional<double> maybe_real() const {
+      return is_null() ? std::nullopt : std::optional(real());
+    }
+    /// CandidateId, say; of null the empty one.
+    template <class Id>
+    Id id() const {
+      return Id{integer()};
+    }
+
+   private:
+    template <class Number>
+    Number number() const {
+      Number value{};
+      std::from_chars(text.data(), text.data() + text.size(), value);
+      return value;
+    }
   };
   struct QueryEnd {
     std::int64_t rows = 0;

@@ -79,10 +79,10 @@ void WorkerProtocol::lose(TimePoint now) {
   retry_ =
       now + Duration(static_cast<std::int64_t>(factor * static_cast<double>(backoff_.count())));
   backoff_ = std::min(2 * backoff_, options_.longest_backoff);
-  if (drain_until_) leave(ExitCode::Done, "drained without a connection");
+  if (drain_until_) leave(WorkerExit::Done, "drained without a connection");
 }
 
-void WorkerProtocol::leave(ExitCode code, const std::string& reason) {
+void WorkerProtocol::leave(WorkerExit code, const std::string& reason) {
   if (state_ == State::Left) return;
   state_ = State::Left;
   actions_.emplace_back(Leave{code, reason});
@@ -94,7 +94,7 @@ void WorkerProtocol::on_frame(std::string_view frame, TimePoint now) {
   if (message) {
     handle(**message, now);
   } else if (message.error().kind == ErrorKind::Conflict) {
-    leave(ExitCode::Refused, message.error().message);
+    leave(WorkerExit::Refused, message.error().message);
   }
   arena_.Reset();
 }
@@ -139,7 +139,7 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
 }
 
 void WorkerProtocol::on_reject(const pb::Reject& reject) {
-  leave(ExitCode::Refused, reject.sentence());
+  leave(WorkerExit::Refused, reject.sentence());
 }
 
 void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {
@@ -187,7 +187,7 @@ void WorkerProtocol::on_scenario(const pb::ScenarioReply& reply, TimePoint now) 
 }
 
 void WorkerProtocol::on_bad_scenario(const std::string& reason) {
-  leave(ExitCode::Refused, "this program cannot run the campaign: " + reason);
+  leave(WorkerExit::Refused, "this program cannot run the campaign: " + reason);
 }
 
 /// Connected, with a scenario: what the coordinator may not have is sent, and work asked for.
@@ -203,7 +203,7 @@ void WorkerProtocol::be_ready(TimePoint now) {
 void WorkerProtocol::on_drain(TimePoint now) {
   if (drain_until_ || state_ == State::Left) return;
   drain_until_ = now + options_.grace;
-  if (state_ == State::Waiting) return leave(ExitCode::Done, "drained without a connection");
+  if (state_ == State::Waiting) return leave(WorkerExit::Done, "drained without a connection");
   // The coordinator may have read the hello.
   if (state_ == State::Greeting) return say_goodbye(now, "drained without a welcome");
   update_credit(now);
@@ -234,7 +234,7 @@ void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
   pb::ToCoordinator message;
   message.mutable_goodbye();
   send(message, now);
-  leave(ExitCode::Done, reason);
+  leave(WorkerExit::Done, reason);
 }
 
 // --- time ---
@@ -249,7 +249,7 @@ void WorkerProtocol::on_tick(TimePoint now) {
       return;
     case State::Waiting:
       if (now - alone_since_ > options_.give_up_after) {
-        leave(ExitCode::Unreachable, "no coordinator for too long");
+        leave(WorkerExit::Unreachable, "no coordinator for too long");
       } else if (now >= retry_) {
         greet(now);
       }

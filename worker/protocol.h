@@ -14,9 +14,17 @@
 #include "base/rng.h"
 #include "proto/wire.h"
 #include "worker/evaluator.h"
-#include "worker/exit_code.h"
 
 namespace swarmsmith {
+
+/// How a worker process ends, for batch systems and launchers.
+enum class WorkerExit : int {
+  Done = 0,  ///< drained: everything was reported or given back
+  Usage = 2,
+  Unreachable = 5,    ///< no coordinator for ten minutes
+  Refused = 7,        ///< the coordinator does not want this build: starting it again is useless
+  Interrupted = 143,  ///< a second SIGTERM
+};
 
 /// How a worker introduces itself.
 struct WorkerIdentity {
@@ -70,7 +78,7 @@ struct Say {
 };
 /// The process is to end.
 struct Leave {
-  ExitCode code = ExitCode::Done;
+  WorkerExit code = WorkerExit::Done;
   std::string reason;
 };
 using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
@@ -124,7 +132,7 @@ class WorkerProtocol {
 
   void greet(TimePoint now);
   void lose(TimePoint now);
-  void leave(ExitCode code, const std::string& reason);
+  void leave(WorkerExit code, const std::string& reason);
   void handle(const pb::ToWorker& message, TimePoint now);
   void on_welcome(const pb::Welcome& welcome, TimePoint now);
   void on_reject(const pb::Reject& reject);

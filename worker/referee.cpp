@@ -44,17 +44,17 @@ int serve_as_referee(const WorkerIdentity& identity, const EvaluatorFactory& mak
   google::protobuf::Arena arena;
   while (read_frame(input, kMaxFrameToWorkerBytes, frame)) {
     const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
-    if (!message) return static_cast<int>(ExitCode::Usage);
+    if (!message) return static_cast<int>(WorkerExit::Usage);
     if ((*message)->has_scenario()) {
       Expected<Evaluator> made = make_evaluator((*message)->scenario().scenario());
       if (!made) {
         std::fprintf(stderr, "%s\n", to_string(made.error()).c_str());
-        return static_cast<int>(ExitCode::Refused);
+        return static_cast<int>(WorkerExit::Refused);
       }
       evaluator = std::move(*made);
     }
     for (const pb::Task& task : (*message)->tasks().tasks()) {
-      if (!evaluator) return static_cast<int>(ExitCode::Usage);
+      if (!evaluator) return static_cast<int>(WorkerExit::Usage);
       const LeasedTask item = task_of(task);
       const bool told = write_frame(output, encode(began_of(item.key))) &&
                         write_frame(output, encode(results_of(evaluate(*evaluator, item))));
@@ -62,7 +62,7 @@ int serve_as_referee(const WorkerIdentity& identity, const EvaluatorFactory& mak
     }
     arena.Reset();
   }
-  return static_cast<int>(ExitCode::Done);
+  return static_cast<int>(WorkerExit::Done);
 }
 
 }  // namespace swarmsmith

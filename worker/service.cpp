@@ -164,7 +164,7 @@ class Loop {
                           [&](Leave& leave) {
                             if (end_) return;
                             end_ = WorkerEnd{leave.code, std::move(leave.reason)};
-                            const bool alone = leave.code == ExitCode::Unreachable;
+                            const bool alone = leave.code == WorkerExit::Unreachable;
                             if (alone && !trouble_.empty()) end_->reason += ": " + trouble_;
                           }},
                action);

@@ -33,7 +33,7 @@ struct WorkerServiceOptions {
 
 /// How it ended, and why in a sentence.
 struct WorkerEnd {
-  ExitCode code = ExitCode::Done;
+  WorkerExit code = WorkerExit::Done;
   std::string reason;
 };
 

@@ -9,34 +9,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/text/csv.h"
+
 namespace swarmsmith {
 namespace {
 
 using Cell = StoreReader::Cell;
 using Cells = std::vector<Cell>;
 
-double real(const Cell& cell) {
-  double value = 0;
-  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-  return value;
-}
-
-std::int64_t integer(const Cell& cell) {
-  std::int64_t value = 0;
-  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-  return value;
-}
-
-bool is_null(const Cell& cell) {
-  return cell.type == Cell::Type::Null;
-}
-
-std::optional<double> maybe_real(const Cell& cell) {
-  return is_null(cell) ? std::nullopt : std::optional(real(cell));
-}
-
 std::optional<CandidateId> maybe_candidate(const Cell& cell) {
-  return is_null(cell) ? std::nullopt : std::optional(CandidateId{integer(cell)});
+  return cell.is_null() ? std::nullopt : std::optional(CandidateId{cell.integer()});
 }
 
 /// " WHERE ..." over the columns mission, method and design of `table`.
@@ -86,9 +68,9 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
       "SELECT campaign, name, seed, digest, iif(state = 'imported', '', file) FROM v_campaigns "
       "ORDER BY campaign",
       [](const Cells& row) {
-        return CampaignRecord{.campaign = integer(row[0]),
+        return CampaignRecord{.campaign = row[0].integer(),
                               .name = row[1].text,
-                              .seed = integer(row[2]),
+                              .seed = row[2].integer(),
                               .digest = row[3].text,
                               .file = row[4].text};
       });
@@ -101,17 +83,17 @@ Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const Recor
                                   " score FROM v_design_scores" +
                                       where(filter) + " ORDER BY design, purpose, source, pair",
                                   [](const Cells& row) {
-                                    return DesignScore{.design = {integer(row[0])},
+                                    return DesignScore{.design = {row[0].integer()},
                                                        .mission = row[1].text,
                                                        .method = row[2].text,
-                                                       .repetition = integer(row[3]),
-                                                       .candidate = {integer(row[4])},
+                                                       .repetition = row[3].integer(),
+                                                       .candidate = {row[4].integer()},
                                                        .source = row[5].text,
                                                        .purpose = row[6].text,
-                                                       .pair = integer(row[7]),
-                                                       .instance = integer(row[8]),
-                                                       .seed = integer(row[9]),
-                                                       .score = real(row[10])};
+                                                       .pair = row[7].integer(),
+                                                       .instance = row[8].integer(),
+                                                       .seed = row[9].integer(),
+                                                       .score = row[10].real()};
                                   });
   if (!scores) return scores;
   // No program writes such a score; no axis and no bin could hold it.
@@ -135,16 +117,16 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
       " ''), " +
           *flavour + " FROM v_designs AS d" + where(filter, "d.") + " ORDER BY d.design",
       [](const Cells& row) {
-        return DesignRecord{.design = {integer(row[0])},
+        return DesignRecord{.design = {row[0].integer()},
                             .mission = row[1].text,
                             .method = row[2].text,
-                            .repetition = integer(row[3]),
+                            .repetition = row[3].integer(),
                             .state = row[4].text,
-                            .budget = integer(row[5]),
-                            .used = integer(row[6]),
-                            .iteration = integer(row[7]),
+                            .budget = row[5].integer(),
+                            .used = row[6].integer(),
+                            .iteration = row[7].integer(),
                             .best = maybe_candidate(row[8]),
-                            .best_mean = maybe_real(row[9]),
+                            .best_mean = row[9].maybe_real(),
                             .machine = row[10].text,
                             .flavour = row[11].text};
       });
@@ -161,11 +143,11 @@ Expected<MachineRecord> candidate(StoreReader& store, CandidateId id) {
           " WHERE c.candidate = {}",
           *flavour, id.value),
       [](const Cells& row) {
-        return MachineRecord{.candidate = {integer(row[0])},
-                             .design = {integer(row[1])},
+        return MachineRecord{.candidate = {row[0].integer()},
+                             .design = {row[1].integer()},
                              .mission = row[2].text,
                              .method = row[3].text,
-                             .repetition = integer(row[4]),
+                             .repetition = row[4].integer(),
                              .machine = row[5].text,
                              .flavour = row[6].text};
       });
@@ -183,13 +165,13 @@ Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter
       " FROM v_convergence AS e JOIN v_designs AS d ON d.design = e.design" +
           where(filter, "d.") + " ORDER BY e.design, e.iteration, e.rank",
       [](const Cells& row) {
-        return EliteRecord{.design = {integer(row[0])},
-                           .iteration = integer(row[1]),
-                           .rank = integer(row[2]),
-                           .candidate = {integer(row[3])},
-                           .mean = real(row[4]),
-                           .runs = integer(row[5]),
-                           .experiments_used = integer(row[6])};
+        return EliteRecord{.design = {row[0].integer()},
+                           .iteration = row[1].integer(),
+                           .rank = row[2].integer(),
+                           .candidate = {row[3].integer()},
+                           .mean = row[4].real(),
+                           .runs = row[5].integer(),
+                           .experiments_used = row[6].integer()};
       });
 }
 
@@ -204,11 +186,11 @@ Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
       [](const Cells& row) {
         ModuleFrequency frequency{
             .mission = row[0].text, .method = row[1].text, .module = row[2].text, .counts = {}};
-        if (!is_null(row[3])) {
-          frequency.counts = ModuleCounts{.average_occurrences = real(row[3]),
-                                          .occurrence_rate = real(row[4]),
-                                          .average_reachable = real(row[5]),
-                                          .reachable_rate = real(row[6])};
+        if (!row[3].is_null()) {
+          frequency.counts = ModuleCounts{.average_occurrences = row[3].real(),
+                                          .occurrence_rate = row[4].real(),
+                                          .average_reachable = row[5].real(),
+                                          .reachable_rate = row[6].real()};
         }
         return frequency;
       });
@@ -222,13 +204,13 @@ Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                   " WHERE design = {} AND iteration = {} ORDER BY step, candidate",
                   design.value, iteration),
       [](const Cells& row) {
-        return RaceCell{.step = integer(row[0]),
-                        .pair = integer(row[1]),
-                        .instance = integer(row[2]),
-                        .seed = integer(row[3]),
-                        .candidate = {integer(row[4])},
-                        .score = maybe_real(row[5]),
-                        .rank = maybe_real(row[6])};
+        return RaceCell{.step = row[0].integer(),
+                        .pair = row[1].integer(),
+                        .instance = row[2].integer(),
+                        .seed = row[3].integer(),
+                        .candidate = {row[4].integer()},
+                        .score = row[5].maybe_real(),
+                        .rank = row[6].maybe_real()};
       });
 }
 
@@ -253,11 +235,11 @@ Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId d
                   " FROM v_iterations WHERE design = {} ORDER BY iteration",
                   design.value),
       [](const Cells& row) {
-        return IterationRecord{.iteration = integer(row[0]),
-                               .planned = integer(row[1]),
-                               .budget = integer(row[2]),
-                               .configurations = integer(row[3]),
-                               .postselection = integer(row[4]) != 0};
+        return IterationRecord{.iteration = row[0].integer(),
+                               .planned = row[1].integer(),
+                               .budget = row[2].integer(),
+                               .configurations = row[3].integer(),
+                               .postselection = row[4].integer() != 0};
       });
 }
 
@@ -268,10 +250,10 @@ Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId des
                   " ORDER BY candidate",
                   design.value),
       [](const Cells& row) {
-        return SampledRecord{.candidate = {integer(row[0])},
-                             .iteration = integer(row[1]),
-                             .runs = integer(row[2]),
-                             .mean = maybe_real(row[3])};
+        return SampledRecord{.candidate = {row[0].integer()},
+                             .iteration = row[1].integer(),
+                             .runs = row[2].integer(),
+                             .mean = row[3].maybe_real()};
       });
 }
 
@@ -283,17 +265,17 @@ Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design
           " used, statistic, p_value FROM v_race_steps WHERE design = {} ORDER BY step",
           design.value),
       [](const Cells& row) {
-        return StepRecord{.step = integer(row[0]),
-                          .iteration = integer(row[1]),
-                          .pair = integer(row[2]),
+        return StepRecord{.step = row[0].integer(),
+                          .iteration = row[1].integer(),
+                          .pair = row[2].integer(),
                           .marker = row[3].text,
-                          .alive_before = integer(row[4]),
-                          .alive_after = integer(row[5]),
+                          .alive_before = row[4].integer(),
+                          .alive_after = row[5].integer(),
                           .best = maybe_candidate(row[6]),
-                          .mean_best = real(row[7]),
-                          .used = integer(row[8]),
-                          .statistic = maybe_real(row[9]),
-                          .p_value = maybe_real(row[10])};
+                          .mean_best = row[7].real(),
+                          .used = row[8].integer(),
+                          .statistic = row[9].maybe_real(),
+                          .p_value = row[10].maybe_real()};
       });
 }
 
@@ -304,9 +286,9 @@ Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, Design
                   " WHERE design = {} ORDER BY iteration, step, candidate",
                   design.value),
       [](const Cells& row) {
-        return EliminationRecord{.candidate = {integer(row[0])},
-                                 .iteration = integer(row[1]),
-                                 .step = integer(row[2]),
+        return EliminationRecord{.candidate = {row[0].integer()},
+                                 .iteration = row[1].integer(),
+                                 .step = row[2].integer(),
                                  .reason = row[3].text};
       });
 }
@@ -324,12 +306,29 @@ Expected<std::vector<ParameterRecord>> parameters(StoreReader& store, DesignId d
                   design.value, among),
       [](const Cells& row) {
         return ParameterRecord{
-            .candidate = {integer(row[0])},
-            .iteration = integer(row[1]),
+            .candidate = {row[0].integer()},
+            .iteration = row[1].integer(),
             .parameter = row[2].text,
             .value = row[3].text,
             .is_number = row[3].type == Cell::Type::Integer || row[3].type == Cell::Type::Real};
       });
+}
+
+Expected<std::string> csv_of_rows(StoreReader& store, const std::string& sql) {
+  std::string text;
+  std::vector<std::string> texts;
+  const auto end = store.query(
+      sql, kRecordLimits,
+      [&](const std::vector<std::string>& columns) { text += csv_line(columns); },
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        texts.clear();
+        for (const StoreReader::Cell& cell : cells)
+          texts.push_back(cell.text);
+        text += csv_line(texts);
+      });
+  if (!end) return Unexpected(end.error());
+  if (end->truncated) return bad_input("reading took over 600 s", sql);
+  return text;
 }
 
 }  // namespace swarmsmith

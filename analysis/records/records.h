@@ -195,4 +195,8 @@ Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, Design
 Expected<std::vector<ParameterRecord>> parameters(StoreReader& store, DesignId design,
                                                   const std::vector<CandidateId>& candidates = {});
 
+/// The rows of a statement over the store's views as CSV (base/text/csv.h): a header, full
+/// precision, null empty. Errors: as above.
+Expected<std::string> csv_of_rows(StoreReader& store, const std::string& sql);
+
 }  // namespace swarmsmith

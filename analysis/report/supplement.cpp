@@ -11,7 +11,6 @@
 #include "analysis/comparison/comparison.h"
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/figures/figure.h"
-#include "analysis/records/csv.h"
 #include "analysis/records/records.h"
 #include "analysis/report/internal/draft.h"
 #include "analysis/report/internal/supplement_readme.h"

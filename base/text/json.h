@@ -49,8 +49,8 @@ JsonPiece json_list(const Items& items, const Of& of) {
   return {text + "]"};
 }
 
-/// Any value: booleans, numbers, texts, what is optional (else null), ids (null for none), and
-/// ranges of these.
+/// Any value: booleans, numbers, texts, what is optional (else null), ids (null for none), maps by
+/// text, and ranges of these.
 template <class T>
 std::string json_of(const T& value) {
   if constexpr (std::same_as<T, JsonPiece>) {
@@ -65,6 +65,11 @@ std::string json_of(const T& value) {
     return json_number(value);
   } else if constexpr (std::convertible_to<const T&, std::string_view>) {
     return json_text(value);
+  } else if constexpr (requires { typename T::mapped_type; }) {
+    JsonObject object;
+    for (const auto& [key, of_key] : value)
+      object.add(key, of_key);
+    return object.text();
   } else if constexpr (std::ranges::input_range<T>) {
     return json_list(value, std::identity()).text;
   } else if constexpr (requires { value.has_value(); }) {

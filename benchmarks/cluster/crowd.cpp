@@ -109,7 +109,7 @@ class Member {
                           [&](DropItems) { waiting_.clear(); }, [](const Say&) {},
                           [&](const Leave& leave) {
                             left_ = true;
-                            if (leave.code != ExitCode::Done)
+                            if (leave.code != WorkerExit::Done)
                               std::fprintf(stderr, "worker: %s\n", leave.reason.c_str());
                           }},
                action);

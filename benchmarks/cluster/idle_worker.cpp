@@ -64,7 +64,7 @@ void run_one(const std::string& endpoint, int slots) {
   const WorkerEnd end =
       serve({.endpoint = endpoint, .keys = announced_keys(), .protocol = {}, .socket = {}},
             identity_of_this_process(slots, "benchmark"), pool, wakeup, drain);
-  if (end.code != ExitCode::Done) std::fprintf(stderr, "worker: %s\n", end.reason.c_str());
+  if (end.code != WorkerExit::Done) std::fprintf(stderr, "worker: %s\n", end.reason.c_str());
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ enum Column {
 };
 
 CandidateId candidate_of(const std::vector<StoreReader::Cell>& cells) {
-  return {std::stoll(cells[kCandidate].text)};
+  return {cells[kCandidate].integer()};
 }
 
 /// With parameters and modules, which are JSON already.
@@ -298,7 +298,7 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_export(Options& options) {
+CommandRun declare_export(Options& options) {
   auto arguments = std::make_shared<ExportArguments>();
   arguments->store.declare(options);
   options.choice("--what", arguments->what, {"best", "elites", "all", "starts", "patches"},

@@ -39,15 +39,15 @@ void read_flags(const IraceSettings& settings, Output& output) {
   }
 }
 
-const Command& this_command() {
-  for (const Command& command : commands()) {
+const ProgramCommand& this_command() {
+  for (const ProgramCommand& command : commands()) {
     if (command.run_words == run_irace) return command;
   }
   throw std::logic_error("irace is no command");
 }
 
 void print_help(Output& output) {
-  const Command& command = this_command();
+  const ProgramCommand& command = this_command();
   output.out << command.summary << "\nUsage: swarmsmith irace [OPTIONS]\n\n"
              << irace_option_help() << '\n'
              << wrapped(command.details) << '\n';
@@ -59,11 +59,6 @@ std::filesystem::path store_file(std::filesystem::path log_file) {
   if (ending == ".Rdata" || ending == ".RData" || ending == ".rda")
     log_file.replace_extension(".db");
   return log_file;
-}
-
-/// What is no run of the scenario is a campaign of its own: `name-test.db`.
-std::filesystem::path beside(const std::filesystem::path& file, const std::string& ending) {
-  return file.parent_path() / (file.stem().string() + ending + file.extension().string());
 }
 
 /// The store of the finished run that --psrace and --ablation begin from.
@@ -90,7 +85,8 @@ Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
       print_note(output, "the store is " + file.string() + ": an SQLite file in place of R's " +
                              setup.log_file.string());
     }
-    return StorePlace::at(line.action == IraceAction::OnlyTest ? beside(file, "-test") : file);
+    return line.action == IraceAction::OnlyTest ? StorePlace::beside(file, "-test")
+                                                : StorePlace::at(file);
   }
   return StorePlace::temporary();
 }
@@ -121,13 +117,10 @@ ExitCode check(Output& output, const IraceSetup& setup) {
 ExitCode after_run(Output& output, const IraceCommandLine& line, const IraceSetup& setup) {
   const auto finished = finished_store(line, setup);
   if (!finished) return fail(output, ExitCode::Failed, finished.error());
-  if (line.action == IraceAction::Ablation) {
-    const Campaign campaign = campaign_of(setup, seed_of(setup, StorePlace::at(*finished)));
-    return ablate(output, line.settings, setup, campaign, *finished);
-  }
   const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup.parallel};
-  return race_again(output, line.settings, setup, *finished,
-                    StorePlace::at(beside(*finished, "-psrace")), slots);
+  return line.action == IraceAction::Ablation
+             ? ablate(output, line.settings, setup, *finished, slots)
+             : race_again(output, line.settings, setup, *finished, slots);
 }
 
 ExitCode carry_out(Output& output, const IraceCommandLine& line) {

@@ -6,6 +6,7 @@
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_quarantine.h"
 #include "cli/output/stored_stages.h"
 
@@ -86,6 +87,11 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
   letter_ids(*rows);
   const auto stages = StoredStages::read(**store);
   if (!stages) return fail(output, ExitCode::Store, stages.error());
+  if (kind->name == "designs") {
+    const auto campaigns = stored_campaigns(**store, has_writer(*arguments.store.path()));
+    if (!campaigns) return fail(output, ExitCode::Store, campaigns.error());
+    tell_states(*rows, *campaigns);
+  }
   if (!output.json && kind->name == "designs") stages->tell(*rows);
   if (!output.json && is_of_programs(**store)) as_costs(*rows);
   const bool truncated = rows->truncated;
@@ -96,7 +102,7 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_ls(Options& options) {
+CommandRun declare_ls(Options& options) {
   auto arguments = std::make_shared<LsArguments>();
   std::vector<std::string> kinds;
   kinds.reserve(std::size(kKinds));

@@ -38,7 +38,7 @@ ExitCode run_track(const std::vector<std::string>& words, Output& output) {
 ExitCode run_robot(const std::vector<std::string>& words, Output& output) {
   return become(sibling_program("SWARMSMITH_ROBOT", "swarmsmith-robot").string(), words,
                 "`./dev build` makes it; for ROS it needs libroscpp-dev libstd-msgs-dev "
-                "libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev (Debian)",
+                "libsensor-msgs-dev libgeometry-msgs-dev (Debian)",
                 output);
 }
 

@@ -2,10 +2,12 @@
 #include <unistd.h>
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <limits>
+#include <map>
 #include <memory>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "base/environment.h"
 #include "base/shown_text.h"
@@ -14,8 +16,8 @@
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
 #include "cli/output/status_text.h"
+#include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_quarantine.h"
-#include "cli/output/stored_stages.h"
 #include "cli/run/coordinator_link.h"
 #include "console/terminal.h"
 #include "proto/access/address.h"
@@ -33,146 +35,89 @@ struct StatusArguments {
   bool watch = false;
 };
 
+/// Names of the first version of the JSON, beside those of the second until the version after it.
 constexpr const char* kCampaign = "SELECT * FROM v_campaign_status";
 constexpr const char* kDesigns =
     "SELECT design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
     "best_mean, reason FROM v_designs ORDER BY design";
-constexpr const char* kWorkers =
-    "SELECT worker, host, pid, slots, state, done, failed, last_seen FROM v_workers "
-    "WHERE state = 'connected' ORDER BY worker";
-constexpr const char* kFailures = "SELECT count(*) AS failures FROM v_failures";
-
-/// The last ones; whether a design is paused is in them.
-constexpr const char* kOpenCommands =
+/// The last ones.
+constexpr const char* kCommands =
     "SELECT number, kind, design, budget, step, who, at FROM v_commands "
     "ORDER BY number DESC LIMIT 20";
+constexpr const char* kFailures = "SELECT count(*) AS failures FROM v_failures";
 
-/// Designs that a person has paused, and that are not over.
-constexpr const char* kPaused =
-    "SELECT d.design FROM v_designs AS d WHERE d.state NOT IN ('finished', 'stopped') AND "
-    "(SELECT c.kind FROM v_commands AS c WHERE c.design = d.design AND c.kind IN "
-    "('pause', 'resume') ORDER BY c.number DESC LIMIT 1) = 'pause' ORDER BY d.design";
-
-struct Status {
+/// What a store says besides the state of its campaigns.
+struct StoredFacts {
   Rows campaign;
   Rows designs;
-  Rows workers;
-  Rows failures;
   Rows commands;
-  Rows paused;
-  std::vector<QuarantineStatus> quarantine;
-  std::string store;  ///< as it was named
-
-  std::string of_campaign(std::size_t row, const std::string& column) const {
-    for (std::size_t i = 0; i < campaign.columns.size(); ++i) {
-      if (campaign.columns[i] == column) return campaign.cells[row][i].text;
-    }
-    return "";
-  }
+  std::string failures;
 };
 
-/// The store says what its last writer said. When nobody writes it any more, who was at work is
-/// not: a campaign and its designs that are not over are "interrupted", and workers are gone.
-void correct_states(Status& status) {
-  status.workers.cells.clear();
-  for (Rows* rows : {&status.campaign, &status.designs}) {
-    const auto state = std::ranges::find(rows->columns, "state") - rows->columns.begin();
-    for (auto& cells : rows->cells) {
-      std::string& text = cells[static_cast<std::size_t>(state)].text;
-      if (text != "running" && text != "racing" && text != "testing") continue;
-      text = "interrupted";
-    }
-  }
-}
-
-/// Where searches are that are no iterated races; programs have `iteration` besides.
-void add_stages(Status& status, const StoredStages& stages) {
-  if (stages.empty()) return;
-  Rows told = status.designs;
-  stages.tell(told);
-  const auto stage = std::ranges::find(told.columns, "stage") - told.columns.begin();
-  status.designs.columns.emplace_back("stage");
-  for (std::size_t i = 0; i < told.cells.size(); ++i)
-    status.designs.cells[i].push_back(told.cells[i][static_cast<std::size_t>(stage)]);
-}
-
-/// Stores of schemas before 3 have none.
-Expected<void> read_commands(StoreReader& store, Status& status) {
-  const auto known = select(store, "SELECT 1 FROM sqlite_master WHERE name = 'v_commands'");
-  if (!known || known->cells.empty()) return {};
-  for (const auto& [sql, rows] :
-       {std::pair{kPaused, &status.paused}, {kOpenCommands, &status.commands}}) {
+Expected<StoredFacts> read_facts(StoreReader& store) {
+  StoredFacts facts;
+  Rows failures;
+  for (const auto& [sql, rows] : {std::pair{kCampaign, &facts.campaign},
+                                  {kDesigns, &facts.designs},
+                                  {kFailures, &failures},
+                                  {kCommands, &facts.commands}}) {
+    if (sql == kCommands && store.schema() < 3) continue;  // there were none
     auto found = select(store, sql);
     if (!found) return Unexpected(found.error());
     letter_ids(*found);
     *rows = std::move(*found);
   }
-  return {};
+  facts.failures = failures.cells.front().front().text;
+  return facts;
 }
 
-/// All parts of one answer; a campaign that runs may move on between them.
-Expected<Status> read_status(StoreReader& store) {
-  Status status;
-  const std::pair<const char*, Rows*> parts[] = {{kCampaign, &status.campaign},
-                                                 {kDesigns, &status.designs},
-                                                 {kWorkers, &status.workers},
-                                                 {kFailures, &status.failures}};
-  for (const auto& [sql, rows] : parts) {
-    auto found = select(store, sql);
-    if (!found) return Unexpected(found.error());
-    letter_ids(*found);
-    *rows = std::move(*found);
-  }
-  if (auto asked = read_commands(store, status); !asked) return Unexpected(asked.error());
-  auto quarantine = stored_quarantine(store);
-  if (!quarantine) return Unexpected(quarantine.error());
-  status.quarantine = std::move(*quarantine);
-  if (status.campaign.cells.empty()) return unexpected(ErrorKind::Corrupt, "the store is empty");
-  return status;
-}
-
-/// A line a campaign, then the designs, then who works.
-void write_text(Output& output, const Status& status) {
-  const std::size_t campaigns = status.campaign.cells.size();
-  const std::string failures = status.failures.cells.front().front().text;
-  for (std::size_t i = 0; i < campaigns; ++i) {
-    const auto cell = [&](const char* column) {
-      return as_shown(status.of_campaign(i, column), Layout::Escaped);
-    };
-    output.out << "campaign " << cell("name") << "  " << cell("state") << "  designs "
-               << cell("designs_finished") << "/" << cell("designs") << "  experiments "
-               << cell("used") << "/" << cell("budget") << "  candidates " << cell("candidates");
-    if (campaigns == 1) output.out << "  failed " << failures;
-    output.out << "\n";
-  }
-  if (campaigns > 1) output.out << "failed " << failures << "\n";
-  if (status.of_campaign(0, "state") == "interrupted")
-    output.out << "no coordinator runs it now; the command that started it continues from here\n";
-  output.out << "\n" << rows_as_text(status.designs);
-  for (std::size_t i = 0; i < status.paused.cells.size(); ++i)
-    output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
-  if (!status.paused.cells.empty()) output.out << "\n";
-  if (!status.commands.cells.empty()) output.out << "\n" << rows_as_text(status.commands);
-  const std::vector<std::string> quarantine = quarantine_lines(status.quarantine, status.store);
+void write_text(Output& output, const LiveStatus& status, const StoredFacts& facts,
+                const Screen& screen, const std::string& store) {
+  for (const std::string& line : status_lines(status, screen))
+    output.out << as_shown(line, Layout::Escaped) << "\n";
+  output.out << "\nfailed " << facts.failures << "\n";
+  if (!facts.commands.cells.empty()) output.out << "\n" << rows_as_text(facts.commands);
+  const std::vector<std::string> quarantine = quarantine_lines(status.quarantine, store);
   if (!quarantine.empty()) output.out << "\n";
   for (const std::string& line : quarantine)
     output.out << as_shown(line, Layout::Escaped) << "\n";
-  if (status.workers.cells.empty()) return;
-  output.out << "\n" << rows_as_text(status.workers);
 }
 
-void write_json(Output& output, const Status& status) {
-  JsonObject object;
-  object.add("campaign", row_as_json(status.campaign, 0));
-  if (status.campaign.cells.size() > 1) object.add("campaigns", rows_as_json(status.campaign));
-  output.out << object.add("designs", rows_as_json(status.designs))
-                    .add("workers", rows_as_json(status.workers))
-                    .add("quarantine", JsonPiece{quarantine_json(status.quarantine)})
-                    .add("paused", rows_as_json(status.paused))
-                    .add("commands", rows_as_json(status.commands))
-                    .add("failures", JsonPiece{status.failures.cells.front().front().text})
-                    .text()
-             << "\n";
+/// States and stages are those of the campaigns: the store has what its last writer said.
+void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns) {
+  const std::size_t state = facts.campaign.column("state");
+  for (std::size_t i = 0; i < facts.campaign.cells.size() && i < campaigns.size(); ++i)
+    facts.campaign.cells[i][state].text = campaigns[i].state;
+  tell_states(facts.designs, campaigns);
+  std::map<std::string, std::string> stages;
+  for (const CampaignStatus& campaign : campaigns) {
+    for (const DesignStatus& design : campaign.designs) {
+      if (!design.stage.empty()) stages[to_string(design.id)] = design.stage;
+    }
+  }
+  if (stages.empty()) return;
+  facts.designs.columns.emplace_back("stage");
+  for (auto& cells : facts.designs.cells)
+    cells.push_back({StoreReader::Cell::Type::Text, stages[cells.front().text]});
+}
+
+/// What a coordinator says, with what its store knows besides.
+std::string json_of(const LiveStatus& status, StoredFacts facts) {
+  correct(facts, *status.campaigns);
+  Rows paused{.columns = {"design"}};
+  for (const CampaignStatus& campaign : *status.campaigns) {
+    for (const DesignStatus& design : campaign.designs) {
+      if (design.paused)
+        paused.cells.push_back({{StoreReader::Cell::Type::Text, to_string(design.id)}});
+    }
+  }
+  return to_json(status)
+      .add("failures", JsonPiece{facts.failures})
+      .add("commands", rows_as_json(facts.commands))
+      .add("campaign", row_as_json(facts.campaign, 0))
+      .add("designs", rows_as_json(facts.designs))
+      .add("paused", rows_as_json(paused))
+      .text();
 }
 
 /// Where a coordinator is asked: at the address or by the file that a person names, else by the
@@ -247,20 +192,23 @@ Expected<void> show_live(const StatusArguments& arguments, Output& output) {
 ExitCode show_stored(const StatusArguments& arguments, Output& output, bool& running) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  auto status = read_status(**store);
-  if (!status) return fail(output, ExitCode::Store, status.error());
-  status->store = *arguments.store.path();
-  if (!has_writer(*arguments.store.path())) correct_states(*status);
+  const bool is_written = has_writer(*arguments.store.path());
+  auto campaigns = stored_campaigns(**store, is_written);
+  if (!campaigns) return fail(output, ExitCode::Store, campaigns.error());
+  const auto facts = read_facts(**store);
+  if (!facts) return fail(output, ExitCode::Store, facts.error());
+  auto quarantine = stored_quarantine(**store);
+  if (!quarantine) return fail(output, ExitCode::Store, quarantine.error());
+  running = campaigns->size() == 1 && campaigns->front().state == "running";
+  LiveStatus status;
+  status.running = false;
+  status.quarantine = std::move(*quarantine);
+  status.campaigns = std::make_shared<const std::vector<CampaignStatus>>(std::move(*campaigns));
   if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
-  const auto stages = StoredStages::read(**store);
-  if (!stages) return fail(output, ExitCode::Store, stages.error());
   if (output.json)
-    add_stages(*status, *stages);
+    output.out << json_of(status, *facts) << "\n";
   else
-    stages->tell(status->designs);
-  if (!output.json && is_of_programs(**store)) as_costs(status->designs);
-  output.json ? write_json(output, *status) : write_text(output, *status);
-  running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";
+    write_text(output, status, *facts, screen_of(output), *arguments.store.path());
   return ExitCode::Done;
 }
 
@@ -292,7 +240,7 @@ ExitCode run_status(const StatusArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_status(Options& options) {
+CommandRun declare_status(Options& options) {
   auto arguments = std::make_shared<StatusArguments>();
   arguments->store.declare(options);
   options.text("--connect HOST:PORT|FILE", arguments->connect,

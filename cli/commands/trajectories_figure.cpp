@@ -39,7 +39,7 @@ Expected<std::vector<std::int64_t>> seeds_of_tests(StoreReader& store, Candidate
   if (!rows) return Unexpected(rows.error());
   std::vector<std::int64_t> seeds;
   for (const auto& cells : rows->cells)
-    seeds.push_back(std::stoll(cells.front().text));
+    seeds.push_back(cells.front().integer());
   if (!seeds.empty()) return seeds;
   return unexpected(
       ErrorKind::NotFound,

@@ -10,86 +10,27 @@
 
 #include "analysis/records/records.h"
 #include "base/id.h"
+#include "cli/output/query_output.h"
+#include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_quarantine.h"
-#include "cli/output/stored_stages.h"
 #include "storage/rows.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-using LiveCell = StoreReader::Cell;
-
 /// A version moves with all that pages show of a design: its steps, its state, its tests, what
 /// people asked of it. The last step may be of the iteration before: its survivors are not those
 /// who race now.
 constexpr const char* kDesigns =
-    "SELECT d.design AS id, d.mission, d.method, d.repetition, d.state, d.used, d.budget, "
-    "d.iteration, "
+    "SELECT d.design, d.campaign, "
     "coalesce((SELECT s.alive_after FROM race_step AS s WHERE s.design = d.design AND s.iteration "
     "= "
     "d.iteration ORDER BY s.step DESC LIMIT 1), (SELECT i.configurations FROM iteration AS i WHERE "
     "i.design = d.design AND i.number = d.iteration)) AS alive, "
-    "d.best_candidate AS best, d.best_mean, "
-    "d.state NOT IN ('finished', 'stopped') AND coalesce((SELECT c.kind FROM v_commands AS c WHERE "
-    "c.design = d.design AND c.kind IN ('pause', 'resume') ORDER BY c.number DESC LIMIT 1), '') = "
-    "'pause' AS paused, "
     "coalesce((SELECT max(s.step) FROM race_step AS s WHERE s.design = d.design), 0) + d.iteration "
-    "+ "
-    "(d.state = 'testing') + 2 * (d.state IN ('finished', 'stopped')) + "
-    "(SELECT count(*) FROM v_commands AS c WHERE c.design = d.design) AS version, "
-    "CASE WHEN (SELECT count(*) FROM v_campaigns) > 1 THEN (SELECT c.name FROM v_campaigns AS c "
-    "WHERE c.campaign = d.campaign) ELSE '' END AS campaign "
+    "+ (d.state = 'testing') + 2 * (d.state IN ('finished', 'stopped')) + "
+    "(SELECT count(*) FROM v_commands AS c WHERE c.design = d.design) AS version "
     "FROM v_designs AS d ORDER BY d.design";
-
-/// A campaign that nobody runs does not run.
-void correct_states(Rows& rows) {
-  const auto state = std::ranges::find(rows.columns, "state") - rows.columns.begin();
-  for (auto& cells : rows.cells) {
-    std::string& text = cells[static_cast<std::size_t>(state)].text;
-    if (text == "running" || text == "racing" || text == "testing") text = "interrupted";
-  }
-}
-
-LiveCell& live_cell(Rows& rows, std::size_t row, std::string_view column) {
-  const auto at = std::ranges::find(rows.columns, column) - rows.columns.begin();
-  return rows.cells[row][static_cast<std::size_t>(at)];
-}
-
-LiveCell integer_cell(std::int64_t value) {
-  return {LiveCell::Type::Integer, std::to_string(value)};
-}
-
-/// What the coordinator's memory knows better.
-void update(Rows& designs, std::size_t row, const DesignStatus& now) {
-  live_cell(designs, row, "state") = {LiveCell::Type::Text, std::string(word_of(now.state))};
-  live_cell(designs, row, "used") = integer_cell(now.used);
-  live_cell(designs, row, "budget") = integer_cell(now.budget);
-  live_cell(designs, row, "paused") = integer_cell(now.paused ? 1 : 0);
-  if (now.best == 0) return;
-  live_cell(designs, row, "best") = integer_cell(now.best);
-  live_cell(designs, row, "best_mean") = {LiveCell::Type::Real, json_number(now.best_mean)};
-}
-
-JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) {
-  if (now != nullptr) update(designs, row, *now);
-  JsonObject object;
-  for (std::size_t column = 0; column < designs.columns.size(); ++column) {
-    const std::string& name = designs.columns[column];
-    const LiveCell& cell = designs.cells[row][column];
-    if (name == "paused") {
-      object.add(name, cell.text == "1");
-    } else if (name == "id" || name == "best") {
-      const char* letter = name == "id" ? "d" : "c";
-      object.add(name, cell.type == LiveCell::Type::Null ? std::nullopt
-                                                         : std::optional(letter + cell.text));
-    } else if ((name != "stage" && name != "search" && name != "campaign") || !cell.text.empty()) {
-      object.add(name, cell_as_json(cell));
-    }
-  }
-  if (now != nullptr && !now->search.empty())
-    object.add("stage", now->stage).add("search", now->search);
-  return object;
-}
 
 /// Merged stores hold several campaigns: their names, and the state of those that are not finished.
 struct Head {
@@ -99,18 +40,35 @@ struct Head {
 
 Head head_of(const StoredCampaignState& state) {
   Head head;
-  Rows heads = state.campaign;
-  for (std::size_t i = 0; i < heads.cells.size(); ++i) {
-    head.name += (i == 0 ? "" : ", ") + live_cell(heads, i, "name").text;
-    if (i == 0 || head.state == "finished") head.state = live_cell(heads, i, "state").text;
+  for (const CampaignStatus& campaign : state.campaigns) {
+    const bool is_first = head.name.empty();
+    head.name += (is_first ? "" : ", ") + campaign.name;
+    if (is_first || head.state == "finished") head.state = campaign.state;
   }
   return head;
 }
 
-const DesignStatus* find_design(const CampaignStatus* now, const std::string& id) {
-  if (now == nullptr) return nullptr;
-  const auto found = std::ranges::find(now->designs, std::atoll(id.c_str()), &DesignStatus::id);
-  return found == now->designs.end() ? nullptr : &*found;
+JsonObject design_json(const CampaignStatus& campaign, const DesignStatus& design,
+                       const StoredDesign& stored, bool is_merged) {
+  const bool has_best = static_cast<bool>(design.best);
+  JsonObject object;
+  object.add("id", design.id)
+      .add("mission", design.mission)
+      .add("method", design.method)
+      .add("repetition", design.repetition)
+      .add("state", campaign.word_of_design(design))
+      .add("used", design.used)
+      .add("budget", design.budget)
+      .add("left", design.left())
+      .add("iteration", design.iteration)
+      .add("alive", stored.alive)
+      .add("best", design.best)
+      .add("best_mean", has_best ? std::optional(design.best_mean) : std::nullopt)
+      .add("paused", design.paused)
+      .add("version", stored.version);
+  if (is_merged) object.add("campaign", campaign.name);
+  if (!design.search.empty()) object.add("stage", design.stage).add("search", design.search);
+  return object;
 }
 
 /// "1 worker", "2 workers".
@@ -165,25 +123,24 @@ std::vector<Look> looks_of(const LiveStatus& status) {
   return looks;
 }
 
-std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& state,
-                           const CampaignStatus* now) {
+std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& state) {
   std::vector<Look> looks;
   const Head head = head_of(state);
-  if (now != nullptr && !now->trouble.empty())
-    looks.push_back({head.name + ": " + now->trouble, c});
-  if (now == nullptr && state.rejected > 0)
+  for (const CampaignStatus& campaign : state.campaigns) {
+    if (!campaign.trouble.empty()) looks.push_back({campaign.name + ": " + campaign.trouble, c});
+  }
+  if (!state.is_live && state.rejected > 0)
     looks.push_back({counted(state.rejected, "evaluation") + " rejected", c});
   if (head.state == "interrupted")
     looks.push_back({head.name + " is not finished, and no process runs it", c});
   for (const QuarantineStatus& one : state.quarantine)
     looks.push_back({quarantine_line(one), "fleet"});
-  Rows designs = state.designs;
-  for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const std::string id = live_cell(designs, i, "id").text;
-    const DesignStatus* live = find_design(now, id);
-    const std::string word =
-        live != nullptr ? std::string(word_of(live->state)) : live_cell(designs, i, "state").text;
-    if (word == "stopped") looks.push_back({"d" + id + " has stopped", c + "/d" + id});
+  for (const CampaignStatus& campaign : state.campaigns) {
+    for (const DesignStatus& design : campaign.designs) {
+      const std::string id = to_string(design.id);
+      if (design.state == DesignState::Stopped)
+        looks.push_back({id + " has stopped", c + "/" + id});
+    }
   }
   return looks;
 }
@@ -204,99 +161,72 @@ JsonObject causes_json() {
                                    })));
 }
 
-namespace {
-
-/// Columns `stage` and `search`, empty for iterated races.
-Expected<void> add_stages(StoreReader& store, Rows& designs) {
-  const auto stages = StoredStages::read(store);
-  if (!stages) return Unexpected(stages.error());
-  if (stages->empty()) return {};
-  for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const std::string id = live_cell(designs, i, "id").text;
-    const SearchOptions* search = stages->search(id);
-    const std::string name(search == nullptr ? "" : name_of(search->kind));
-    const std::string stage =
-        search == nullptr ? "" : stages->stage(id, live_cell(designs, i, "iteration").text);
-    designs.cells[i].push_back({LiveCell::Type::Text, stage});
-    designs.cells[i].push_back({LiveCell::Type::Text, name});
-  }
-  designs.columns.insert(designs.columns.end(), {"stage", "search"});
-  return {};
-}
-
-}  // namespace
-
 Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written,
-                                                  bool stages) {
+                                                  const CampaignStatus* now) {
   StoredCampaignState state;
-  auto campaign = select(store,
-                         "SELECT c.name, c.digest, c.state, "
-                         "(SELECT coalesce(sum(d.used), 0) FROM v_designs AS d WHERE d.campaign = "
-                         "c.campaign) AS used, "
-                         "(SELECT coalesce(sum(CASE WHEN d.state IN ('finished', 'stopped') THEN "
-                         "d.used ELSE d.budget END), 0) FROM v_designs AS d WHERE d.campaign = "
-                         "c.campaign) AS budget FROM v_campaigns AS c ORDER BY c.campaign",
-                         kRecordLimits);
-  if (!campaign) return Unexpected(campaign.error());
-  auto designs = select(store, kDesigns, kRecordLimits);
+  state.is_live = now != nullptr;
+  if (state.is_live) {
+    state.campaigns = {*now};
+  } else {
+    auto campaigns = stored_campaigns(store, is_written);
+    if (!campaigns) return Unexpected(campaigns.error());
+    state.campaigns = std::move(*campaigns);
+  }
+  const auto heads = select(store, "SELECT digest FROM v_campaigns", kRecordLimits);
+  if (!heads) return Unexpected(heads.error());
+  if (heads->cells.size() == 1) state.digest = heads->cells.front()[0].text;
+  const auto designs = select(store, kDesigns, kRecordLimits);
   if (!designs) return Unexpected(designs.error());
+  for (const auto& cells : designs->cells) {
+    StoredDesign& design = state.designs[cells[0].id<DesignId>()];
+    if (!cells[2].is_null()) design.alive = cells[2].integer();
+    design.version = cells[3].integer();
+  }
   const auto event = select(store,
                             "SELECT coalesce(max(seq), 0), coalesce(sum(kind = 'evaluation "
                             "rejected'), 0) FROM event",
                             kRecordLimits);
   if (!event) return Unexpected(event.error());
-  state.campaign = std::move(*campaign);
-  state.designs = std::move(*designs);
-  state.last_event = event->cells.front()[0].text;
-  state.rejected = std::atoll(event->cells.front()[1].text.c_str());
-  if (stages) {
-    if (auto added = add_stages(store, state.designs); !added) return Unexpected(added.error());
-  }
+  state.last_event = event->cells.front()[0].integer();
+  state.rejected = event->cells.front()[1].integer();
   if (is_written) return state;
   auto quarantine = stored_quarantine(store);
   if (!quarantine) return Unexpected(quarantine.error());
   state.quarantine = *std::move(quarantine);
-  correct_states(state.campaign);
-  correct_states(state.designs);
   return state;
 }
 
 JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
-                         const StoredCampaignState& state, const CampaignStatus* now, double left_s,
-                         bool may_act) {
+                         const StoredCampaignState& state, double left_s, bool may_act) {
   const Head head = head_of(state);
-  Rows heads = state.campaign;
-  Rows designs = state.designs;
-  std::int64_t used = 0;
-  std::int64_t budget = 0;
-  for (std::size_t i = 0; i < heads.cells.size(); ++i) {
-    used += std::atoll(live_cell(heads, i, "used").text.c_str());
-    budget += std::atoll(live_cell(heads, i, "budget").text.c_str());
+  const bool is_merged = state.campaigns.size() > 1;
+  CampaignTotals totals;
+  std::string trouble;
+  std::map<DesignId, JsonPiece> designs;
+  for (const CampaignStatus& campaign : state.campaigns) {
+    trouble = campaign.trouble;
+    for (const DesignStatus& design : campaign.designs) {
+      totals.add(design);
+      const auto stored = state.designs.find(design.id);
+      const StoredDesign of_store = stored == state.designs.end() ? StoredDesign{} : stored->second;
+      designs[design.id] = {design_json(campaign, design, of_store, is_merged).text()};
+    }
   }
-  if (now != nullptr) {
-    used = now->used;
-    budget = now->budget;
-  }
-  std::string list;
-  for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const DesignStatus* live = find_design(now, live_cell(designs, i, "id").text);
-    list += (i == 0 ? "" : ",") + design_json(designs, i, live).text();
-  }
-  const bool moves = now != nullptr && left_s >= 0;
   return std::move(
       JsonObject()
           .add("c", c)
           .add("name", head.name)
           .add("store", file.string())
-          .add("digest", heads.cells.size() == 1 ? live_cell(heads, 0, "digest").text : "")
+          .add("digest", state.digest)
           .add("state", head.state)
-          .add("used", used)
-          .add("budget", budget)
-          .add("eta_s", moves ? std::optional(left_s) : std::nullopt)
-          .add("trouble", now != nullptr ? now->trouble : std::string())
-          .add("last_event", JsonPiece{state.last_event})
-          .add("may_act", may_act && heads.cells.size() == 1 && head.state != "imported")
-          .add("designs", JsonPiece{"[" + list + "]"}));
+          .add("used", totals.used)
+          .add("budget", totals.budget)
+          .add("left", totals.left)
+          .add("eta_s", state.is_live && left_s >= 0 ? std::optional(left_s) : std::nullopt)
+          .add("trouble", trouble)
+          .add("last_event", state.last_event)
+          .add("may_act", may_act && !is_merged && head.state != "imported")
+          .add("designs", json_list(designs, [](const auto& design) { return design.second; })));
 }
 
 void History::add(const LiveStatus& status, Time now) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,30 +12,37 @@
 
 #include "base/expected.h"
 #include "base/text/json.h"
-#include "cli/output/query_output.h"
 #include "coordinator/service/live_status.h"
 #include "storage/store.h"
 
 namespace swarmsmith::cli {
 
-/// What the store says of its campaign now: head, designs, the last event.
+/// What only the store knows of a design.
+struct StoredDesign {
+  std::optional<std::int64_t> alive;
+  std::int64_t version = 0;  ///< moves with all that pages show of it
+};
+
+/// The campaigns of a store as they are now: several in a merged store.
 struct StoredCampaignState {
-  Rows campaign;  ///< name, digest, state, used, budget, a row a campaign
-  Rows designs;   ///< as `live` has them
-  std::string last_event;
+  std::vector<CampaignStatus> campaigns;
+  bool is_live = false;  ///< told by the coordinator that runs it
+  std::string digest;    ///< of the only campaign
+  std::map<DesignId, StoredDesign> designs;
+  std::int64_t last_event = 0;
   std::int64_t rejected = 0;                 ///< evaluations, as its events say
   std::vector<QuarantineStatus> quarantine;  ///< while no process writes the store
 };
 
-/// Errors: as a query's. `stages`: with where searches are that are no iterated races, which the
-/// coordinator that runs them knows better.
-Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written, bool stages);
+/// `now`: what the coordinator that runs it says; null for none, and then from the store. Errors:
+/// as a query's.
+Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written,
+                                                  const CampaignStatus* now);
 
-/// The element of `campaigns` of `live`. `now`: of the coordinator that runs it, null for none, and
-/// `left_s` as seconds_left says. Nobody acts on campaigns that were merged or imported.
+/// The element of `campaigns` of `live`. `left_s`: as seconds_left says. Nobody acts on campaigns
+/// that were merged or imported.
 JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
-                         const StoredCampaignState& state, const CampaignStatus* now, double left_s,
-                         bool may_act);
+                         const StoredCampaignState& state, double left_s, bool may_act);
 
 /// Something that a person should know of, and the page that shows it: "fleet", "c1", "c1/d3".
 struct Look {
@@ -44,9 +52,8 @@ struct Look {
 
 /// Of the coordinator itself, worst first.
 std::vector<Look> looks_of(const LiveStatus& status);
-/// Of a campaign and its designs. `now`: as for campaign_json.
-std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& state,
-                           const CampaignStatus* now);
+/// Of a campaign and its designs.
+std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& state);
 /// [{"text":"2 workers lost","page":"fleet"}].
 JsonPiece looks_json(const std::vector<Look>& looks);
 

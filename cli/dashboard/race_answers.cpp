@@ -27,18 +27,6 @@ using RaceCell = StoreReader::Cell;
 
 constexpr std::int64_t kMostIterations = 1'000'000;
 
-std::int64_t integer_of(const RaceCell& cell) {
-  std::int64_t value = 0;
-  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-  return value;
-}
-
-double real_of(const RaceCell& cell) {
-  double value = 0;
-  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-  return value;
-}
-
 /// A candidate in an iteration.
 struct Racer {
   std::int64_t candidate = 0;
@@ -76,7 +64,7 @@ Expected<std::map<std::int64_t, std::int64_t>> elites_of(const Question& questio
   if (!rows) return Unexpected(rows.error());
   std::map<std::int64_t, std::int64_t> ranks;
   for (const auto& cells : rows->cells)
-    ranks[integer_of(cells[0])] = integer_of(cells[1]);
+    ranks[cells[0].integer()] = cells[1].integer();
   return ranks;
 }
 
@@ -87,7 +75,7 @@ Expected<std::int64_t> iteration_of(const Question& question) {
                                                   "v_iterations WHERE design = {}",
                                                   question.design.value));
   if (!last) return Unexpected(last.error());
-  const std::int64_t newest = integer_of(last->cells.front().front());
+  const std::int64_t newest = last->cells.front().front().integer();
   if (newest == 0) {
     return unexpected(ErrorKind::NotFound, "no iteration has begun yet",
                       to_string(question.design));
@@ -97,7 +85,7 @@ Expected<std::int64_t> iteration_of(const Question& question) {
                                                      newest, question.design.value));
   if (!stepped) return Unexpected(stepped.error());
   const auto asked =
-      question.integer("iteration", integer_of(stepped->cells.front().front()), 1, kMostIterations);
+      question.integer("iteration", stepped->cells.front().front().integer(), 1, kMostIterations);
   if (!asked || *asked <= newest) return asked;
   return unexpected(ErrorKind::NotFound,
                     fmt::format("the design has no such iteration; it has 1 to {}", newest),
@@ -121,7 +109,7 @@ Expected<Race> read_race(const Question& question, std::int64_t iteration) {
   race.steps = std::move(*steps);
   std::map<std::int64_t, std::size_t> places;
   for (std::size_t i = 0; i < race.steps.cells.size(); ++i)
-    places[integer_of(race.steps.cells[i][0])] = i;
+    places[race.steps.cells[i][0].integer()] = i;
   const auto cells =
       rows_of(question, "SELECT candidate, step, score FROM v_race_matrix" + of_race);
   const auto drops =
@@ -135,18 +123,18 @@ Expected<Race> read_race(const Question& question, std::int64_t iteration) {
   std::map<std::int64_t, Racer> racers;
   for (const auto& row : cells->cells) {
     // A race that goes on may be a step further than its list of steps was.
-    const auto place = places.find(integer_of(row[1]));
+    const auto place = places.find(row[1].integer());
     if (place == places.end()) continue;
-    Racer& racer = racers[integer_of(row[0])];
+    Racer& racer = racers[row[0].integer()];
     racer.scores[place->second] = cell_as_json(row[2]).text;
     if (row[2].type == RaceCell::Type::Null) continue;
-    racer.sum += real_of(row[2]);
+    racer.sum += row[2].real();
     ++racer.runs;
   }
   for (const auto& row : drops->cells) {
-    const auto racer = racers.find(integer_of(row[0]));
+    const auto racer = racers.find(row[0].integer());
     if (racer == racers.end()) continue;
-    racer->second.dropped_at = integer_of(row[1]);
+    racer->second.dropped_at = row[1].integer();
     racer->second.reason = row[2].text;
   }
   for (auto& [candidate, racer] : racers) {
@@ -218,9 +206,9 @@ Expected<Sample> sample_of(const Question& question, std::int64_t wanted) {
       question,
       fmt::format("SELECT DISTINCT candidate FROM v_convergence WHERE design = {}", design));
   if (!elites) return Unexpected(elites.error());
-  Sample sample{.total = integer_of(total->cells.front().front()), .elites = {}, .condition = {}};
+  Sample sample{.total = total->cells.front().front().integer(), .elites = {}, .condition = {}};
   for (const auto& cells : elites->cells)
-    sample.elites.insert(integer_of(cells.front()));
+    sample.elites.insert(cells.front().integer());
   const std::int64_t every = std::max<std::int64_t>(1, (sample.total + wanted - 1) / wanted);
   sample.condition = fmt::format(" WHERE design = {} AND ((candidate - 1) % {} = 0", design, every);
   std::string list;
@@ -293,7 +281,7 @@ Expected<Answer> race_answer(const Question& question) {
   shown = shown.first(std::min(shown.size(), static_cast<std::size_t>(*rows)));
   std::string scores;
   for (std::size_t i = 0; i < race->steps.cells.size(); ++i)
-    scores += (i == 0 ? "" : ",") + scores_at(shown, i, integer_of(race->steps.cells[i][0])).text;
+    scores += (i == 0 ? "" : ",") + scores_at(shown, i, race->steps.cells[i][0].integer()).text;
   // A later campaign of a finished design (`extend`) begins new iterations.
   const bool ended = !over->cells.empty();
   return json_answer(
@@ -376,7 +364,7 @@ Expected<Answer> parameters_answer(const Question& question) {
                          .add("elite", json_list(rows->cells,
                                                  [&](const std::vector<RaceCell>& cells) {
                                                    return sample->elites.contains(
-                                                       integer_of(cells[0]));
+                                                       cells[0].integer());
                                                  }))
                          .add("parameters", parameters));
 }

@@ -140,7 +140,7 @@ Expected<std::optional<JsonObject>> tests_of(const Question& question) {
   if (rows->cells.empty()) return std::optional<JsonObject>();
   std::vector<double> scores;
   for (const auto& cells : rows->cells)
-    scores.push_back(std::strtod(cells.front().text.c_str(), nullptr));
+    scores.push_back(cells.front().real());
   const MeanInterval interval = mean_interval(scores);
   return std::optional(JsonObject()
                            .add("n", scores.size())
@@ -396,7 +396,7 @@ Expected<Answer> views_answer(const Question& question) {
       })));
 }
 
-Expected<JsonPiece> stored_workers(StoreReader& store, bool is_written) {
+Expected<std::vector<JsonPiece>> stored_workers(StoreReader& store, bool is_written) {
   // As a live one has its fields; what only a coordinator's memory knows is null.
   const auto rows = select(
       store,
@@ -407,7 +407,10 @@ Expected<JsonPiece> stored_workers(StoreReader& store, bool is_written) {
                   is_written ? "state" : "CASE state WHEN 'connected' THEN 'gone' ELSE state END"),
       kRecordLimits);
   if (!rows) return Unexpected(rows.error());
-  return rows_as_json(*rows);
+  std::vector<JsonPiece> workers;
+  for (std::size_t i = 0; i < rows->cells.size(); ++i)
+    workers.push_back({row_as_json(*rows, i).text()});
+  return workers;
 }
 
 }  // namespace swarmsmith::cli

@@ -20,6 +20,6 @@ Expected<Answer> real_runs_answer(const Question& question);
 Expected<Answer> views_answer(const Question& question);
 
 /// Workers that the store knows, as `live` names their fields.
-Expected<JsonPiece> stored_workers(StoreReader& store, bool is_written);
+Expected<std::vector<JsonPiece>> stored_workers(StoreReader& store, bool is_written);
 
 }  // namespace swarmsmith::cli

@@ -1,350 +1,54 @@
-#include "cli/irace/irace_actions.h"
-
 #include <fmt/format.h>
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <mutex>
-#include <numeric>
-#include <thread>
+#include <map>
+#include <tuple>
 #include <utility>
 
-#include "base/process/guard.h"
-#include "base/rng.h"
 #include "base/text/csv.h"
 #include "base/text/whole_file.h"
 #include "cli/irace/candidate_table.h"
+#include "cli/irace/irace_actions.h"
 #include "cli/irace/irace_console.h"
 #include "cli/irace/stored_configurations.h"
 #include "console/counter.h"
-#include "coordinator/campaign/method_space.h"
+#include "coordinator/campaign/irace_campaign.h"
 #include "irace_core/ablation.h"
 #include "irace_core/files/command_line_text.h"
-#include "programs/runner.h"
+#include "irace_core/files/configurations_file.h"
+#include "programs/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::int64_t kLargestPairSeed = 2'147'483'647;  // irace's
-
-struct AblationPair {
-  std::int64_t instance;
-  std::int64_t seed;
+/// From one configuration of a finished run to another one.
+struct Way {
+  std::int64_t from = 0;  ///< irace's ids
+  std::int64_t to = 0;
+  Configuration source;
+  Configuration target;
 };
 
-/// A configuration of the way, or beside it.
-struct AblationRow {
-  std::int64_t id = 0;
-  std::int64_t step = 0;
-  std::string changed;
-  Configuration configuration;
-  std::vector<double> costs;  ///< a pair each; NaN where it was not run
-  bool on_path = false;
-};
-
-/// Runs of the target on pairs that are the same for all configurations.
-class TargetRuns {
- public:
-  TargetRuns(const IraceSetup& setup, const Campaign& campaign, const MethodSpace& space,
-             std::vector<AblationPair> pairs)
-      : setup_(setup), campaign_(campaign), space_(space), pairs_(std::move(pairs)) {}
-
-  const std::vector<AblationPair>& pairs() const { return pairs_; }
-
-  /// Makes the experiments of `rows`, as many at a time as `parallel` says, notes the costs in the
-  /// rows and says how far it is. Costs of runs that ended before another one failed are noted,
-  /// too.
-  Expected<std::vector<Measurement>> make(std::span<const Experiment> wanted,
-                                          std::span<AblationRow> rows, Counter& counter) {
-    std::vector<Measurement> measured(wanted.size());
-    std::atomic<std::size_t> next{0};
-    std::size_t done = 0;
-    const auto work = [&] {
-      const TargetRunner runner(*campaign_.target, {.shell = true}, interrupt_);
-      for (std::size_t i = next++; i < wanted.size() && !interrupt_.triggered(); i = next++) {
-        const Experiment& experiment = wanted[i];
-        AblationRow& row = rows[static_cast<std::size_t>(experiment.configuration - 1)];
-        const auto result = experiment.is_evaluation
-                                ? runner.evaluate(evaluation_of(experiment, wanted, rows))
-                                : runner.run(run_of(experiment, row));
-        const std::scoped_lock lock(mutex_);
-        if (!result) {
-          keep(result.error());
-          break;
-        }
-        measured[i] = {
-            result->rejected ? std::numeric_limits<double>::infinity() : result->reading.cost,
-            result->reading.time};
-        if (campaign_.target->evaluator.empty() || experiment.is_evaluation)
-          row.costs[static_cast<std::size_t>(experiment.pair - 1)] = measured[i].cost;
-        counter.tell(static_cast<std::int64_t>(++done), static_cast<std::int64_t>(wanted.size()));
-      }
-    };
-    {
-      // As many as irace makes: one, unless it is told. A targetEvaluator is called once at a time.
-      const bool evaluates = !wanted.empty() && wanted.front().is_evaluation;
-      const std::int64_t threads = evaluates ? 1 : setup_.parallel.value_or(1);
-      std::vector<std::jthread> running;
-      for (std::int64_t i = 0; i < std::max<std::int64_t>(1, threads); ++i)
-        running.emplace_back(work);
-    }
-    if (error_) return Unexpected(*error_);
-    return measured;
+Expected<Way> way_of(const IraceSettings& settings, const IraceSetup& setup,
+                     const std::filesystem::path& finished) {
+  const auto stored = read_stored_configurations(finished, setup.space);
+  if (!stored) return Unexpected(stored.error());
+  Way way{
+      .from = settings.number("--ablation-source").value_or(1),
+      .to = settings.number("--ablation-target").value_or(stored->elites.rbegin()->second.front())};
+  for (const auto& [id, option, end] : {std::tuple{way.from, "--ablation-source", &way.source},
+                                        std::tuple{way.to, "--ablation-target", &way.target}}) {
+    auto found = stored->find(id, option);
+    if (!found) return Unexpected(found.error());
+    *end = std::move(*found);
   }
-
- private:
-  const AblationPair& pair_of(const Experiment& experiment) const {
-    return pairs_[static_cast<std::size_t>(experiment.pair - 1)];
-  }
-
-  const std::string& text_of(const AblationPair& pair) const {
-    return setup_.training[static_cast<std::size_t>(pair.instance - 1)];
-  }
-
-  RunnerCall run_of(const Experiment& experiment, const AblationRow& row) const {
-    const AblationPair& pair = pair_of(experiment);
-    return {.configuration = row.id,
-            .instance_id = std::to_string(pair.instance),
-            .seed = pair.seed,
-            .instance = text_of(pair),
-            .bound = experiment.bound,
-            .switches = space_.text_of(row.configuration).call};
-  }
-
-  /// A targetEvaluator is told who is alive: those that it is called for.
-  EvaluatorCall evaluation_of(const Experiment& experiment, std::span<const Experiment> wanted,
-                              std::span<const AblationRow> rows) const {
-    const auto id_of = [&rows](const Experiment& one) {
-      return rows[static_cast<std::size_t>(one.configuration - 1)].id;
-    };
-    const AblationPair& pair = pair_of(experiment);
-    EvaluatorCall call{
-        id_of(experiment), std::to_string(pair.instance), pair.seed, text_of(pair), {}};
-    for (const Experiment& one : wanted)
-      call.alive.push_back(id_of(one));
-    return call;
-  }
-
-  /// The first failure ends the others.
-  void keep(const TargetFailure& failure) {
-    if (!error_)
-      error_ = Error{ErrorKind::BadInput, message_of(failure.reason, failure.details), {}};
-    interrupt_.trigger();
-  }
-
-  const IraceSetup& setup_;
-  const Campaign& campaign_;
-  const MethodSpace& space_;
-  std::vector<AblationPair> pairs_;
-  Interrupt interrupt_;
-  std::mutex mutex_;
-  std::optional<Error> error_;
-};
-
-/// As irace: the instances in turn, shuffled each time unless sampleInstances is off, with a seed
-/// each.
-std::vector<AblationPair> draw_pairs(const IraceSetup& setup, std::int64_t count,
-                                     std::uint64_t seed) {
-  Rng rng = Rng(seed).split("ablation");
-  std::vector<AblationPair> pairs;
-  std::vector<std::int64_t> order(setup.training.size());
-  while (static_cast<std::int64_t>(pairs.size()) < count) {
-    const std::size_t at = pairs.size() % order.size();
-    if (at == 0) {
-      std::iota(order.begin(), order.end(), 1);
-      if (setup.race.sample_instances) rng.shuffle(std::span(order));
-    }
-    pairs.push_back({order[at], rng.uniform_int(1, kLargestPairSeed)});
-  }
-  return pairs;
-}
-
-/// The runs that were made, and their mean cost.
-std::pair<std::size_t, double> runs_and_mean(const std::vector<double>& costs) {
-  std::size_t runs = 0;
-  double sum = 0;
-  for (const double cost : costs) {
-    if (std::isnan(cost)) continue;
-    ++runs;
-    sum += cost;
-  }
-  return {runs, sum / static_cast<double>(runs)};
-}
-
-/// All runs as a table, which is whole at any time: written anew whenever some have ended.
-class AblationTable {
- public:
-  /// Without a file nothing is written.
-  explicit AblationTable(std::string file) : file_(std::move(file)) {
-    std::error_code unknown;
-    const auto status = std::filesystem::status(file_, unknown);
-    is_stream_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-                 !std::filesystem::is_directory(status);
-  }
-
-  /// A pipe or a device gets the table once, when all of it is there.
-  Expected<void> write(const std::vector<AblationRow>& rows, const std::vector<AblationPair>& pairs,
-                       bool is_over) const {
-    if (file_.empty() || (is_stream_ && !is_over)) return {};
-    std::string text = "configuration,step,on_path,changed,pair,instance,seed,cost\n";
-    for (const AblationRow& row : rows) {
-      for (std::size_t p = 0; p < row.costs.size(); ++p) {
-        if (std::isnan(row.costs[p])) continue;
-        text += fmt::format("{},{},{},{},{},{},{},{:.17g}\n", row.id, row.step, row.on_path ? 1 : 0,
-                            csv_field(row.changed), p + 1, pairs[p].instance, pairs[p].seed,
-                            row.costs[p]);
-      }
-    }
-    return write_whole_file(file_, text);
-  }
-
- private:
-  std::string file_;
-  bool is_stream_ = false;
-};
-
-class Ablation {
- public:
-  Ablation(Output& output, const IraceSetup& setup, AblationType type, const MethodSpace& method,
-           TargetRuns& runs, AblationTable table)
-      : output_(output),
-        setup_(setup),
-        type_(type),
-        method_(method),
-        runs_(runs),
-        table_(std::move(table)) {}
-
-  Expected<void> run(const Configuration& source, const Configuration& target) {
-    // Also says at once whether the table can be written.
-    if (auto written = write(false); !written) return written;
-    std::int64_t step = 0;
-    if (auto done = run_end(step, "source", source); !done) return done;
-    std::vector<std::size_t> open = differences(source, target);
-    Configuration current = source;
-    while (open.size() > 1) {
-      const auto changes = ablation_changes(setup_.space, current, target, open);
-      if (changes.empty() || changes.front().configuration == target) break;
-      const std::size_t first = rows_.size();
-      ++step;
-      for (const AblationChange& change : changes)
-        add_row(step, text_of(change, current), change.configuration);
-      const auto best = run_rows(first, type_);
-      if (!best) return Unexpected(best.error());
-      if (!*best) {
-        return bad_input(fmt::format("the target rejected all changes of step {}", step),
-                         "--ablation");
-      }
-      if (auto kept = keep_on_path(first + **best); !kept) return kept;
-      current = changes[**best].configuration;
-      open = differences(current, target);
-    }
-    return run_end(step + 1, text_of({target, open}, current), target);
-  }
-
-  Expected<void> finish() const { return write(true); }
-
-  Expected<std::string> result() const {
-    CandidateTable table(setup_.space);
-    std::vector<std::int64_t> ids;
-    std::vector<std::vector<double>> costs;
-    for (const AblationRow& row : rows_) {
-      if (!row.on_path) continue;
-      const CandidateText text = method_.text_of(row.configuration);
-      CandidateRow candidate;
-      candidate.id = candidate_id(DesignId{1}, row.id);
-      candidate.parameters = text.parameters;
-      candidate.machine = text.machine;
-      if (auto added = table.add(candidate); !added) return Unexpected(added.error());
-      ids.push_back(row.id);
-      costs.push_back(row.costs);
-    }
-    const std::vector<std::int64_t> best = {ids[best_by_ranks(costs, test_type_of(setup_.race))]};
-    return fmt::format(
-        "# {}: Final best configuration (first number is its number in the ablation):\n{}"
-        "# Best configurations as commandlines (first number is the configuration ID; same order "
-        "as above):\n{}",
-        irace_date(), table.configurations(best), table.command_lines(best));
-  }
-
- private:
-  void add_row(std::int64_t step, std::string changed, const Configuration& configuration) {
-    rows_.push_back({.id = static_cast<std::int64_t>(rows_.size()) + 1,
-                     .step = step,
-                     .changed = std::move(changed),
-                     .configuration = configuration,
-                     .costs = std::vector<double>(runs_.pairs().size(),
-                                                  std::numeric_limits<double>::quiet_NaN())});
-  }
-
-  /// Source and target are run on all pairs.
-  Expected<void> run_end(std::int64_t step, std::string changed, const Configuration& end) {
-    add_row(step, std::move(changed), end);
-    const auto best = run_rows(rows_.size() - 1, AblationType::Full);
-    if (!best) return Unexpected(best.error());
-    return keep_on_path(rows_.size() - 1);
-  }
-
-  /// "alpha: 1 -> 2.5, rho: 0.5 -> NA".
-  std::string text_of(const AblationChange& change, const Configuration& before) const {
-    const auto value = [this](const Configuration& configuration, std::size_t i) {
-      return configuration.is_active(i) ? value_text(setup_.space, i, configuration[i])
-                                        : std::string("NA");
-    };
-    std::string text;
-    for (const std::size_t i : change.changed) {
-      text += fmt::format("{}{}: {} -> {}", text.empty() ? "" : ", ", setup_.space[i].name,
-                          value(before, i), value(change.configuration, i));
-    }
-    return text;
-  }
-
-  /// The best of the rows from `first` on, by its position among them.
-  Expected<std::optional<std::size_t>> run_rows(std::size_t first, AblationType type) {
-    const std::span<AblationRow> rows = std::span(rows_).subspan(first);
-    Counter counter(output_, "made", "runs");
-    const auto make =
-        [&](std::span<const Experiment> wanted) -> Expected<std::vector<Measurement>> {
-      auto made = runs_.make(wanted, rows, counter);
-      if (auto written = write(false); made && !written) return Unexpected(written.error());
-      return made;
-    };
-    const auto best = best_change(setup_.race, type, rows.size(),
-                                  static_cast<std::int64_t>(runs_.pairs().size()), make);
-    if (!best) return best;
-    for (const AblationRow& row : rows) {
-      const auto [runs, mean] = runs_and_mean(row.costs);
-      tell(fmt::format("  {:>4}  {:>4}  {:>14.6g}  {}\n", row.id, runs, mean, row.changed));
-    }
-    return best;
-  }
-
-  Expected<void> keep_on_path(std::size_t row) {
-    rows_[row].on_path = true;
-    tell(fmt::format("# Step {}: {}\n", rows_[row].step, rows_[row].changed));
-    return write(false);
-  }
-
-  Expected<void> write(bool is_over) const { return table_.write(rows_, runs_.pairs(), is_over); }
-
-  void tell(const std::string& text) {
-    if (!output_.quiet) output_.out << text << std::flush;
-  }
-
-  Output& output_;
-  const IraceSetup& setup_;
-  AblationType type_;
-  const MethodSpace& method_;
-  TargetRuns& runs_;
-  AblationTable table_;
-  std::vector<AblationRow> rows_;  ///< in the order of their ids
-};
-
-/// The place of the table of all runs; empty where none is asked for.
-std::string table_file(const IraceSettings& settings) {
-  const IraceSetting* setting = settings.find("--ablation-csv");
-  if (setting == nullptr) return {};
-  return absolute_path(std::get<std::string>(setting->value), setting->folder).string();
+  if (way.source != way.target) return way;
+  return bad_input(fmt::format("configurations {} and {} are the same: name others by "
+                               "--ablation-source and --ablation-target",
+                               way.from, way.to),
+                   "--ablation");
 }
 
 /// How many runs each configuration has at most: `firstTest` pairs, so many times; in a race the
@@ -363,57 +67,306 @@ Expected<std::int64_t> pairs_wanted(const IraceSettings& settings, const IraceSe
   return setup.race.deterministic ? std::min(count, instances) : count;
 }
 
+/// The scenario's campaign with the way in place of its race: what else its races go by decides
+/// nothing here.
+Expected<Campaign> campaign_for(const IraceSetup& setup, const Way& way, AblationType type,
+                                std::int64_t pairs, std::uint64_t seed) {
+  const Configuration ends[] = {way.source, way.target};
+  auto text = print_configurations_file(setup.space, ends);
+  if (!text) return Unexpected(text.error());
+  Campaign campaign = campaign_of(setup, seed);
+  campaign.repair.clear();
+  campaign.methods.front().configurations = std::move(*text);
+  campaign.missions.front().instances.test.clear();
+  campaign.missions.front().test_count = 0;
+  campaign.test_nb_elites = 0;
+  campaign.test_iteration_elites = false;
+  const Scenario& run = setup.race;
+  campaign.race = {.max_experiments = most_ablation_runs(way.source, way.target, pairs),
+                   .sample_instances = run.sample_instances,
+                   .deterministic = run.deterministic,
+                   .test_type = test_type_of(run),
+                   .confidence = run.confidence,
+                   .first_test = run.first_test,
+                   .each_test = run.each_test,
+                   .block_size = run.block_size,
+                   .mu = run.mu,
+                   .min_measurable_time = run.min_measurable_time,
+                   .bound_max = run.bound_max,
+                   .ablation = type,
+                   .ablation_pairs = pairs};
+  return campaign;
+}
+
+/// The place of the table of all runs; empty where none is asked for.
+std::string table_file(const IraceSettings& settings) {
+  const IraceSetting* setting = settings.find("--ablation-csv");
+  if (setting == nullptr) return {};
+  return absolute_path(std::get<std::string>(setting->value), setting->folder).string();
+}
+
+/// Each way to ask is a campaign of its own.
+std::string store_ending(const IraceSettings& settings, AblationType type) {
+  std::string ending = "-ablation";
+  if (type == AblationType::Racing) ending += "-racing";
+  for (const auto& [option, sign] :
+       {std::pair{"--ablation-instances", "-x"}, std::pair{"--ablation-source", "-from"},
+        std::pair{"--ablation-target", "-to"}}) {
+    if (const auto number = settings.number(option)) ending += sign + std::to_string(*number);
+  }
+  return ending;
+}
+
+/// Prints steps once they are over, and keeps all runs as a table: of the rows of a store, and
+/// those that come.
+class AblationReport final : public RunListener {
+ public:
+  AblationReport(Output& output, const IraceSetup& setup, const Campaign& campaign,
+                 Configuration target, std::string file)
+      : output_(output),
+        space_(setup.space),
+        target_(std::move(target)),
+        n_pairs_(static_cast<std::size_t>(campaign.race.ablation_pairs)),
+        counted_(campaign.target->evaluator.empty() ? Purpose::Race : Purpose::Evaluator),
+        console_(output, {.race = campaign.race, .space = setup.space}, SystemClock().now()),
+        counter_(output, "made", "runs"),
+        file_(std::move(file)) {
+    std::error_code unknown;
+    const auto status = std::filesystem::status(file_, unknown);
+    is_stream_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+                 !std::filesystem::is_directory(status);
+  }
+
+  /// What an earlier process made.
+  Expected<void> go_on_from(StoreReader& store) {
+    store.each_answer_row([this](const Row& row) { take(row); });
+    for (const StoredScore& score : store.scores())
+      note(score.key, score.status, score.score);
+    tell_steps();
+    return fault();
+  }
+
+  void restore(std::size_t, const Row&) override {}
+  void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override {
+    take(row);
+    if (std::holds_alternative<EventRow>(row)) console_.add(campaign, row, now);
+    if (const auto* run = std::get_if<EvaluationRow>(&row)) {
+      note(run->key, run->status, run->score);
+      if (run->key.purpose == counted_) counter_.tell(++made_, wanted_);
+    }
+    if (std::holds_alternative<DesignStateRow>(row)) tell_steps();
+  }
+  void update(const LiveStatus& live, TimePoint now) override { console_.update(live, now); }
+  void finish(const LiveStatus&) override {}
+
+  /// The design's, as it was told last.
+  const DesignStateRow& state() const { return state_; }
+
+  /// The table is whole at any time. A pipe or a device gets it once, when all of it is there.
+  Expected<void> write(bool is_over) const {
+    if (file_.empty() || (is_stream_ && !is_over)) return {};
+    std::string text = "configuration,step,on_path,changed,pair,instance,seed,cost\n";
+    for (const auto& [number, member] : members_) {
+      const std::string begin =
+          fmt::format("{},{},{},{}", number, member.row.iteration - 1, is_on_path(member) ? 1 : 0,
+                      csv_field(change_of(member)));
+      for (std::size_t p = 0; p < n_pairs_; ++p) {
+        if (std::isnan(member.costs[p])) continue;
+        const PairRow& pair = pairs_.at({Purpose::Race, static_cast<std::int64_t>(p) + 1});
+        text += fmt::format("{},{},{},{},{:.17g}\n", begin, p + 1, pair.instance, pair.seed,
+                            member.costs[p]);
+      }
+    }
+    return write_whole_file(file_, text);
+  }
+
+  Expected<std::string> result() const {
+    CandidateTable table(space_);
+    for (const auto& [number, member] : members_) {
+      if (auto added = table.add(member.row); !added) return Unexpected(added.error());
+    }
+    const std::vector<std::int64_t> best = {elites_.rbegin()->second.front()};
+    return fmt::format(
+        "# {}: Final best configuration (first number is its number in the ablation):\n{}"
+        "# Best configurations as commandlines (first number is the configuration ID; same order "
+        "as above):\n{}",
+        irace_date(), table.configurations(best), table.command_lines(best));
+  }
+
+  /// What could not be read or written on the way.
+  Expected<void> fault() const {
+    if (fault_) return Unexpected(*fault_);
+    return {};
+  }
+
+ private:
+  struct Member {
+    CandidateRow row;
+    Configuration configuration;
+    std::vector<double> costs;  ///< a pair each; NaN where it was not run
+  };
+
+  void take(const Row& row) {
+    if (const auto* candidate = std::get_if<CandidateRow>(&row)) {
+      auto configuration = configuration_of(space_, *candidate);
+      if (!configuration) {
+        fault_ = Error{ErrorKind::Corrupt, "holds a configuration that is not one of the scenario",
+                       to_string(candidate->id)};
+        return;
+      }
+      // What came after the last stored step comes again, and costs of it are known.
+      members_.try_emplace(
+          number_of(candidate->id),
+          Member{*candidate, std::move(*configuration),
+                 std::vector<double>(n_pairs_, std::numeric_limits<double>::quiet_NaN())});
+    } else if (const auto* pair = std::get_if<PairRow>(&row)) {
+      pairs_[{pair->purpose, pair->number}] = *pair;
+    } else if (const auto* iteration = std::get_if<IterationRow>(&row)) {
+      made_ = 0;
+      wanted_ = iteration->budget;
+      counter_ = Counter(output_, "made", "runs");
+    } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
+      if (elite->rank == 1) elites_[elite->iteration].clear();
+      elites_[elite->iteration].push_back(number_of(elite->candidate));
+    } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
+      state_ = *state;
+    }
+  }
+
+  void note(const EvaluationKey& key, EvaluationStatus status, double score) {
+    const auto member = members_.find(number_of(key.candidate));
+    if (key.purpose != counted_ || member == members_.end()) return;
+    member->second.costs.at(place_of(key)) =
+        status == EvaluationStatus::Ok ? to_cost(score) : std::numeric_limits<double>::infinity();
+  }
+
+  /// A call of a targetEvaluator has a number of its own, and the run's instance and seed.
+  std::size_t place_of(const EvaluationKey& key) const {
+    if (key.purpose == Purpose::Race) return static_cast<std::size_t>(key.pair - 1);
+    const PairRow& own = pairs_.at({key.purpose, key.pair});
+    for (std::int64_t number = 1;; ++number) {
+      const PairRow& pair = pairs_.at({Purpose::Race, number});
+      if (pair.instance == own.instance && pair.seed == own.seed)
+        return static_cast<std::size_t>(number - 1);
+    }
+  }
+
+  bool is_on_path(const Member& member) const {
+    const auto elites = elites_.find(member.row.iteration);
+    return elites != elites_.end() &&
+           std::ranges::find(elites->second, number_of(member.row.id)) != elites->second.end();
+  }
+
+  /// "alpha: 1 -> 2.5, rho: 0.5 -> NA".
+  std::string change_of(const Member& member) const {
+    if (!member.row.parent) return "source";
+    const Configuration& before = members_.at(number_of(member.row.parent)).configuration;
+    const auto value = [this](const Configuration& configuration, std::size_t i) {
+      return configuration.is_active(i) ? value_text(space_, i, configuration[i])
+                                        : std::string("NA");
+    };
+    std::string text;
+    for (const std::size_t i : change_between(space_, before, member.configuration, target_)) {
+      text += fmt::format("{}{}: {} -> {}", text.empty() ? "" : ", ", space_[i].name,
+                          value(before, i), value(member.configuration, i));
+    }
+    return text;
+  }
+
+  /// The runs that were made, and their mean cost.
+  static std::pair<std::size_t, double> runs_and_mean(const std::vector<double>& costs) {
+    std::size_t runs = 0;
+    double sum = 0;
+    for (const double cost : costs) {
+      if (std::isnan(cost)) continue;
+      ++runs;
+      sum += cost;
+    }
+    return {runs, sum / static_cast<double>(runs)};
+  }
+
+  /// Those that are over and were not told.
+  void tell_steps() {
+    for (; elites_.contains(told_ + 1); ++told_) {
+      counter_.tell(wanted_, wanted_);
+      std::string text, kept;
+      for (const auto& [number, member] : members_) {
+        if (member.row.iteration != told_ + 1) continue;
+        const auto [runs, mean] = runs_and_mean(member.costs);
+        text +=
+            fmt::format("  {:>4}  {:>4}  {:>14.6g}  {}\n", number, runs, mean, change_of(member));
+        if (is_on_path(member)) kept = fmt::format("# Step {}: {}\n", told_, change_of(member));
+      }
+      if (!output_.quiet) output_.out << text << kept << std::flush;
+      if (auto written = write(false); !written) fault_ = written.error();
+    }
+  }
+
+  Output& output_;
+  const ParameterSpace& space_;
+  Configuration target_;
+  std::size_t n_pairs_;
+  Purpose counted_;  ///< of the evaluations that say the costs
+  IraceConsole console_;
+  Counter counter_;
+  std::string file_;  ///< of the table; empty for none
+  bool is_stream_ = false;
+  std::map<std::int64_t, Member> members_;
+  std::map<std::pair<Purpose, std::int64_t>, PairRow> pairs_;
+  std::map<std::int64_t, std::vector<std::int64_t>> elites_;  ///< by iteration, best first
+  DesignStateRow state_;
+  std::int64_t told_ = 0;    ///< iterations
+  std::int64_t made_ = 0;    ///< runs of the current one
+  std::int64_t wanted_ = 0;  ///< by it
+  std::optional<Error> fault_;
+};
+
 }  // namespace
 
 ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup& setup,
-                const Campaign& campaign, const std::filesystem::path& finished) {
+                const std::filesystem::path& finished, const IraceSlots& slots) {
   const auto failed = [&output](const Error& error) {
     return fail(output, ExitCode::Failed, error);
   };
   if (output.json) {
     return failed({ErrorKind::BadInput,
-                   "is not there with --ablation: --ablation-csv FILE has "
-                   "every run",
-                   "--json"});
+                   "cannot be used with --ablation: --ablation-csv FILE has every run", "--json"});
   }
   const AblationType type =
       settings.text("--ablation-type") == "racing" ? AblationType::Racing : AblationType::Full;
   const auto pairs = pairs_wanted(settings, setup, type);
   if (!pairs) return failed(pairs.error());
-  const auto stored = read_stored_configurations(finished, setup.space);
-  if (!stored) return failed(stored.error());
-  const std::int64_t from = settings.number("--ablation-source").value_or(1);
-  const std::int64_t to =
-      settings.number("--ablation-target").value_or(stored->elites.rbegin()->second.front());
-  const auto source = stored->find(from, "--ablation-source");
-  if (!source) return failed(source.error());
-  const auto target = stored->find(to, "--ablation-target");
-  if (!target) return failed(target.error());
-  if (*source == *target) {
-    return failed({ErrorKind::BadInput,
-                   fmt::format("configurations {} and {} are the same: name others by "
-                               "--ablation-source and --ablation-target",
-                               from, to),
-                   "--ablation"});
-  }
-  const auto method = MethodSpace::make(campaign.methods.front(), static_cast<int>(campaign.digits),
-                                        campaign.target->aclib);
-  if (!method) return failed(method.error());
-  if (auto guarded = start_guard(); !guarded) return failed(guarded.error());
-  TargetRuns runs(setup, campaign, *method, draw_pairs(setup, *pairs, campaign.seed));
-  if (!output.quiet) {
+  const auto way = way_of(settings, setup, finished);
+  if (!way) return failed(way.error());
+  const auto seed = seed_of(setup, StorePlace::at(finished));
+  auto campaign = campaign_for(setup, *way, type, *pairs, seed);
+  if (!campaign) return failed(campaign.error());
+  const StorePlace store = StorePlace::beside(finished, store_ending(settings, type));
+  campaign->store = store.file();
+  AblationReport report(output, setup, *campaign, way->target, table_file(settings));
+  // Says at once whether the table can be written.
+  if (auto written = report.write(false); !written) return failed(written.error());
+  const bool begins = may_begin(*campaign);
+  if (begins && !output.quiet) {
     output.out << fmt::format(
         "# {}: Starting ablation from {} to {}\n# Seed: {}\n# Source: {}\n# Target: {}\n"
         "# {} pairs of instance and seed; columns: number, runs, mean cost, change\n",
-        irace_date(), from, to, campaign.seed, method->text_of(*source).machine,
-        method->text_of(*target).machine, *pairs);
+        irace_date(), way->from, way->to, campaign->seed,
+        command_line_text(setup.space, way->source), command_line_text(setup.space, way->target),
+        *pairs);
   }
-  Ablation ablation(output, setup, type, *method, runs, AblationTable(table_file(settings)));
-  if (auto done = ablation.run(*source, *target); !done) return failed(done.error());
-  const auto result = ablation.result();
+  if (const auto known = store_of(*campaign)) {
+    if (auto told = report.go_on_from(*known); !told) return failed(told.error());
+  }
+  const ExitCode ended = carry_out(output, {*campaign}, run_options(slots, store), report).front();
+  if (auto written = report.write(true); !written) return failed(written.error());
+  if (auto well = report.fault(); !well) return failed(well.error());
+  if (ended != ExitCode::Done) return explain_end(output, ended, begins, false);
+  if (report.state().state == DesignState::Stopped)
+    return failed({ErrorKind::BadInput, report.state().reason, "--ablation"});
+  const auto result = report.result();
   if (!result) return failed(result.error());
-  if (!output.quiet) output.out << *result;
-  if (auto written = ablation.finish(); !written) return failed(written.error());
+  if (!output.quiet) output.out << *result << std::flush;
   return ExitCode::Done;
 }
 

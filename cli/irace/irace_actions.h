@@ -21,23 +21,17 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
 /// is there.
 ExitCode write_templates(Output& output);
 
-/// irace's --only-test: evaluates the configurations of a file on the test instances and prints
-/// their costs. The evaluations are kept like those of a run, and continue like those.
-ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
-                   const StorePlace& store, const IraceSlots& slots);
-
 /// R's psRace(): one more race of configurations that the run in `finished` found, from the
-/// beginning and on new pairs, until one is left or its budget is used. Goes on as a run of its
-/// own, in `store`.
+/// beginning and on new pairs, until one is left or its budget is used. A run of its own, in a
+/// store beside `finished`.
 ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSetup& setup,
-                    const std::filesystem::path& finished, const StorePlace& store,
-                    const IraceSlots& slots);
+                    const std::filesystem::path& finished, const IraceSlots& slots);
 
 /// R's ablation(): the way from a configuration of the run in `finished` to its best one, parameter
 /// by parameter, each time the change that costs least on training instances.
 /// Prints steps and the best configuration on the way; where asked to, keeps all runs in a CSV
-/// file.
+/// file, too. A campaign of its own, in a store beside `finished`, which continues like a run.
 ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup& setup,
-                const Campaign& campaign, const std::filesystem::path& finished);
+                const std::filesystem::path& finished, const IraceSlots& slots);
 
 }  // namespace swarmsmith::cli

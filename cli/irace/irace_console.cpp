@@ -180,18 +180,7 @@ void IraceConsole::begin_iteration(const IterationRow& row) {
 void IraceConsole::add_step(const RaceStepRow& row, std::optional<double> wall_s) {
   last_step_ = row;
   used_ = row.used;
-  write(race_line({.marker = row.marker,
-                   .pair = row.pair,
-                   .bound = row.bound,
-                   .alive = row.alive_after,
-                   .best = row.best ? number_of(row.best) : 0,
-                   .mean_best = to_cost(row.mean_best),
-                   .used = row.used - used_before_,
-                   .wall_s = wall_s,
-                   .spearman_rho = row.spearman_rho,
-                   .kendall_w = row.kendall_w,
-                   .qvar = row.qvar},
-                  bounds_));
+  write(race_line(row, row.used - used_before_, wall_s, bounds_));
 }
 
 void IraceConsole::end_race() {

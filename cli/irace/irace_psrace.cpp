@@ -85,8 +85,7 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
 }  // namespace
 
 ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSetup& setup,
-                    const std::filesystem::path& finished, const StorePlace& store,
-                    const IraceSlots& slots) {
+                    const std::filesystem::path& finished, const IraceSlots& slots) {
   const auto budget = budget_of(settings, setup);
   if (!budget) return fail(output, ExitCode::Failed, budget.error());
   const auto stored = read_stored_configurations(finished, setup.space);
@@ -124,7 +123,7 @@ ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSe
     for (std::size_t i = 0; i < ids->size(); ++i)
       output.out << fmt::format("# {} here is configuration {} of the run\n", i + 1, (*ids)[i]);
   }
-  return run_scenario(output, again, store, slots);
+  return run_scenario(output, again, StorePlace::beside(finished, "-psrace"), slots);
 }
 
 }  // namespace swarmsmith::cli

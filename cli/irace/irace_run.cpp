@@ -6,17 +6,22 @@
 #include <chrono>
 #include <random>
 #include <utility>
+#include <variant>
 
-#include "cli/irace/cost_events.h"
+#include "base/text/whole_file.h"
 #include "cli/irace/irace_console.h"
 #include "cli/irace/irace_report.h"
+#include "cli/output/progress.h"
+#include "cli/output/run_listener.h"
 #include "cli/run/campaign_run.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/method_space.h"
+#include "irace_core/files/configurations_file.h"
 #include "irace_core/files/options.h"
 #include "irace_core/iterated_race.h"
+#include "programs/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -39,6 +44,34 @@ std::string times_line(TimePoint begin) {
       wall.count());
 }
 
+/// The events of `run --json` with costs in place of scores.
+class CostEvents final : public RunListener {
+ public:
+  explicit CostEvents(Progress& progress) : progress_(progress) {}
+
+  void restore(std::size_t campaign, const Row& row) override { progress_.restore(campaign, row); }
+  void update(const LiveStatus& live, TimePoint now) override { progress_.update(live, now); }
+  void finish(const LiveStatus& live) override { progress_.finish(live); }
+
+  void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override {
+    Row told = row;
+    if (auto* step = std::get_if<RaceStepRow>(&told)) {
+      step->mean_best = to_cost(step->mean_best);
+    } else if (auto* elite = std::get_if<EliteRow>(&told)) {
+      elite->mean = to_cost(elite->mean);
+    } else if (auto* state = std::get_if<DesignStateRow>(&told)) {
+      state->best_mean = to_cost(state->best_mean);
+    } else if (auto* conflict = std::get_if<ConflictRow>(&told)) {
+      conflict->kept_score = to_cost(conflict->kept_score);
+      conflict->other_score = to_cost(conflict->other_score);
+    }
+    progress_.add(campaign, told, now);
+  }
+
+ private:
+  Progress& progress_;
+};
+
 std::string no_result(const std::string& reason) {
   return "there is no best configuration: " + with_irace_option_names(reason) +
          ". Mend the target or the scenario, and begin again with another store (--log-file NAME) "
@@ -48,11 +81,8 @@ std::string no_result(const std::string& reason) {
 /// A run of one scenario, from its first line to its report.
 class ScenarioRun {
  public:
-  ScenarioRun(Output& output, const IraceSetup& setup, const StorePlace& store)
-      : output_(output),
-        setup_(setup),
-        place_(store),
-        campaign_(campaign_of(setup, seed_of(setup, store))) {
+  ScenarioRun(Output& output, const IraceSetup& setup, const StorePlace& store, Campaign campaign)
+      : output_(output), setup_(setup), place_(store), campaign_(std::move(campaign)) {
     campaign_.store = store.file();
     if (campaign_.race.max_time > 0) keep_parallel();
   }
@@ -64,9 +94,8 @@ class ScenarioRun {
     Progress progress(output_, design_rows(campaign_), begin_);
     CostEvents events(progress);
     RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
-    // What is wrong with a store is said by who opens it to write; nothing begins before.
-    const bool begins = may_begin();
-    if (!is_finished() && begins && !output_.json) {
+    const bool begins = may_begin(campaign_);
+    if (!campaign_.only_test && !is_finished() && begins && !output_.json) {
       console->write_begin();
       if (auto told = tell_what_was(*console); !told)
         return fail(output_, ExitCode::Failed, told.error());
@@ -118,6 +147,8 @@ class ScenarioRun {
   }
 
   Expected<IraceConsole> make_console() {
+    if (campaign_.only_test)
+      return IraceConsole(output_, {.race = race_, .space = setup_.space}, begin_);
     const auto race = IteratedRace::start(setup_.space, race_, setup_.initial);
     if (!race) return Unexpected(race.error());
     return IraceConsole(output_,
@@ -131,27 +162,12 @@ class ScenarioRun {
 
   /// Whether the store holds this run, to its end.
   bool is_finished() const {
-    const auto store = reader();
+    const auto store = store_of(campaign_);
     return store != nullptr && store->finished();
   }
 
-  /// There is no store yet, or it is this run's.
-  bool may_begin() const {
-    std::error_code trouble;
-    return !std::filesystem::exists(place_.file(), trouble) || reader() != nullptr;
-  }
-
-  /// The store, when it is this run's.
-  std::unique_ptr<StoreReader> reader() const {
-    std::error_code trouble;
-    if (!std::filesystem::exists(place_.file(), trouble)) return nullptr;
-    auto store = StoreReader::open(place_.file());
-    if (!store || (*store)->campaign().digest != campaign_digest(campaign_)) return nullptr;
-    return std::move(*store);
-  }
-
   Expected<void> tell_what_was(IraceConsole& console) const {
-    const auto store = reader();
+    const auto store = store_of(campaign_);
     if (store == nullptr) return {};
     return console.go_on_from(*store);
   }
@@ -166,6 +182,8 @@ class ScenarioRun {
     const bool has_failed = result->state.state == DesignState::Stopped;
     if (output_.json) {
       output_.out << result_json(*result, place_.is_kept() ? place_.file().string() : "", seed);
+    } else if (campaign_.only_test && !output_.quiet) {
+      output_.out << testing_text(*result) << finished_testing();
     } else if (!output_.quiet && !has_failed) {
       output_.out << times_line(begin_) << best_text(*result, race_) << tests_text(*result)
                   << std::flush;
@@ -183,7 +201,11 @@ class ScenarioRun {
     if (setup_.test.empty()) {
       return text + fmt::format("# {}: No test instances, skip testing\n", irace_date());
     }
-    return text + testing_text(result) + fmt::format("# {}: Finished testing\n", irace_date());
+    return text + testing_text(result) + finished_testing();
+  }
+
+  static std::string finished_testing() {
+    return fmt::format("# {}: Finished testing\n", irace_date());
   }
 
   void print_whereabouts() {
@@ -219,13 +241,29 @@ RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   return options;
 }
 
-ExitCode explain_end(Output& output, ExitCode ended, bool began) {
+std::unique_ptr<StoreReader> store_of(const Campaign& campaign) {
+  std::error_code trouble;
+  if (!std::filesystem::exists(campaign.store, trouble)) return nullptr;
+  auto store = StoreReader::open(campaign.store);
+  if (!store || (*store)->campaign().digest != campaign_digest(campaign)) return nullptr;
+  return std::move(*store);
+}
+
+bool may_begin(const Campaign& campaign) {
+  std::error_code trouble;
+  return !std::filesystem::exists(campaign.store, trouble) || store_of(campaign) != nullptr;
+}
+
+ExitCode explain_end(Output& output, ExitCode ended, bool began, bool named) {
   if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
   if (ended == ExitCode::Store) {
     // It has said what became of the store.
     if (began) return ended;
-    output.err << "Give the options that made this store, or another one: --log-file NAME, or "
-                  "--store PATH.\n";
+    output.err << (named
+                       ? "Give the options that made this store, or another one: --log-file NAME, "
+                         "or --store PATH.\n"
+                       : "Give the options that made this store, or move it away: the run that it "
+                         "belongs to may have changed.\n");
   }
   return ExitCode::Failed;
 }
@@ -239,7 +277,24 @@ std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store) {
 
 ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
                       const IraceSlots& slots) {
-  return ScenarioRun(output, setup, store).run(run_options(slots, store));
+  return ScenarioRun(output, setup, store, campaign_of(setup, seed_of(setup, store)))
+      .run(run_options(slots, store));
+}
+
+ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
+                   const StorePlace& store, const IraceSlots& slots) {
+  auto text = read_whole_file(file);
+  if (!text) return fail(output, ExitCode::Failed, text.error());
+  const auto configurations = parse_configurations_file({*text, file.string()}, setup.space);
+  if (!configurations) return fail(output, ExitCode::Failed, configurations.error());
+  Campaign campaign = campaign_of(setup, seed_of(setup, store));
+  campaign.only_test = true;
+  campaign.race = {.max_experiments = 1};
+  campaign.repair.clear();
+  campaign.methods.front().configurations = std::move(*text);
+  // Nothing is run on these.
+  campaign.missions.front().instances.training = {"none"};
+  return ScenarioRun(output, setup, store, std::move(campaign)).run(run_options(slots, store));
 }
 
 }  // namespace swarmsmith::cli

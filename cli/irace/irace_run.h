@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "cli/irace/store_place.h"
 #include "cli/run/campaign_run.h"
 #include "console/output.h"
+#include "coordinator/campaign/campaign.h"
 #include "irace_core/files/irace_setup.h"
+#include "storage/store.h"
 
 namespace swarmsmith::cli {
 
@@ -19,15 +22,26 @@ struct IraceSlots {
 /// Both as the worker processes of `carry_out`.
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store);
 
+/// The campaign's store, when there is one that holds this campaign.
+std::unique_ptr<StoreReader> store_of(const Campaign& campaign);
+/// There is no store yet, or it is this campaign's. What is wrong with one is said by who opens it
+/// to write.
+bool may_begin(const Campaign& campaign);
+
 /// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace, but
 /// that of a store that was lost after the run `began`. Says what to do about a store of another
-/// scenario.
-ExitCode explain_end(Output& output, ExitCode ended, bool began);
+/// scenario, which is `named` by an option, or lies beside such a one.
+ExitCode explain_end(Output& output, ExitCode ended, bool began, bool named = true);
 
 /// Runs the scenario into its store, or goes on with it, and prints irace's report. Failed for
 /// whatever goes wrong, as irace; Interrupted and Terminated as `run`.
 ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
                       const IraceSlots& slots);
+
+/// irace's --only-test: evaluates the configurations of a file on the test instances and prints
+/// their costs. The evaluations are kept like those of a run, and continue like those.
+ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
+                   const StorePlace& store, const IraceSlots& slots);
 
 /// The setup's seed, else that of the store, so that the same command continues, else a new one.
 std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store);

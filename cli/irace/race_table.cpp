@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "cli/output/number_text.h"
+#include "programs/cost.h"
+
 namespace swarmsmith::cli {
 namespace {
 
@@ -13,12 +16,6 @@ std::string mean_text(double mean) {
 std::string or_na(const std::optional<double>& value, int width, const char* format) {
   if (!value) return fmt::format("{:>{}}", "NA", width);
   return fmt::format("{:>{}}", fmt::format(fmt::runtime(format), *value), width);
-}
-
-std::string clock_text(const std::optional<double>& seconds) {
-  if (!seconds) return fmt::format("{:>8}", "NA");
-  const auto whole = static_cast<std::int64_t>(*seconds);
-  return fmt::format("{:02}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 }  // namespace
@@ -45,13 +42,15 @@ std::string race_headline(bool bounds) {
          race_rule(bounds);
 }
 
-std::string race_line(const RaceLine& line, bool bounds) {
-  std::string text = fmt::format("|{}|{:11}|", line.marker, line.pair);
-  if (bounds) text += or_na(line.bound, 8, "{:.2f}") + "|";
-  return text + fmt::format("{:11}|{:11}|{}|{:11}|{}|{}|{}|{}|\n", line.alive, line.best,
-                            mean_text(line.mean_best), line.used, clock_text(line.wall_s),
-                            or_na(line.spearman_rho, 5, "{:+.2f}"),
-                            or_na(line.kendall_w, 4, "{:.2f}"), or_na(line.qvar, 6, "{:.4f}"));
+std::string race_line(const RaceStepRow& step, std::int64_t used, std::optional<double> wall_s,
+                      bool bounds) {
+  std::string text = fmt::format("|{}|{:11}|", step.marker, step.pair);
+  if (bounds) text += or_na(step.bound, 8, "{:.2f}") + "|";
+  return text +
+         fmt::format("{:11}|{:11}|{}|{:11}|{:>8}|{}|{}|{}|\n", step.alive_after,
+                     step.best ? number_of(step.best) : 0, mean_text(to_cost(step.mean_best)), used,
+                     wall_s ? clock_text(*wall_s) : "NA", or_na(step.spearman_rho, 5, "{:+.2f}"),
+                     or_na(step.kendall_w, 4, "{:.2f}"), or_na(step.qvar, 6, "{:.4f}"));
 }
 
 std::string best_so_far(std::int64_t best, double mean) {

@@ -26,6 +26,10 @@ StorePlace StorePlace::at(fs::path file) {
   return {std::move(file), {}};
 }
 
+StorePlace StorePlace::beside(const fs::path& file, const std::string& ending) {
+  return at(file.parent_path() / (file.stem().string() + ending + file.extension().string()));
+}
+
 Expected<StorePlace> StorePlace::temporary() {
   std::error_code trouble;
   const fs::path place = fs::temp_directory_path(trouble);

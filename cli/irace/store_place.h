@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "base/expected.h"
 
@@ -13,6 +14,8 @@ namespace swarmsmith::cli {
 class StorePlace {
  public:
   static StorePlace at(std::filesystem::path file);
+  /// Of a campaign that belongs to another store's: `name-test.db`.
+  static StorePlace beside(const std::filesystem::path& file, const std::string& ending);
   /// Unavailable, when there is no place for temporary files.
   static Expected<StorePlace> temporary();
 

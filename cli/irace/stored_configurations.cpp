@@ -9,13 +9,13 @@
 #include "storage/store.h"
 
 namespace swarmsmith::cli {
-namespace {
 
-/// Nothing when they are not those of the space.
 std::optional<Configuration> configuration_of(const ParameterSpace& space,
-                                              const ParameterValues& values) {
+                                              const CandidateRow& candidate) {
+  const auto values = parse_parameter_values(candidate.parameters);
+  if (!values) return std::nullopt;
   Configuration configuration(space.size());
-  for (const auto& [name, value] : values) {
+  for (const auto& [name, value] : *values) {
     const auto index = space.index_of(name);
     if (!index) return std::nullopt;
     const auto* number = std::get_if<double>(&value);
@@ -33,8 +33,6 @@ std::optional<Configuration> configuration_of(const ParameterSpace& space,
   if (!space.check(configuration)) return std::nullopt;
   return configuration;
 }
-
-}  // namespace
 
 Expected<Configuration> StoredConfigurations::find(std::int64_t id,
                                                    const std::string& option) const {
@@ -58,10 +56,7 @@ Expected<StoredConfigurations> read_stored_configurations(const std::filesystem:
     }
     const auto* candidate = std::get_if<CandidateRow>(&row);
     if (candidate == nullptr || error) return;
-    const auto values = parse_parameter_values(candidate->parameters);
-    if (!values) {
-      error = values.error();
-    } else if (auto configuration = configuration_of(space, *values)) {
+    if (auto configuration = configuration_of(space, *candidate)) {
       stored.all.emplace(number_of(candidate->id), std::move(*configuration));
     } else {
       error = Error{ErrorKind::Conflict,

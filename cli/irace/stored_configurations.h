@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/expected.h"
 #include "irace_core/configuration.h"
-#include "irace_core/files/irace_setup.h"
+#include "irace_core/parameter_space.h"
+#include "storage/rows.h"
 
 namespace swarmsmith::cli {
 
@@ -19,6 +22,10 @@ struct StoredConfigurations {
   /// NotFound with the ids that there are.
   Expected<Configuration> find(std::int64_t id, const std::string& option) const;
 };
+
+/// Of a row of a candidate; nothing when it is not one of the space.
+std::optional<Configuration> configuration_of(const ParameterSpace& space,
+                                              const CandidateRow& candidate);
 
 /// Of a store of this scenario's run; an error when there is none, none that is over, or one of
 /// other parameters.

@@ -56,8 +56,8 @@ void Progress::add(std::optional<std::size_t> campaign, const Row& row, TimePoin
   models_[index].add(row);
   if (form_ == Form::Silent || !news) return;
   if (form_ == Form::Json) {
-    const std::string event = event_json(row);
-    if (!event.empty()) output_.out << of_campaign(event, name) << '\n' << std::flush;
+    const std::string event = event_json(row, name);
+    if (!event.empty()) output_.out << event << '\n' << std::flush;
     return;
   }
   write_row(index, name.empty() ? "" : name + ": ", row, now);
@@ -98,11 +98,8 @@ void Progress::add_line(const std::string& line) {
 }
 
 void Progress::write_events(const LiveStatus& live) {
-  std::int64_t left = 0;
-  for (const ProgressModel& model : models_)
-    left += model.budget() - model.used();
   for (std::size_t i = 0; i < models_.size(); ++i)
-    output_.out << of_campaign(progress_json(models_[i], live, left), names_[i]) << '\n';
+    output_.out << progress_json(models_[i], live, names_[i]) << '\n';
   output_.out << std::flush;
 }
 
@@ -138,6 +135,8 @@ void Progress::update(const LiveStatus& live, TimePoint now) {
 }
 
 void Progress::finish(const LiveStatus& live) {
+  for (ProgressModel& model : models_)
+    model.drop_open_steps();
   switch (form_) {
     case Form::Silent:
       break;

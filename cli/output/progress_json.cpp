@@ -1,5 +1,6 @@
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/overloaded.h"
 #include "base/text/json.h"
@@ -8,12 +9,15 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// None for rows that are no events.
+using Event = std::optional<JsonObject>;
+
 /// {"v":1,"event":NAME,...
 JsonObject event_object(std::string_view name) {
   return JsonObject().add("v", 1).add("event", name);
 }
 
-std::string iteration_json(const IterationRow& row) {
+Event iteration_json(const IterationRow& row) {
   return event_object("iteration")
       .add("design", row.design)
       .add("iteration", row.number)
@@ -21,11 +25,10 @@ std::string iteration_json(const IterationRow& row) {
       .add("budget", row.budget)
       .add("configurations", row.configurations)
       .add("elites", row.elites)
-      .add("soft_restart", row.soft_restart)
-      .text();
+      .add("soft_restart", row.soft_restart);
 }
 
-std::string step_json(const RaceStepRow& row) {
+Event step_json(const RaceStepRow& row) {
   return event_object("race_step")
       .add("design", row.design)
       .add("iteration", row.iteration)
@@ -42,22 +45,20 @@ std::string step_json(const RaceStepRow& row) {
       .add("p_value", row.p_value)
       .add("kendall_w", row.kendall_w)
       .add("spearman_rho", row.spearman_rho)
-      .add("qvar", row.qvar)
-      .text();
+      .add("qvar", row.qvar);
 }
 
-std::string elite_json(const EliteRow& row) {
+Event elite_json(const EliteRow& row) {
   return event_object("elite")
       .add("design", row.design)
       .add("iteration", row.iteration)
       .add("rank", row.rank)
       .add("candidate", row.candidate)
       .add("mean", row.mean)
-      .add("runs", row.runs)
-      .text();
+      .add("runs", row.runs);
 }
 
-std::string state_json(const DesignStateRow& row) {
+Event state_json(const DesignStateRow& row) {
   return event_object("design")
       .add("design", row.design)
       .add("state", word_of(row.state))
@@ -65,11 +66,10 @@ std::string state_json(const DesignStateRow& row) {
       .add("used", row.used)
       .add("best", row.best)
       .add("best_mean", row.best ? std::optional(row.best_mean) : std::nullopt)
-      .add("reason", row.reason)
-      .text();
+      .add("reason", row.reason);
 }
 
-std::string worker_json(const WorkerRow& row) {
+Event worker_json(const WorkerRow& row) {
   return event_object("worker")
       .add("worker", row.id)
       .add("state", word_of(row.state))
@@ -77,54 +77,55 @@ std::string worker_json(const WorkerRow& row) {
       .add("pid", row.pid)
       .add("slots", row.slots)
       .add("done", row.done)
-      .add("failed", row.failed)
-      .text();
+      .add("failed", row.failed);
 }
 
-std::string failure_json(const EvaluationRow& row) {
-  if (row.status == EvaluationStatus::Ok) return "";
+Event failure_json(const EvaluationRow& row) {
+  if (row.status == EvaluationStatus::Ok) return std::nullopt;
   return event_object("failure")
       .add("candidate", row.key.candidate)
       .add("pair", row.key.pair)
       .add("attempt", row.attempt)
-      .add("worker", row.worker)
-      .text();
+      .add("worker", row.worker);
 }
 
-std::string conflict_json(const ConflictRow& row) {
+Event conflict_json(const ConflictRow& row) {
   return event_object("conflict")
       .add("candidate", row.key.candidate)
       .add("pair", row.key.pair)
       .add("kept_score", row.kept_score)
       .add("other_score", row.other_score)
-      .add("worker", row.other_worker)
-      .text();
+      .add("worker", row.other_worker);
 }
 
-std::string command_json(const CommandRow& row) {
+Event command_json(const CommandRow& row) {
   return event_object("command")
       .add("number", row.number)
       .add("kind", word_of(row.kind))
       .add("design", row.design)
       .add("step", row.step)
       .add("budget", row.kind == CommandKind::Extend ? std::optional(row.budget) : std::nullopt)
-      .add("who", row.who)
-      .text();
+      .add("who", row.who);
 }
 
-std::string event_row_json(const EventRow& row) {
+Event event_row_json(const EventRow& row) {
   return event_object("event")
       .add("severity", row.severity)
       .add("kind", row.kind)
-      .add("data", JsonPiece{row.text.empty() ? "{}" : row.text})
-      .text();
+      .add("data", JsonPiece{row.text.empty() ? "{}" : row.text});
+}
+
+/// With the name of its campaign, where there are several.
+std::string text_of(JsonObject event, const std::string& campaign) {
+  if (!campaign.empty()) event.add("campaign", campaign);
+  return event.text();
 }
 
 }  // namespace
 
-std::string event_json(const Row& row) {
-  const auto no_event = [](const auto&) { return std::string(); };
-  return std::visit(
+std::string event_json(const Row& row, const std::string& campaign) {
+  const auto no_event = [](const auto&) { return Event(); };
+  Event event = std::visit(
       Overloaded{[](const IterationRow& iteration) { return iteration_json(iteration); },
                  [](const RaceStepRow& step) { return step_json(step); },
                  [](const EliteRow& elite) { return elite_json(elite); },
@@ -132,9 +133,9 @@ std::string event_json(const Row& row) {
                  [](const WorkerRow& worker) { return worker_json(worker); },
                  [](const EvaluationRow& evaluation) { return failure_json(evaluation); },
                  [](const ConflictRow& conflict) { return conflict_json(conflict); },
-                 [](const EventRow& event) { return event_row_json(event); },
-                 [](const CampaignStateRow& campaign) {
-                   return event_object("campaign").add("state", campaign.state).text();
+                 [](const EventRow& happened) { return event_row_json(happened); },
+                 [](const CampaignStateRow& state) {
+                   return Event(event_object("campaign").add("state", state.state));
                  },
                  [&](const CandidateRow& row_) { return no_event(row_); },
                  [&](const FailureRow& row_) { return no_event(row_); },
@@ -146,28 +147,26 @@ std::string event_json(const Row& row) {
                  [&](const ForgivenRow& row_) { return no_event(row_); },
                  [](const CommandRow& command) { return command_json(command); }},
       row);
+  return event ? text_of(*std::move(event), campaign) : "";
 }
 
-std::string of_campaign(std::string event, const std::string& name) {
-  // An event is an object.
-  if (!name.empty()) event.insert(event.size() - 1, ",\"campaign\":" + json_text(name));
-  return event;
-}
-
-std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left) {
-  const bool known = live.evaluations_per_s > 0;
-  return event_object("progress")
-      .add("designs", model.designs())
-      .add("designs_finished", model.finished())
-      .add("used", model.used())
-      .add("budget", model.budget())
+std::string progress_json(const ProgressModel& model, const LiveStatus& live,
+                          const std::string& campaign) {
+  const CampaignTotals totals = model.totals();
+  const double seconds = seconds_left(live);
+  JsonObject event = event_object("progress");
+  event.add("designs", totals.designs)
+      .add("designs_finished", totals.finished)
+      .add("used", totals.used)
+      .add("in_step", totals.in_step)
+      .add("budget", totals.budget)
+      .add("left", totals.left)
       .add("workers", live.workers)
       .add("slots", live.slots)
       .add("leased", live.leased)
       .add("done", live.done)
       .add("rate", live.evaluations_per_s)
-      .add("eta_s",
-           known ? std::optional(static_cast<double>(left) / live.evaluations_per_s) : std::nullopt)
+      .add("eta_s", seconds < 0 ? std::nullopt : std::optional(seconds))
       .add("failed", live.failed)
       .add("rejected", live.rejected)
       .add("requeued", live.requeued)
@@ -179,8 +178,8 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live, st
       .add("malformed", live.malformed)
       .add("uncommitted", live.uncommitted)
       .add("trouble", live.trouble)
-      .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
-      .text();
+      .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher));
+  return text_of(std::move(event), campaign);
 }
 
 }  // namespace swarmsmith::cli

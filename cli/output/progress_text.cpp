@@ -25,15 +25,6 @@ std::string optional_text(const std::optional<double>& value, const char* format
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-/// Hours may have more than two digits.
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long long>(seconds);
-  char buffer[64];
-  const int size = std::snprintf(buffer, sizeof buffer, "%02lld:%02lld:%02lld", whole / 3600,
-                                 whole / 60 % 60, whole % 60);
-  return {buffer, static_cast<std::size_t>(size)};
-}
-
 /// How much of the whole budget is used.
 std::string bar(std::int64_t used, std::int64_t budget) {
   constexpr std::int64_t kCells = 20;
@@ -43,19 +34,16 @@ std::string bar(std::int64_t used, std::int64_t budget) {
          std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
 }
 
-/// Sums over what is told of.
-struct Totals {
+/// Sums over all campaigns, and how many of them are over.
+struct Totals : CampaignTotals {
   explicit Totals(std::span<const ProgressModel> models) {
     for (const ProgressModel& model : models) {
-      over += model.is_over();
-      designs += model.designs();
-      finished += model.finished();
-      paused += model.paused();
-      used += model.used();
-      budget += model.budget();
+      over += model.totals().are_over();
+      for (const auto& [id, progress] : model.by_design())
+        add(progress);
     }
   }
-  std::int64_t over = 0, designs = 0, finished = 0, paused = 0, used = 0, budget = 0;
+  std::int64_t over = 0;
 };
 
 /// A piece of a status line. Where a line is too narrow, the least needed pieces are left out.
@@ -78,22 +66,21 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
       {6, "designs " + std::to_string(totals.finished) + "/" + std::to_string(totals.designs)});
   const std::string stage = current != nullptr ? stage_of(*current) : "";
   if (!stage.empty()) {
-    pieces.push_back({8, to_string(current->design.id) + " " + stage});
+    pieces.push_back({8, to_string(current->id) + " " + stage});
   } else if (current != nullptr && current->iteration > 0) {
-    pieces.push_back({8, to_string(current->design.id) + " iteration " +
+    pieces.push_back({8, to_string(current->id) + " iteration " +
                              std::to_string(current->iteration) + "/~" +
                              std::to_string(std::max(current->iterations, current->iteration))});
   }
-  pieces.push_back({9, bar(totals.used, totals.budget)});
-  pieces.push_back({2, grouped(totals.used) + "/" + grouped(totals.budget)});
+  // A step of many candidates, or of slow ones, may take minutes.
+  pieces.push_back({9, bar(totals.budget - totals.left + totals.in_step, totals.budget)});
+  pieces.push_back({2, grouped(totals.used + totals.in_step) + "/" + grouped(totals.budget)});
   if (current != nullptr && current->best) {
     pieces.push_back({4, (models.front().shows_costs() ? "best cost " : "best ") +
                              mean_text(models.front(), current->best_mean)});
   }
-  const auto left = static_cast<double>(totals.budget - totals.used);
-  if (live.evaluations_per_s > 0 && left > 0) {
-    pieces.push_back({3, "ETA " + duration_text(left / live.evaluations_per_s)});
-  }
+  if (const double left = seconds_left(live); left > 0)
+    pieces.push_back({3, "ETA " + duration_text(left)});
   pieces.push_back({7, std::to_string(std::llround(live.evaluations_per_s)) + " sim/s"});
   // What the stage says, is not said again.
   if (current != nullptr && current->configurations > 0 && stage.empty()) {
@@ -167,12 +154,12 @@ std::string race_line(const RaceStepRow& step, const std::string& mean_best, dou
 }
 
 bool has_tests(const DesignProgress& progress) {
-  return !progress.search || words_of(progress.search->kind).has_tests;
+  return !progress.options || words_of(progress.options->kind).has_tests;
 }
 
 std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress) {
-  if (progress.search)
-    return to_string(iteration.design) + " " + round_line(*progress.search, point_of(progress));
+  if (progress.options)
+    return to_string(iteration.design) + " " + round_line(*progress.options, point_of(progress));
   return to_string(iteration.design) + " iteration " + std::to_string(iteration.number) + "/~" +
          std::to_string(std::max(iteration.of, iteration.number)) + ": " +
          std::to_string(iteration.configurations) + " configurations (" +
@@ -184,7 +171,7 @@ std::string iteration_line(const IterationRow& iteration, const DesignProgress& 
 std::string elite_line(const EliteRow& elite, const DesignProgress& progress,
                        const std::string& mean) {
   if (!has_tests(progress)) {
-    return to_string(elite.design) + " " + round_name(*progress.search, point_of(progress)) +
+    return to_string(elite.design) + " " + round_name(*progress.options, point_of(progress)) +
            ": best " + to_string(elite.candidate) + ", mean " + mean + " over " +
            std::to_string(elite.runs) + " runs";
   }
@@ -196,19 +183,18 @@ std::string elite_line(const EliteRow& elite, const DesignProgress& progress,
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
                        const std::string& best_mean) {
   std::string text = to_string(state.design) + " " +
-                     std::string(shown_state(progress, state.state)) + "  " +
-                     progress.design.mission + " " + progress.design.method + " " +
-                     std::to_string(progress.design.repetition);
+                     std::string(shown_state(progress, state.state)) + "  " + progress.mission +
+                     " " + progress.method + " " + std::to_string(progress.repetition);
   // Without a budget there is no race.
-  if (progress.design.budget > 0 || state.used > 0) {
-    text += "  " + grouped(state.used) + "/" + grouped(progress.design.budget);
+  if (progress.budget > 0 || state.used > 0) {
+    text += "  " + grouped(state.used) + "/" + grouped(progress.budget);
   }
   if (state.best && state.used > 0) text += "  best " + to_string(state.best) + " " + best_mean;
   // That its budget is used up is how a race ends as it should.
   const bool as_it_should =
       state.best && (state.reason.starts_with("not enough") ||
-                     (progress.search && (state.reason == "the budget is used" ||
-                                          state.reason == "limit of iterations")));
+                     (progress.options && (state.reason == "the budget is used" ||
+                                           state.reason == "limit of iterations")));
   if (!state.reason.empty() && !as_it_should) text += "  (" + state.reason + ")";
   return text;
 }

@@ -51,11 +51,10 @@ std::string command_line(const CommandRow& command);
 std::string event_line(const EventRow& event);
 
 /// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none
-/// (candidates, pairs, single evaluations, totals).
-std::string event_json(const Row& row);
-/// {"v":1,"event":"progress",...}; `left` experiments of all campaigns make the expected time.
-std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left);
-/// The event with the name of its campaign; unchanged without one.
-std::string of_campaign(std::string event, const std::string& name);
+/// (candidates, pairs, single evaluations, totals). `campaign`: its name, where there are several.
+std::string event_json(const Row& row, const std::string& campaign = {});
+/// {"v":1,"event":"progress",...}; the expected time is that of all campaigns.
+std::string progress_json(const ProgressModel& model, const LiveStatus& live,
+                          const std::string& campaign);
 
 }  // namespace swarmsmith::cli

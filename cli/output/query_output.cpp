@@ -26,8 +26,7 @@ std::string shown(Cell cell) {
   if (cell.type == Type::Null) return "-";
   if (cell.type != Type::Real) return std::move(cell.text);
   char buffer[32];
-  const int size =
-      std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
+  const int size = std::snprintf(buffer, sizeof buffer, "%.6g", cell.real());
   return {buffer, static_cast<std::size_t>(size)};
 }
 
@@ -152,7 +151,7 @@ JsonPiece cell_as_json(const Cell& cell) {
     case Type::Integer:
       return {cell.text};
     case Type::Real:
-      return {json_number(std::strtod(cell.text.c_str(), nullptr))};
+      return {json_number(cell.real())};
     case Type::Text:
       break;
   }

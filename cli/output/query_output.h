@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,6 +22,11 @@ struct Rows {
   std::vector<std::string> columns;
   std::vector<std::vector<StoreReader::Cell>> cells;
   bool truncated = false;
+
+  /// The place of a column; as many as there are if none has the name.
+  std::size_t column(std::string_view name) const {
+    return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+  }
 };
 
 /// Runs the statement and keeps its rows.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "cli/output/number_text.h"
@@ -20,11 +19,21 @@ std::string percent(double part, double whole) {
   return whole > 0 ? fmt::format("{:.0f} %", 100 * part / whole) : "-";
 }
 
-std::int64_t sum(const LiveStatus& status, std::int64_t CampaignStatus::*field) {
-  if (!status.campaigns) return 0;
-  return std::accumulate(
-      status.campaigns->begin(), status.campaigns->end(), std::int64_t{0},
-      [&](std::int64_t total, const CampaignStatus& one) { return total + one.*field; });
+/// "1 200/3 000 (40 %)": a race that is over is done, whatever its budget has left.
+std::string experiments(const CampaignTotals& totals) {
+  return fmt::format("{}/{} ({})", totals.used, totals.budget,
+                     percent(static_cast<double>(totals.budget - totals.left),
+                             static_cast<double>(totals.budget)));
+}
+
+CampaignTotals totals_of(const LiveStatus& status) {
+  CampaignTotals totals;
+  if (!status.campaigns) return totals;
+  for (const CampaignStatus& campaign : *status.campaigns) {
+    for (const DesignStatus& design : campaign.designs)
+      totals.add(design);
+  }
+  return totals;
 }
 
 /// As people read it. On one host nothing crosses a network.
@@ -73,14 +82,18 @@ std::string eta(const LiveStatus& status) {
 void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
   if (status.campaigns) {
     for (const CampaignStatus& one : *status.campaigns) {
-      const auto over = std::ranges::count_if(
-          one.designs, [](const DesignStatus& design) { return is_over(design.state); });
-      lines.push_back(
-          fmt::format("campaign {}  designs {}/{}  experiments {}/{} ({})", one.name, over,
-                      one.designs.size(), one.used, one.budget,
-                      percent(static_cast<double>(one.used), static_cast<double>(one.budget))));
+      const CampaignTotals totals = one.totals();
+      lines.push_back(fmt::format("campaign {}  {}  designs {}/{}  experiments {}", one.name,
+                                  one.state, totals.finished, totals.designs, experiments(totals)));
       if (!one.trouble.empty()) lines.push_back("  trouble: " + one.trouble);
     }
+  }
+  if (!status.running) {
+    const auto interrupted = [](const CampaignStatus& one) { return one.state == "interrupted"; };
+    if (status.campaigns && std::ranges::any_of(*status.campaigns, interrupted))
+      lines.emplace_back(
+          "no coordinator runs it now; the command that started it continues from here");
+    return;
   }
   lines.push_back(fmt::format("workers {}  slots {}  {:.0f} evaluations/s  leased {}  ready {}{}",
                               status.workers, status.slots, status.evaluations_per_s, status.leased,
@@ -121,11 +134,12 @@ std::string troubles(const LiveStatus& status) {
 }
 
 /// Nothing races where nothing is tested.
-std::string_view shown_state(const DesignStatus& design) {
+std::string_view shown_state(const CampaignStatus& campaign, const DesignStatus& design) {
+  if (design.paused) return "paused";
   const auto is_its = [&](SearchKind kind) { return name_of(kind) == design.search; };
   const auto kind = std::ranges::find_if(all_searches(), is_its);
-  const bool is_known = design.state == DesignState::Racing && kind != all_searches().end();
-  return is_known ? words_of(*kind).at_work : word_of(design.state);
+  const std::string_view word = campaign.word_of_design(design);
+  return word == "racing" && kind != all_searches().end() ? words_of(*kind).at_work : word;
 }
 
 std::vector<std::string> design_lines(const LiveStatus& status) {
@@ -141,15 +155,25 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         if (is_racing != racing) continue;
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
-        lines.push_back(fmt::format(
-            "{:<5} {:<9}{:>9}/{:<9} {} {:<9} {} {}{}{}", "d" + std::to_string(one.id),
-            one.paused ? "paused" : shown_state(one), one.used, one.budget, part,
-            one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "", one.mission, one.method,
-            several ? "  " + campaign.name : "", one.stage.empty() ? "" : "  " + one.stage));
+        lines.push_back(
+            fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<9} {} {}{}{}", to_string(one.id),
+                        shown_state(campaign, one), one.used, one.budget, part,
+                        one.best ? fmt::format("{:.4g}", one.best_mean) : "", one.mission,
+                        one.method, several ? "  " + campaign.name : "",
+                        one.stage.empty() ? "" : "  " + one.stage) +
+            (is_over(one.state) && !one.reason.empty() ? "  (" + one.reason + ")" : ""));
       }
     }
   }
   return lines;
+}
+
+bool has_stages(const LiveStatus& status) {
+  const auto has = [](const DesignStatus& design) { return !design.stage.empty(); };
+  return status.campaigns &&
+         std::ranges::any_of(*status.campaigns, [&](const CampaignStatus& campaign) {
+           return std::ranges::any_of(campaign.designs, has);
+         });
 }
 
 struct Host {
@@ -232,8 +256,10 @@ std::vector<std::string> status_lines(const LiveStatus& status, const Screen& sc
   const std::size_t room = screen.height > lines.size() ? screen.height - lines.size() : 0;
   // Half each, and what the one does not need for the other.
   const std::size_t want_hosts = hosts.empty() ? 0 : hosts.size() + 2;
-  add_table(lines, "design state         used/budget             best      mission method", designs,
-            std::max(room / 2, room - std::min(room, want_hosts)));
+  add_table(lines,
+            std::string("design state           used/budget             best      mission method") +
+                (has_stages(status) ? "  stage" : ""),
+            designs, std::max(room / 2, room - std::min(room, want_hosts)));
   add_table(lines, "host                 here gone slots  held   busy  evals/s failed silent",
             hosts, screen.height > lines.size() ? screen.height - lines.size() : 0);
   if (lines.size() > screen.height) lines.resize(screen.height);
@@ -244,15 +270,13 @@ std::vector<std::string> status_lines(const LiveStatus& status, const Screen& sc
 }
 
 std::string status_summary(const LiveStatus& status) {
-  const std::int64_t used = sum(status, &CampaignStatus::used);
-  const std::int64_t budget = sum(status, &CampaignStatus::budget);
   const LauncherStatus& launcher = status.launcher;
   const bool all_there =
       launcher.name.empty() || (launcher.running >= launcher.wanted && launcher.note.empty());
-  return fmt::format("experiments {}/{} ({})  workers {}  slots {}  {:.0f}/s  {}{}{}", used, budget,
-                     percent(static_cast<double>(used), static_cast<double>(budget)),
-                     status.workers, status.slots, status.evaluations_per_s,
-                     shares(status.slot_times_last_minute), eta(status), troubles(status)) +
+  return fmt::format("experiments {}  workers {}  slots {}  {:.0f}/s  {}{}{}",
+                     experiments(totals_of(status)), status.workers, status.slots,
+                     status.evaluations_per_s, shares(status.slot_times_last_minute), eta(status),
+                     troubles(status)) +
          (all_there ? "" : "  " + to_text(status.launcher)) +
          (status.trouble.empty() ? "" : "  NOTHING IS STORED: " + status.trouble);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "base/text/json.h"
 #include "cli/output/query_output.h"
 
 namespace swarmsmith::cli {
@@ -41,7 +40,7 @@ Expected<std::vector<QuarantineStatus>> stored_quarantine(StoreReader& store) {
     all.push_back({.who = who,
                    .reason = cells[4].text,
                    .since = cells[3].text,
-                   .worker = is_one ? std::atoll(cells[1].text.c_str()) : 0});
+                   .worker = is_one ? cells[1].integer() : 0});
   }
   return all;
 }
@@ -56,19 +55,6 @@ std::vector<std::string> quarantine_lines(const std::vector<QuarantineStatus>& q
                     "\"` lets it work again");
   }
   return lines;
-}
-
-std::string quarantine_json(const std::vector<QuarantineStatus>& quarantine) {
-  return json_list(quarantine,
-                   [](const QuarantineStatus& one) {
-                     return JsonObject()
-                         .add("who", one.who)
-                         .add("reason", one.reason)
-                         .add("since", one.since)
-                         .add("worker", one.worker)
-                         .add("workers", one.workers);
-                   })
-      .text;
 }
 
 std::string workers_with_quarantine() {

@@ -16,9 +16,6 @@ Expected<std::vector<QuarantineStatus>> stored_quarantine(StoreReader& store);
 std::vector<std::string> quarantine_lines(const std::vector<QuarantineStatus>& quarantine,
                                           const std::string& store);
 
-/// As `status --json` and the dashboard have it.
-std::string quarantine_json(const std::vector<QuarantineStatus>& quarantine);
-
 /// In place of v_workers, for `ls`: its columns, and since when and why a worker is in quarantine.
 std::string workers_with_quarantine();
 

@@ -63,7 +63,7 @@ Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
     } else {
       file.imported = read_imported_world(file.text);
     }
-    worlds.files_.emplace(std::stoll(cells[0].text), std::move(file));
+    worlds.files_.emplace(cells[0].integer(), std::move(file));
   }
   worlds.seed_ = static_cast<std::uint64_t>(store.campaign().seed);
   return worlds;

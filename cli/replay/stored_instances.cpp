@@ -18,7 +18,7 @@ Expected<std::map<DesignId, std::set<std::int64_t>>> seeds_by_design(StoreReader
   if (!rows) return Unexpected(rows.error());
   std::map<DesignId, std::set<std::int64_t>> seeds;
   for (const auto& cells : rows->cells)
-    seeds[{std::stoll(cells[0].text)}].insert(std::stoll(cells[1].text));
+    seeds[{cells[0].integer()}].insert(cells[1].integer());
   return seeds;
 }
 

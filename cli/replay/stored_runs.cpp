@@ -22,10 +22,6 @@ namespace {
 
 using Cell = StoreReader::Cell;
 
-std::int64_t integer_of(const Cell& cell) {
-  return std::strtoll(cell.text.c_str(), nullptr, 10);
-}
-
 /// How many of `count` evenly spaced ones are among the first n of so many.
 std::int64_t multiples(std::int64_t n, std::int64_t count, std::int64_t total) {
   return n * count / total;
@@ -52,13 +48,12 @@ std::string select_evaluations(std::int64_t schema, const std::string& condition
 /// What the evaluation's own row says.
 StoredRun read_outcome(const std::vector<Cell>& cells) {
   StoredRun run{.id = cells[0].text, .candidate = cells[1].text};
-  run.seed = integer_of(cells[2]);
+  run.seed = cells[2].integer();
   run.rejected = cells[3].text == "rejected";
   if (cells[4].type != Cell::Type::Null) {
-    run.outcome = StoredOutcome{std::strtod(cells[4].text.c_str(), nullptr),
-                                static_cast<std::uint64_t>(integer_of(cells[5]))};
+    run.outcome = StoredOutcome{cells[4].real(), static_cast<std::uint64_t>(cells[5].integer())};
   }
-  run.worker = integer_of(cells[9]);
+  run.worker = cells[9].integer();
   run.host = cells[10].text;
   run.who = cells[11].text;
   return run;
@@ -210,7 +205,7 @@ Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
     return unexpected(ErrorKind::NotFound, "the store has no evaluation " + name);
   }
   const auto& cells = rows->cells.front();
-  const auto world = world_of({integer_of(cells[8])});
+  const auto world = world_of({cells[8].integer()});
   if (!world) return bad_input(to_string(world.error()), name);
   auto profile = profile_of(*world, cells[6].text);
   if (!profile) return bad_input(to_string(profile.error()), name);
@@ -238,7 +233,7 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
     return unexpected(ErrorKind::NotFound, "the store has no candidate " + run.candidate);
   }
   const auto& cells = rows->cells.front();
-  const auto world = world_of({integer_of(cells[1])});
+  const auto world = world_of({cells[1].integer()});
   if (!world) return bad_input(to_string(world.error()), run.candidate);
   if (world->has_parameters && !world->has_programs) {
     return bad_input(
@@ -278,7 +273,7 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
       "AND (state_digest <> 0 OR purpose <> 'score')";
   std::int64_t total = 0;
   const auto counted = each_row(*store_, std::string("SELECT count(*)") + kSimulated,
-                                [&](const auto& cells) { total = integer_of(cells.front()); });
+                                [&](const auto& cells) { total = cells.front().integer(); });
   if (!counted) return Unexpected(counted.error());
   std::vector<std::string> ids;
   std::int64_t n = 0;
@@ -298,7 +293,7 @@ Expected<std::vector<std::string>> StoredRuns::drawn(const std::string& given,
   std::map<std::int64_t, std::string> who_answers;
   const auto read_workers =
       each_row(*store_, "SELECT w.worker, " + who(store_->schema()) + " FROM v_workers AS w",
-               [&](const auto& cells) { who_answers[integer_of(cells[0])] = cells[1].text; });
+               [&](const auto& cells) { who_answers[cells[0].integer()] = cells[1].text; });
   if (!read_workers) return Unexpected(read_workers.error());
   Draw draw(wanted);
   const std::string but = wanted.tests ? " AND e.purpose NOT IN " + words_in_sql(is_test) : "";
@@ -307,8 +302,8 @@ Expected<std::vector<std::string>> StoredRuns::drawn(const std::string& given,
                "SELECT e.id, e.worker, e.candidate * 100003 + e.pair * 7 + (e.purpose = 'test')" +
                    given + " AND e.status = 'ok'" + but,
                [&](const auto& cells) {
-                 const auto known = who_answers.find(integer_of(cells[1]));
-                 draw.add(known == who_answers.end() ? "" : known->second, integer_of(cells[2]),
+                 const auto known = who_answers.find(cells[1].integer());
+                 draw.add(known == who_answers.end() ? "" : known->second, cells[2].integer(),
                           cells[0].text);
                });
   if (!read) return Unexpected(read.error());

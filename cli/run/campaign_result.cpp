@@ -30,7 +30,7 @@ Expected<std::map<std::string, std::vector<double>>> tests_by_design(StoreReader
   if (!rows) return Unexpected(rows.error());
   std::map<std::string, std::vector<double>> scores;
   for (const auto& cells : rows->cells) {
-    scores[cells[0].text].push_back(std::strtod(cells[1].text.c_str(), nullptr));
+    scores[cells[0].text].push_back(cells[1].real());
   }
   return scores;
 }

@@ -77,7 +77,9 @@ std::vector<DesignRow> design_rows(const Campaign& campaign) {
                         .method = method.name,
                         .flavour = method.parameters.empty() ? method.flavour : "",
                         .repetition = repetition,
-                        .seed = design_seed(campaign.seed, id),
+                        // An ablation's pairs are those of its campaign's seed.
+                        .seed = campaign.race.ablation ? static_cast<std::int64_t>(campaign.seed)
+                                                       : design_seed(campaign.seed, id),
                         .budget = budget});
       }
     }

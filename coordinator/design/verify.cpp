@@ -13,7 +13,7 @@
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/design_runner.h"
 #include "coordinator/design/plans.h"
-#include "coordinator/design/verify_real_runs.h"
+#include "coordinator/results/filmed_run.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -260,6 +260,32 @@ void verify_campaign(StoreReader& store, std::vector<DesignPlan> plans, Verifica
 /// "campaign 2, tuning"
 std::string name_of(const StoredCampaign& campaign) {
   return fmt::format("campaign {}, {}", campaign.id, campaign.row.name);
+}
+
+/// What is wrong with a run that has a score; empty when nothing is.
+std::string complaint_about(StoreReader& store, const RealRunHead& head) {
+  const auto rows = store.real_run(head.id);
+  if (!rows) return to_string(rows.error());
+  const auto run = filmed_run(*rows);
+  if (!run) return run.error().message;
+  const double again = score_again(*run);
+  if (again == *head.score) return {};
+  return fmt::format("its cycles score {}, but the store has {}", again, *head.score);
+}
+
+/// Scores the control cycles of every real run again, and compares with its latest scoring, bit for
+/// bit; runs without a score (INVALID ones may have none) are left out. Returns how many were
+/// scored; adds a sentence a fault to `complaints`.
+std::int64_t verify_real_runs(StoreReader& store, std::vector<std::string>& complaints) {
+  std::int64_t scored = 0;
+  for (const RealRunHead& head : store.real_runs()) {
+    if (!head.score) continue;
+    ++scored;
+    const std::string complaint = complaint_about(store, head);
+    if (!complaint.empty())
+      complaints.push_back(fmt::format("real run {}: {}", to_string(head.id), complaint));
+  }
+  return scored;
 }
 
 }  // namespace

@@ -18,10 +18,6 @@ Expected<std::vector<Cells>> rows_of(StoreReader& store, const std::string& sql)
   return rows;
 }
 
-std::int64_t integer(const StoreReader::Cell& cell) {
-  return integer_in(cell.text).value_or(0);
-}
-
 /// Schema 4 brought them.
 Expected<bool> has_names(StoreReader& store) {
   std::vector<std::string> columns;
@@ -44,15 +40,15 @@ Expected<std::vector<KnownDesign>> known_designs(StoreReader& store) {
   if (!rows) return Unexpected(rows.error());
   std::vector<KnownDesign> designs;
   for (const Cells& row : *rows) {
-    designs.push_back({.id = {integer(row[0])},
+    designs.push_back({.id = {row[0].integer()},
                        .mission = row[1].text,
                        .method = row[2].text,
-                       .repetition = integer(row[3]),
+                       .repetition = row[3].integer(),
                        .name = row[6].text,
                        .flavour = row[7].text,
-                       .campaign = integer(row[8]),
+                       .campaign = row[8].integer(),
                        .finished = row[4].text == "finished",
-                       .best = {integer(row[5])}});
+                       .best = {row[5].integer()}});
   }
   return designs;
 }

@@ -28,15 +28,9 @@ using LogCells = std::vector<Cell>;
 /// The layout of the log, for functions of irace that look at its version; they drop the last word.
 constexpr const char* kLayout = "4.2.0.swarmsmith";
 
-std::int64_t integer_of(const Cell& cell) {
-  return integer_in(cell.text).value_or(0);
-}
-double number(const Cell& cell) {
-  return number_in(cell.text).value_or(0);
-}
 /// NULL is 0.
 std::int64_t number_of_candidate(const Cell& cell) {
-  const std::int64_t id = integer_of(cell);
+  const std::int64_t id = cell.integer();
   return id == 0 ? 0 : number_of(CandidateId{id});
 }
 
@@ -198,12 +192,12 @@ Expected<void> Reading::read_design() {
                 .mission = cells[0].text,
                 .method = cells[1].text,
                 .flavour = cells[2].text,
-                .repetition = integer_of(cells[3]),
-                .seed = integer_of(cells[4]),
-                .budget = integer_of(cells[5])};
+                .repetition = cells[3].integer(),
+                .seed = cells[4].integer(),
+                .budget = cells[5].integer()};
         log_.completed = cells[6].text == "finished" ? cells[7].text : "Incomplete";
         if (log_.completed.empty()) log_.completed = "Finished";
-        campaign_ = integer_of(cells[8]);
+        campaign_ = cells[8].integer();
       });
   if (!read) return read;
   if (!found) {
@@ -263,8 +257,8 @@ Expected<void> Reading::read_iterations() {
   return each("SELECT iteration, planned, soft_restart FROM v_iterations" + of_design_ +
                   "ORDER BY iteration",
               [&](const LogCells& cells) {
-                log_.iterations = integer_of(cells[1]);
-                if (integer_of(cells[2]) != 0) log_.soft_restarts.push_back(integer_of(cells[0]));
+                log_.iterations = cells[1].integer();
+                if (cells[2].integer() != 0) log_.soft_restarts.push_back(cells[0].integer());
               });
 }
 
@@ -272,7 +266,7 @@ Expected<void> Reading::read_configurations() {
   return each(
       "SELECT number, parent FROM v_candidates" + of_design_ + "ORDER BY candidate",
       [&](const LogCells& cells) {
-        const std::int64_t id = integer_of(cells[0]);
+        const std::int64_t id = cells[0].integer();
         configurations_.emplace(id, log_.configurations.size());
         log_.configurations.push_back({.id = id,
                                        .parent = number_of_candidate(cells[1]),
@@ -295,7 +289,7 @@ Expected<void> Reading::read_values() {
                            const std::size_t at = configurations_.at(number_of_candidate(cells[0]));
                            const bool is_text = cells[2].type == Cell::Type::Text;
                            log_.configurations[at].values[place->second] =
-                               is_text ? cells[2].text : fmt::format("{:.15g}", number(cells[2]));
+                               is_text ? cells[2].text : fmt::format("{:.15g}", cells[2].real());
                          });
   if (!read) return read;
   if (unknown) {
@@ -310,9 +304,9 @@ Expected<void> Reading::read_pairs() {
   const auto read = each(
       "SELECT purpose, number, instance, seed FROM pair" + of_design_ + "ORDER BY purpose, number",
       [&](const LogCells& cells) {
-        const auto purpose = static_cast<Purpose>(integer_of(cells[0]));
-        const std::int64_t pair = integer_of(cells[1]);
-        const std::pair what{integer_of(cells[2]), integer_of(cells[3])};
+        const auto purpose = static_cast<Purpose>(cells[0].integer());
+        const std::int64_t pair = cells[1].integer();
+        const std::pair what{cells[2].integer(), cells[3].integer()};
         if (purpose == Purpose::Evaluator) tasks_.emplace(pair, what);
         if (purpose == Purpose::Race) pairs_.emplace(what, pair);
         if (purpose == Purpose::Test)
@@ -327,7 +321,7 @@ Expected<void> Reading::read_pairs() {
   if (!read) return read;
   return each(
       "SELECT iteration, pair, step FROM v_race_steps" + of_design_, [&](const LogCells& cells) {
-        steps_.emplace(std::pair{integer_of(cells[0]), integer_of(cells[1])}, integer_of(cells[2]));
+        steps_.emplace(std::pair{cells[0].integer(), cells[1].integer()}, cells[2].integer());
       });
 }
 
@@ -336,7 +330,7 @@ Expected<void> Reading::read_elites() {
                   "ORDER BY iteration, rank",
               [&](const LogCells& cells) {
                 log_.elites.push_back(
-                    {integer_of(cells[0]), integer_of(cells[1]), number_of_candidate(cells[2])});
+                    {cells[0].integer(), cells[1].integer(), number_of_candidate(cells[2])});
               });
 }
 
@@ -346,16 +340,16 @@ Expected<void> Reading::read_runs() {
           of_design_ + "AND purpose IN ('race', 'test', 'evaluator') AND used <> 0",
       [&](const LogCells& cells) {
         const std::int64_t configuration = number_of_candidate(cells[0]);
-        const std::int64_t pair = integer_of(cells[2]);
-        const double cost = cells[4].text == "ok" ? to_cost(number(cells[5]))
+        const std::int64_t pair = cells[2].integer();
+        const double cost = cells[4].text == "ok" ? to_cost(cells[5].real())
                                                   : std::numeric_limits<double>::infinity();
         if (cells[1].text == "race") {
-          log_.runs.push_back({.iteration = integer_of(cells[3]),
+          log_.runs.push_back({.iteration = cells[3].integer(),
                                .pair = pair,
                                .configuration = configuration,
                                .cost = cost,
-                               .time = number(cells[6]),
-                               .bound = number(cells[7])});
+                               .time = cells[6].real(),
+                               .bound = cells[7].real()});
         } else if (cells[1].text == "test") {
           log_.tests.push_back({pair, configuration, cost});
         } else if (const auto task = tasks_.find(pair); task != tasks_.end()) {
@@ -365,7 +359,7 @@ Expected<void> Reading::read_runs() {
           if (of == pairs.end()) return;
           Costs& last = judged_[{configuration, test ? -of->second : of->second}];
           if (pair >= last.task) {
-            last = {.task = pair, .iteration = integer_of(cells[3]), .cost = cost};
+            last = {.task = pair, .iteration = cells[3].integer(), .cost = cost};
           }
         }
       });
@@ -406,8 +400,8 @@ Expected<double> Reading::read_lowered_bound() {
           to_string(design_) + "' ORDER BY seq DESC LIMIT 1",
       [&](const LogCells& cells) {
         // Said before the first race, it is not the last word yet.
-        lowered = log_.elites.empty() ? std::min(number(cells[0]), 2 * number(cells[1]))
-                                      : number(cells[0]);
+        lowered =
+            log_.elites.empty() ? std::min(cells[0].real(), 2 * cells[1].real()) : cells[0].real();
       });
   if (!read) return Unexpected(read.error());
   return lowered;

@@ -56,7 +56,7 @@ class Pages final : public HttpServer {
     if (!options_.has_loop) return;
     page("/metrics", "text/plain; version=0.0.4; charset=utf-8", metrics_text);
     page("/status", "application/json",
-         [](const LiveStatus& status) { return to_json(status) + "\n"; });
+         [](const LiveStatus& status) { return to_json(status).text() + "\n"; });
   }
   ~Pages() override { http_.stop_serving(); }
 

@@ -1,64 +1,150 @@
 #include "coordinator/service/live_status.h"
 
-#include <algorithm>
+#include <concepts>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace swarmsmith {
-
-// For nlohmann, which finds them by their names.
-inline void to_json(nlohmann::json& json, DesignState state) {
-  json = std::string(word_of(state));
-}
-inline void from_json(const nlohmann::json& json, DesignState& state) {
-  // A word of another version says nothing.
-  state = design_state_of(json.get<std::string>()).value_or(DesignState::Waiting);
-}
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkerStatus, number, state, host, job, client, slots, held,
-                                   running, done, failed, connections, done_per_s, busy,
-                                   last_heard_s)
-
-template <class Json, class Design, class Visit>
-void each_design_field(Json& json, Design& design, const Visit& visit) {
-  visit(json, "id", design.id);
-  visit(json, "mission", design.mission);
-  visit(json, "method", design.method);
-  visit(json, "repetition", design.repetition);
-  visit(json, "state", design.state);
-  visit(json, "used", design.used);
-  visit(json, "budget", design.budget);
-  visit(json, "iteration", design.iteration);
-  visit(json, "best", design.best);
-  visit(json, "best_mean", design.best_mean);
-  visit(json, "paused", design.paused);
-}
-inline void to_json(nlohmann::json& json, const DesignStatus& design) {
-  each_design_field(json, design,
-                    [](auto& out, const char* name, const auto& value) { out[name] = value; });
-  if (design.search.empty()) return;
-  json["stage"] = design.stage;
-  json["search"] = design.search;
-}
-inline void from_json(const nlohmann::json& json, DesignStatus& design) {
-  each_design_field(json, design, [](const auto& in, const char* name, auto& value) {
-    in.at(name).get_to(value);
-  });
-  design.stage = json.value("stage", "");
-  design.search = json.value("search", "");
-}
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(QuarantineStatus, who, reason, since, worker, workers)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LauncherStatus, name, wanted, running, pending, waits_for, note)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CampaignStatus, name, trouble, used, budget, queued_units,
-                                   wal_bytes, designs)
-
 namespace {
 
-using nlohmann::ordered_json;
+template <class T, class Of>
+concept Like = std::same_as<std::remove_const_t<T>, Of>;
 
-ordered_json json_of(const SlotTimes& times) {
-  ordered_json idle = ordered_json::object();
+// Each visits the fields by their names in JSON, to write and to read them.
+
+template <class Visit>
+void each_field(Like<WorkerStatus> auto& worker, const Visit& visit) {
+  visit("number", worker.number);
+  visit("state", worker.state);
+  visit("host", worker.host);
+  visit("job", worker.job);
+  visit("client", worker.client);
+  visit("slots", worker.slots);
+  visit("held", worker.held);
+  visit("running", worker.running);
+  visit("done", worker.done);
+  visit("failed", worker.failed);
+  visit("connections", worker.connections);
+  visit("done_per_s", worker.done_per_s);
+  visit("busy", worker.busy);
+  visit("last_heard_s", worker.last_heard_s);
+}
+
+/// Without its state, which depends on its campaign's, and what an iterated race has not.
+template <class Visit>
+void each_field(Like<DesignStatus> auto& design, const Visit& visit) {
+  visit("id", design.id.value);
+  visit("mission", design.mission);
+  visit("method", design.method);
+  visit("repetition", design.repetition);
+  visit("used", design.used);
+  visit("in_step", design.in_step);
+  visit("budget", design.budget);
+  visit("iteration", design.iteration);
+  visit("best", design.best.value);
+  visit("best_mean", design.best_mean);
+  visit("paused", design.paused);
+  visit("reason", design.reason);
+}
+
+template <class Visit>
+void each_field(Like<QuarantineStatus> auto& quarantine, const Visit& visit) {
+  visit("who", quarantine.who);
+  visit("reason", quarantine.reason);
+  visit("since", quarantine.since);
+  visit("worker", quarantine.worker);
+  visit("workers", quarantine.workers);
+}
+
+template <class Visit>
+void each_field(Like<LauncherStatus> auto& launcher, const Visit& visit) {
+  visit("name", launcher.name);
+  visit("wanted", launcher.wanted);
+  visit("running", launcher.running);
+  visit("pending", launcher.pending);
+  visit("waits_for", launcher.waits_for);
+  visit("note", launcher.note);
+}
+
+/// Without its sums and designs.
+template <class Visit>
+void each_field(Like<CampaignStatus> auto& campaign, const Visit& visit) {
+  visit("name", campaign.name);
+  visit("state", campaign.state);
+  visit("trouble", campaign.trouble);
+  visit("queued_units", campaign.queued_units);
+  visit("wal_bytes", campaign.wal_bytes);
+}
+
+template <class Visit>
+void each_field(Like<LiveStatus> auto& status, const Visit& visit) {
+  visit("running", status.running);
+  visit("workers", status.workers);
+  visit("slots", status.slots);
+  visit("ready", status.ready);
+  visit("leased", status.leased);
+  visit("credit", status.credit);
+  visit("done", status.done);
+  visit("rejected", status.rejected);
+  visit("failed", status.failed);
+  visit("requeued", status.requeued);
+  visit("expired", status.expired);
+  visit("duplicates", status.duplicates);
+  visit("conflicts", status.conflicts);
+  visit("unknown", status.unknown);
+  visit("unleased", status.unleased);
+  visit("rulings", status.rulings);
+  visit("referee_queue", status.referee_queue);
+  visit("audits", status.audits);
+  visit("quarantined", status.quarantined);
+  visit("lost_workers", status.lost_workers);
+  visit("reconnects", status.reconnects);
+  visit("malformed", status.malformed);
+  visit("malformed_by", status.malformed_by);
+  visit("over_budget", status.over_budget);
+  visit("uncommitted", status.uncommitted);
+  visit("bytes_in", status.bytes_in);
+  visit("bytes_out", status.bytes_out);
+  visit("gone_workers", status.gone_workers);
+  visit("uptime_s", status.uptime_s);
+  visit("evaluations_per_s", status.evaluations_per_s);
+  visit("used_per_s", status.used_per_s);
+  visit("trouble", status.trouble);
+  visit("insecure_plaintext", status.insecure_plaintext);
+  visit("refused", status.refused);
+}
+
+template <class Status>
+JsonObject object_of(const Status& status) {
+  JsonObject object;
+  each_field(status, [&](const char* name, const auto& value) { object.add(name, value); });
+  return object;
+}
+
+/// What an earlier version does not say stays as it is.
+template <class Status>
+void read(const nlohmann::json& json, Status& status) {
+  each_field(status, [&](const char* name, auto& value) {
+    if (const auto found = json.find(name); found != json.end()) found->get_to(value);
+  });
+}
+
+template <class Status>
+std::vector<Status> list_of(const nlohmann::json& json, const char* name) {
+  std::vector<Status> list;
+  for (const nlohmann::json& one : json.at(name))
+    read(one, list.emplace_back());
+  return list;
+}
+
+JsonObject json_of_times(const SlotTimes& times) {
+  JsonObject idle;
   for (std::size_t i = 0; i < kIdleCauses; ++i)
-    idle[std::string(name_of(static_cast<IdleCause>(i)))] = times.idle[i];
-  return {{"slots_s", times.slots}, {"busy_s", times.busy}, {"idle_s", idle}};
+    idle.add(name_of(static_cast<IdleCause>(i)), times.idle[i]);
+  return std::move(
+      JsonObject().add("slots_s", times.slots).add("busy_s", times.busy).add("idle_s", idle));
 }
 
 SlotTimes slot_times_of(const nlohmann::json& json) {
@@ -68,41 +154,40 @@ SlotTimes slot_times_of(const nlohmann::json& json) {
   return times;
 }
 
-template <class Json, class Status, class Visit>
-void each_field(Json& json, Status& status, const Visit& visit) {
-  visit(json, "workers", status.workers);
-  visit(json, "slots", status.slots);
-  visit(json, "ready", status.ready);
-  visit(json, "leased", status.leased);
-  visit(json, "credit", status.credit);
-  visit(json, "done", status.done);
-  visit(json, "rejected", status.rejected);
-  visit(json, "failed", status.failed);
-  visit(json, "requeued", status.requeued);
-  visit(json, "expired", status.expired);
-  visit(json, "duplicates", status.duplicates);
-  visit(json, "conflicts", status.conflicts);
-  visit(json, "unknown", status.unknown);
-  visit(json, "unleased", status.unleased);
-  visit(json, "rulings", status.rulings);
-  visit(json, "referee_queue", status.referee_queue);
-  visit(json, "audits", status.audits);
-  visit(json, "quarantined", status.quarantined);
-  visit(json, "lost_workers", status.lost_workers);
-  visit(json, "reconnects", status.reconnects);
-  visit(json, "malformed", status.malformed);
-  visit(json, "malformed_by", status.malformed_by);
-  visit(json, "over_budget", status.over_budget);
-  visit(json, "uncommitted", status.uncommitted);
-  visit(json, "bytes_in", status.bytes_in);
-  visit(json, "bytes_out", status.bytes_out);
-  visit(json, "gone_workers", status.gone_workers);
-  visit(json, "uptime_s", status.uptime_s);
-  visit(json, "evaluations_per_s", status.evaluations_per_s);
-  visit(json, "used_per_s", status.used_per_s);
-  visit(json, "trouble", status.trouble);
-  visit(json, "insecure_plaintext", status.insecure_plaintext);
-  visit(json, "refused", status.refused);
+JsonObject json_of_campaign(const CampaignStatus& campaign) {
+  const CampaignTotals totals = campaign.totals();
+  JsonObject object = object_of(campaign);
+  object.add("designs_finished", totals.finished)
+      .add("designs_stopped", totals.stopped)
+      .add("designs_paused", totals.paused)
+      .add("used", totals.used)
+      .add("in_step", totals.in_step)
+      .add("budget", totals.budget)
+      .add("left", totals.left)
+      .add("designs", json_list(campaign.designs, [&](const DesignStatus& design) {
+             JsonObject of_design = object_of(design);
+             of_design.add("left", design.left()).add("state", campaign.word_of_design(design));
+             if (!design.search.empty())
+               of_design.add("stage", design.stage).add("search", design.search);
+             return of_design;
+           }));
+  return object;
+}
+
+CampaignStatus campaign_of(const nlohmann::json& json) {
+  CampaignStatus campaign;
+  read(json, campaign);
+  campaign.designs = list_of<DesignStatus>(json, "designs");
+  for (std::size_t i = 0; i < campaign.designs.size(); ++i) {
+    const nlohmann::json& one = json.at("designs")[i];
+    DesignStatus& design = campaign.designs[i];
+    // A word of another version says nothing.
+    design.state =
+        design_state_of(one.at("state").get<std::string>()).value_or(DesignState::Waiting);
+    design.stage = one.value("stage", "");
+    design.search = one.value("search", "");
+  }
+  return campaign;
 }
 
 }  // namespace
@@ -134,73 +219,65 @@ Expected<std::string> not_in_quarantine(const std::string& word,
   return unexpected(ErrorKind::NotFound, text, word);
 }
 
+std::string_view CampaignStatus::word_of_design(const DesignStatus& design) const {
+  const bool at_work = design.state == DesignState::Racing || design.state == DesignState::Testing;
+  return at_work && state == "interrupted" ? "interrupted" : word_of(design.state);
+}
+
 double seconds_left(const LiveStatus& status) {
   if (!status.campaigns) return -1;
   std::int64_t left = 0;
   for (const CampaignStatus& campaign : *status.campaigns)
-    left += std::max<std::int64_t>(0, campaign.budget - campaign.used);
+    left += campaign.totals().left;
   if (left == 0) return 0;
   return status.used_per_s > 0 ? static_cast<double>(left) / status.used_per_s : -1;
 }
 
-namespace {
-
-ordered_json head_of(const LiveStatus& status) {
-  ordered_json json{{"v", 1}};
-  each_field(json, status,
-             [](ordered_json& out, const char* name, const auto& value) { out[name] = value; });
+JsonObject head_json(const LiveStatus& status) {
   const double left = seconds_left(status);
-  json["eta_s"] = left < 0 ? ordered_json() : ordered_json(left);
-  json["slot_times"] = json_of(status.slot_times);
-  json["slot_times_last_minute"] = json_of(status.slot_times_last_minute);
-  json["launcher"] = nlohmann::json(status.launcher);
-  json["quarantine"] = nlohmann::json(status.quarantine);
-  return json;
+  JsonObject object;
+  object.add("v", 2);
+  each_field(status, [&](const char* name, const auto& value) { object.add(name, value); });
+  object.add("eta_s", left < 0 ? std::nullopt : std::optional(left))
+      .add("slot_times", json_of_times(status.slot_times))
+      .add("slot_times_last_minute", json_of_times(status.slot_times_last_minute))
+      .add("launcher", object_of(status.launcher))
+      .add("quarantine", quarantine_json(status.quarantine));
+  return object;
 }
 
-ordered_json fleet_of(const LiveStatus& status) {
-  return status.fleet ? ordered_json(nlohmann::json(*status.fleet)) : ordered_json::array();
+JsonPiece quarantine_json(const std::vector<QuarantineStatus>& quarantine) {
+  return json_list(quarantine, object_of<QuarantineStatus>);
 }
 
-/// Texts of other processes need not be UTF-8.
-std::string text_of(const ordered_json& json) {
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+JsonPiece fleet_json(const LiveStatus& status) {
+  return status.fleet ? json_list(*status.fleet, object_of<WorkerStatus>) : JsonPiece{"[]"};
 }
 
-}  // namespace
-
-std::string to_json(const LiveStatus& status) {
-  ordered_json json = head_of(status);
-  json["campaigns"] = ordered_json::array();
-  if (status.campaigns) json["campaigns"] = nlohmann::json(*status.campaigns);
-  json["fleet"] = fleet_of(status);
-  return text_of(json);
-}
-
-std::string head_json(const LiveStatus& status) {
-  return text_of(head_of(status));
-}
-
-std::string fleet_json(const LiveStatus& status) {
-  return text_of(fleet_of(status));
+JsonObject to_json(const LiveStatus& status) {
+  return std::move(head_json(status)
+                       .add("campaigns", status.campaigns
+                                             ? json_list(*status.campaigns, json_of_campaign)
+                                             : JsonPiece{"[]"})
+                       .add("fleet", fleet_json(status)));
 }
 
 Expected<LiveStatus> live_status_of(const std::string& text) {
   try {
     const auto json = nlohmann::json::parse(text);
     LiveStatus status;
-    each_field(json, status, [](const nlohmann::json& in, const char* name, auto& value) {
-      in.at(name).get_to(value);
-    });
-    json.at("launcher").get_to(status.launcher);
-    // Earlier coordinators do not say it.
-    status.quarantine = json.value("quarantine", std::vector<QuarantineStatus>{});
+    read(json, status);
+    read(json.at("launcher"), status.launcher);
+    if (json.contains("quarantine"))
+      status.quarantine = list_of<QuarantineStatus>(json, "quarantine");
     status.slot_times = slot_times_of(json.at("slot_times"));
     status.slot_times_last_minute = slot_times_of(json.at("slot_times_last_minute"));
-    status.campaigns = std::make_shared<const std::vector<CampaignStatus>>(
-        json.at("campaigns").get<std::vector<CampaignStatus>>());
-    status.fleet = std::make_shared<const std::vector<WorkerStatus>>(
-        json.at("fleet").get<std::vector<WorkerStatus>>());
+    std::vector<CampaignStatus> campaigns;
+    for (const nlohmann::json& one : json.at("campaigns"))
+      campaigns.push_back(campaign_of(one));
+    status.campaigns = std::make_shared<const std::vector<CampaignStatus>>(std::move(campaigns));
+    status.fleet =
+        std::make_shared<const std::vector<WorkerStatus>>(list_of<WorkerStatus>(json, "fleet"));
     return status;
   } catch (const nlohmann::json::exception& error) {
     return unexpected(ErrorKind::Corrupt, std::string("no status: ") + error.what(),

@@ -4,12 +4,15 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/expected.h"
+#include "base/text/json.h"
 #include "coordinator/launchers/launcher.h"
 #include "coordinator/pool/campaign_meters.h"
 #include "coordinator/pool/slot_times.h"
+#include "coordinator/service/progress_model.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
@@ -51,40 +54,29 @@ std::string sentence_of_forgiven(const std::vector<std::string>& names);
 Expected<std::string> not_in_quarantine(const std::string& word,
                                         const std::vector<std::string>& known);
 
-struct DesignStatus {
-  std::int64_t id = 0;
-  std::string mission;
-  std::string method;
-  std::int64_t repetition = 0;
-  DesignState state = DesignState::Waiting;
-  std::int64_t used = 0;
-  std::int64_t budget = 0;
-  std::int64_t iteration = 0;
-  std::int64_t best = 0;  ///< candidate; 0 for none
-  double best_mean = 0;
-  bool paused = false;  ///< nothing of it is leased until somebody resumes it
-  /// Where its search is, as people read it, and the search's name (irace_core/search/stage.h);
-  /// empty for an iterated race, and then not in the JSON.
-  std::string stage{};
-  std::string search{};
-};
-
 struct CampaignStatus {
   std::string name;
+  /// As CampaignStateRow; "interrupted": it is not finished, and no coordinator runs it;
+  /// "imported": it never ran here.
+  std::string state;
   std::string trouble;  ///< why its store cannot write, or why it is stopped; empty when well
-  std::int64_t used = 0;
-  std::int64_t budget = 0;        ///< of designs that are over what they used
   std::int64_t queued_units = 0;  ///< row units that its writer has not committed
   std::int64_t wal_bytes = 0;
   std::vector<DesignStatus> designs;
   CampaignMeters meters;
   Histogram commit_time;  ///< from a unit of rows given to the writer to its commit
   Histogram step_time;    ///< from one step of a design's race to its next
+
+  CampaignTotals totals() const { return totals_of(designs); }
+  /// The design's state; "interrupted" if it was at work and no coordinator runs it.
+  std::string_view word_of_design(const DesignStatus& design) const;
 };
 
 /// How a coordinator's campaigns are right now; from the coordinator's memory, for people. Counts
 /// are since the start of this process.
 struct LiveStatus {
+  /// A coordinator says it; false for what its store says while none does.
+  bool running = true;
   std::int64_t workers = 0;
   std::int64_t slots = 0;
   std::int64_t ready = 0;  ///< tasks that wait for a slot
@@ -129,16 +121,17 @@ struct LiveStatus {
   std::shared_ptr<const std::vector<CampaignStatus>> campaigns;
 };
 
-/// Seconds until the budgets are used at the rate of the last minute; negative when nothing moves,
-/// 0 when nothing is left.
+/// Seconds until races have used what is left at the rate of the last minute, the expected time of
+/// every output; negative when nothing moves, 0 when nothing is left.
 double seconds_left(const LiveStatus& status);
 
 /// One JSON object with the fields by name; docs/observability.md describes it.
-std::string to_json(const LiveStatus& status);
+JsonObject to_json(const LiveStatus& status);
 /// The same without `campaigns` and `fleet`.
-std::string head_json(const LiveStatus& status);
-/// The array `fleet` alone.
-std::string fleet_json(const LiveStatus& status);
+JsonObject head_json(const LiveStatus& status);
+/// The arrays `fleet` and `quarantine` alone.
+JsonPiece fleet_json(const LiveStatus& status);
+JsonPiece quarantine_json(const std::vector<QuarantineStatus>& quarantine);
 /// `to_json` back, without histograms. Errors: no such object.
 Expected<LiveStatus> live_status_of(const std::string& text);
 

@@ -85,8 +85,7 @@ auto of_designs(Get get) {
     if (!status.campaigns) return;
     for (const CampaignStatus& campaign : *status.campaigns) {
       for (const DesignStatus& design : campaign.designs) {
-        out.add({{"campaign", campaign.name}, {"design", "d" + std::to_string(design.id)}},
-                get(design));
+        out.add({{"campaign", campaign.name}, {"design", to_string(design.id)}}, get(design));
       }
     }
   };
@@ -188,18 +187,18 @@ std::vector<Metric> campaign_metrics() {
        of_campaigns([](const CampaignStatus& one) { return one.meters.rejected; })},
       {"swarmsmith_failed_total", "counter", "Attempts without a score, by reason", write_failed},
       {"swarmsmith_campaign_used", "gauge", "Experiments that the races of a campaign have used",
-       of_campaigns([](const CampaignStatus& one) { return one.used; })},
-      {"swarmsmith_campaign_budget", "gauge",
-       "Budget of the races in experiments; for finished designs the number used",
-       of_campaigns([](const CampaignStatus& one) { return one.budget; })},
+       of_campaigns([](const CampaignStatus& one) { return one.totals().used; })},
+      {"swarmsmith_campaign_budget", "gauge", "Budget of the races in experiments",
+       of_campaigns([](const CampaignStatus& one) { return one.totals().budget; })},
+      {"swarmsmith_campaign_left", "gauge",
+       "Experiments that the races may still use; none of a race that is over",
+       of_campaigns([](const CampaignStatus& one) { return one.totals().left; })},
       {"swarmsmith_design_used", "gauge", "Experiments that a design's race has used",
        of_designs([](const DesignStatus& one) { return one.used; })},
       {"swarmsmith_design_budget", "gauge", "Experiments that a design's race may use",
        of_designs([](const DesignStatus& one) { return one.budget; })},
       {"swarmsmith_paused_designs", "gauge", "Paused designs",
-       of_campaigns([](const CampaignStatus& one) {
-         return std::ranges::count_if(one.designs, &DesignStatus::paused);
-       })},
+       of_campaigns([](const CampaignStatus& one) { return one.totals().paused; })},
       {"swarmsmith_writer_queue_units", "gauge", "Units of rows that a store has not committed",
        of_campaigns([](const CampaignStatus& one) { return one.queued_units; })},
       {"swarmsmith_wal_bytes", "gauge", "Size of a store's write-ahead log",

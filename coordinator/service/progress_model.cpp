@@ -8,19 +8,33 @@
 namespace swarmsmith {
 namespace {
 
-bool has_ended(const DesignProgress& progress) {
-  return is_over(progress.state);
-}
-
-/// A design that is over has used what it will use; what its budget had left does not count.
-std::int64_t share_of(const DesignProgress& progress) {
-  const bool raced = has_ended(progress) || progress.state == DesignState::Testing;
-  return raced ? progress.design.budget
-               : std::min(progress.used + progress.in_step,
-                          std::max(progress.used, progress.design.budget));
+bool is_raced(DesignState state) {
+  return is_over(state) || state == DesignState::Testing;
 }
 
 }  // namespace
+
+std::int64_t DesignStatus::left() const {
+  return is_raced(state) ? 0 : std::max<std::int64_t>(0, budget - used);
+}
+
+void CampaignTotals::add(const DesignStatus& design) {
+  ++designs;
+  finished += design.state == DesignState::Finished;
+  stopped += design.state == DesignState::Stopped;
+  paused += design.paused && !is_over(design.state);
+  used += design.used;
+  in_step += design.in_step;
+  budget += design.budget;
+  left += design.left();
+}
+
+CampaignTotals totals_of(std::span<const DesignStatus> designs) {
+  CampaignTotals totals;
+  for (const DesignStatus& design : designs)
+    totals.add(design);
+  return totals;
+}
 
 SearchPoint point_of(const DesignProgress& progress) {
   return {.iteration = progress.iteration,
@@ -33,25 +47,33 @@ SearchPoint point_of(const DesignProgress& progress) {
           .runs = progress.used - progress.used_before + progress.in_step,
           .step = progress.step,
           .used = progress.used,
-          .budget = progress.design.budget};
+          .budget = progress.budget};
 }
 
 std::string stage_of(const DesignProgress& progress) {
-  return progress.search ? stage_text(*progress.search, point_of(progress)) : "";
+  return progress.options ? stage_text(*progress.options, point_of(progress)) : "";
 }
 
 std::string_view shown_state(const DesignProgress& progress, DesignState state) {
-  if (!progress.search || state != DesignState::Racing) return word_of(state);
-  return words_of(progress.search->kind).at_work;
+  if (!progress.options || state != DesignState::Racing) return word_of(state);
+  return words_of(progress.options->kind).at_work;
 }
 
 ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs,
                              const Searches& searches)
     : costs_(costs) {
-  for (const DesignRow& row : designs)
-    designs_[row.id].design = row;
-  for (const auto& [id, search] : searches)
-    designs_.at(id).search = search;
+  for (const DesignRow& row : designs) {
+    DesignProgress& progress = designs_[row.id];
+    progress.id = row.id;
+    progress.mission = row.mission;
+    progress.method = row.method;
+    progress.repetition = row.repetition;
+    progress.budget = row.budget;
+  }
+  for (const auto& [id, options] : searches) {
+    designs_.at(id).options = options;
+    designs_.at(id).search = name_of(options.kind);
+  }
 }
 
 void ProgressModel::add(const Row& row) {
@@ -98,7 +120,7 @@ void ProgressModel::add_command(DesignProgress& progress, const CommandRow& row)
   // Its row comes twice: when it is asked for, and when it acts.
   if (row.kind != CommandKind::Extend || !row.step || !extensions_.insert(row.number).second)
     return;
-  progress.design.budget += row.budget;
+  progress.budget += row.budget;
   ++progress.extensions;
 }
 
@@ -107,46 +129,38 @@ void ProgressModel::add_state(DesignProgress& progress, const DesignStateRow& ro
   progress.used = row.used;
   progress.in_step = 0;
   progress.iteration = row.iteration;
+  progress.reason = row.reason;
   if (!row.best || row.used == 0) return;  // no race has said how good it is
   progress.best = row.best;
   progress.best_mean = row.best_mean;
 }
 
-std::int64_t ProgressModel::finished() const {
-  std::int64_t count = 0;
-  for (const auto& [id, progress] : designs_)
-    count += progress.state == DesignState::Finished;
-  return count;
+void ProgressModel::drop_open_steps() {
+  for (auto& [id, progress] : designs_)
+    progress.in_step = 0;
 }
 
-std::int64_t ProgressModel::paused() const {
-  std::int64_t count = 0;
+CampaignTotals ProgressModel::totals() const {
+  CampaignTotals totals;
   for (const auto& [id, progress] : designs_)
-    count += progress.paused && !has_ended(progress);
-  return count;
+    totals.add(progress);
+  return totals;
 }
 
-bool ProgressModel::is_over() const {
-  return current() == nullptr || has_ended(*current());
-}
-
-std::int64_t ProgressModel::used() const {
-  std::int64_t sum = 0;
-  for (const auto& [id, progress] : designs_)
-    sum += share_of(progress);
-  return sum;
-}
-
-std::int64_t ProgressModel::budget() const {
-  std::int64_t sum = 0;
-  for (const auto& [id, progress] : designs_)
-    sum += progress.design.budget;
-  return sum;
+std::vector<DesignStatus> ProgressModel::designs() const {
+  std::vector<DesignStatus> designs;
+  designs.reserve(designs_.size());
+  for (const auto& [id, progress] : designs_) {
+    designs.push_back(progress);
+    designs.back().paused = progress.paused && !is_over(progress.state);
+    designs.back().stage = stage_of(progress);
+  }
+  return designs;
 }
 
 const DesignProgress* ProgressModel::current() const {
   for (const auto& [id, progress] : designs_) {
-    if (!has_ended(progress)) return &progress;
+    if (!is_over(progress.state)) return &progress;
   }
   return designs_.empty() ? nullptr : &designs_.rbegin()->second;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "coordinator/campaign/campaign_rows.h"
 #include "irace_core/search/stage.h"
@@ -14,22 +15,53 @@
 
 namespace swarmsmith {
 
-/// How far one design is.
-struct DesignProgress {
-  DesignRow design;
+/// How far a design is, as every output says it: of a campaign that runs, or from its store.
+struct DesignStatus {
+  DesignId id;
+  std::string mission{};
+  std::string method{};
+  std::int64_t repetition = 0;
   DesignState state = DesignState::Waiting;
+  std::int64_t used = 0;     ///< experiments, as of its race's last step
+  std::int64_t in_step = 0;  ///< evaluated since then: the next step counts them as used
+  std::int64_t budget = 0;   ///< with what was given to it later
   std::int64_t iteration = 0;
+  CandidateId best{};
+  double best_mean = 0;
+  bool paused = false;   ///< nothing of it is leased until a person resumes it
+  std::string reason{};  ///< why it ended
+  /// Where its search is, as people read it, and the search's name (irace_core/search/stage.h);
+  /// empty for an iterated race, and then not in the JSON.
+  std::string stage{};
+  std::string search{};
+
+  /// What its race may still use. One that is over uses no more, whatever its budget has left.
+  std::int64_t left() const;
+};
+
+/// Sums over designs: of a campaign, or of several. The only place where they are made.
+struct CampaignTotals {
+  std::int64_t designs = 0;
+  std::int64_t finished = 0;
+  std::int64_t stopped = 0;
+  std::int64_t paused = 0;  ///< that are not over
+  std::int64_t used = 0;
+  std::int64_t in_step = 0;
+  std::int64_t budget = 0;
+  std::int64_t left = 0;
+
+  bool are_over() const { return finished + stopped == designs; }
+  void add(const DesignStatus& design);
+};
+CampaignTotals totals_of(std::span<const DesignStatus> designs);
+
+/// What is known of a design while its rows pass: besides its status, the point of its search.
+struct DesignProgress : DesignStatus {
   std::int64_t iterations = 0;  ///< as planned when the iteration began
   std::int64_t configurations = 0;
   std::int64_t alive = 0;
-  std::int64_t used = 0;
-  std::int64_t in_step = 0;  ///< evaluations since the race's last step, which counts them as used
-  CandidateId best;
-  double best_mean = 0;
-  bool paused = false;  ///< by a person
-
   /// None for an iterated race; the others are told of by SearchPoint.
-  std::optional<SearchOptions> search{};
+  std::optional<SearchOptions> options{};
   bool is_final = false;         ///< the iteration is the final stage
   std::int64_t extensions = 0;   ///< that have acted: each follows a final stage
   std::int64_t wanted = 0;       ///< runs of the iteration
@@ -53,23 +85,16 @@ class ProgressModel {
                          const Searches& searches = {});
 
   void add(const Row& row);
+  /// The process ends: what steps had begun counts when they are done.
+  void drop_open_steps();
 
   bool shows_costs() const { return costs_; }
   /// By id.
   const std::map<DesignId, DesignProgress>& by_design() const { return designs_; }
   const DesignProgress& design(DesignId id) const { return designs_.at(id); }
-  std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
-  /// Designs that need nothing more.
-  std::int64_t finished() const;
-  /// Designs that are neither finished nor stopped, and that a person has paused.
-  std::int64_t paused() const;
-  /// Nothing is left to be done.
-  bool is_over() const;
-  /// Of `budget`, with what a step has evaluated so far; a design whose race is over counts with
-  /// all of its own.
-  std::int64_t used() const;
-  /// With what was given to designs later.
-  std::int64_t budget() const;
+  CampaignTotals totals() const;
+  /// By id, each with its stage.
+  std::vector<DesignStatus> designs() const;
   /// The first design that is not over, else the last one: what the status line tells about.
   const DesignProgress* current() const;
 

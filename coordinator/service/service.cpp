@@ -240,7 +240,7 @@ class Loop final : public Service {
 
   void answer(const AnswerStatus& answer) {
     // Many may ask; it is written out once between two ticks.
-    if (status_json_.empty()) status_json_ = to_json(status_);
+    if (status_json_.empty()) status_json_ = to_json(status_).text();
     send({answer.peer, status_reply_of(status_json_), {}});
   }
 

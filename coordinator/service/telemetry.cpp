@@ -8,22 +8,6 @@ namespace {
 constexpr Duration kRenewEvery = std::chrono::seconds(1);
 constexpr Duration kPointEvery = std::chrono::milliseconds(90);
 
-DesignStatus status_of(const DesignProgress& progress) {
-  return {.id = progress.design.id.value,
-          .mission = progress.design.mission,
-          .method = progress.design.method,
-          .repetition = progress.design.repetition,
-          .state = progress.state,
-          .used = progress.used,
-          .budget = progress.design.budget,
-          .iteration = progress.iteration,
-          .best = progress.best.value,
-          .best_mean = progress.best_mean,
-          .paused = progress.paused && !is_over(progress.state),
-          .stage = stage_of(progress),
-          .search = progress.search ? std::string(name_of(progress.search->kind)) : ""};
-}
-
 }  // namespace
 
 double RateWindow::update(TimePoint now, std::int64_t count) {
@@ -45,6 +29,7 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
       progress.add(row);
     campaigns_.push_back({.progress = std::move(progress)});
     campaigns_.back().status.name = campaign.name;
+    campaigns_.back().status.state = "running";
   }
 }
 
@@ -52,6 +37,8 @@ void Telemetry::on_rows(std::size_t index, std::span<const Row> rows, TimePoint 
   Campaign& campaign = campaigns_[index];
   for (const Row& row : rows) {
     campaign.progress.add(row);
+    if (const auto* state = std::get_if<CampaignStateRow>(&row))
+      campaign.status.state = state->state;
     const auto* step = std::get_if<RaceStepRow>(&row);
     if (step == nullptr) continue;
     const auto [last, is_first] = campaign.last_step.try_emplace(step->design, now);
@@ -93,9 +80,7 @@ void Telemetry::renew_lists(const Coordinator& coordinator, TimePoint now) {
   for (std::size_t i = 0; i < campaigns_.size(); ++i) {
     CampaignStatus& status = campaigns_[i].status;
     if (i < meters.size()) status.meters = meters[i];
-    status.designs.clear();
-    for (const auto& [id, progress] : campaigns_[i].progress.by_design())
-      status.designs.push_back(status_of(progress));
+    status.designs = campaigns_[i].progress.designs();
     status.queued_units = static_cast<std::int64_t>(campaigns_[i].uncommitted.size());
     if (const auto& stopped = coordinator.stopped(static_cast<std::uint32_t>(i)); stopped) {
       status.trouble = *stopped;
@@ -109,17 +94,8 @@ void Telemetry::renew_lists(const Coordinator& coordinator, TimePoint now) {
 
 LiveStatus Telemetry::status(const Coordinator& coordinator, TimePoint now, bool all) {
   std::int64_t used = 0;
-  for (Campaign& campaign : campaigns_) {
-    CampaignStatus& status = campaign.status;
-    status.used = 0;
-    status.budget = 0;
-    for (const auto& [id, progress] : campaign.progress.by_design()) {
-      const bool is_raced = progress.state == DesignState::Testing || is_over(progress.state);
-      status.used += progress.used;
-      status.budget += is_raced ? progress.used : progress.design.budget;
-    }
-    used += status.used;
-  }
+  for (const Campaign& campaign : campaigns_)
+    used += campaign.progress.totals().used;
   if (all || !lists_ || now - renewed_ >= kRenewEvery) renew_lists(coordinator, now);
   LiveStatus status = coordinator.status();
   status.uptime_s = std::chrono::duration<double>(now - start_).count();

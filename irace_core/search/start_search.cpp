@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "irace_core/ablation.h"
 #include "irace_core/search/cma_es.h"
 #include "irace_core/search/evolution.h"
 #include "irace_core/search/random_search.h"
@@ -92,6 +93,7 @@ Expected<std::unique_ptr<Search>> start_search(ParameterSpace space, const Scena
                                                const SearchOptions& options,
                                                std::vector<Configuration> initial, Repair repair,
                                                std::optional<search::Neighbourhood> neighbourhood) {
+  if (scenario.ablation) return start_ablation(std::move(space), scenario, initial);
   if (options.kind == SearchKind::Irace || options.kind == SearchKind::FRace) {
     const bool is_one = options.kind == SearchKind::FRace;
     if (is_one) {

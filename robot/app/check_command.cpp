@@ -9,28 +9,25 @@
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct CheckWords {
   std::string robots;
-  std::string seconds;
+  double seconds = 5;
   TransportWords transport;
 };
 
 ExitCode check(const CheckWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
-  const auto seconds = number_option(words.seconds, "--seconds", 0.1, 3600);
-  if (!seconds) return fail(output, ExitCode::Usage, seconds.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
   if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   RollCall roll(*names, operator_id());
   const auto note = [&output](const std::string& text) { print_note(output, text); };
   const TimePoint begun = now_on_both_clocks().clock;
-  const auto until = begun + std::chrono::duration_cast<Duration>(
-                                 std::chrono::duration<double>(seconds->value_or(5)));
+  const auto until = begun + duration_of(words.seconds);
   bool connected = true;
   while (connected && !roll.is_complete() && stop_signal() == 0) {
     const Now now = now_on_both_clocks();
@@ -67,13 +64,14 @@ ExitCode check(const CheckWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_check(Options& options) {
+CommandRun declare_robot_check(Options& options) {
   auto words = std::make_shared<CheckWords>();
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
-  options.text("--seconds", words->seconds, "How long to wait for answers (default 5)");
+  options.number("--seconds", words->seconds, {0.1, 3600},
+                 "How long to wait for answers (default 5)");
   words->transport.declare_client(options);
   return [words](Output& output) { return check(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

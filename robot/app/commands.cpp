@@ -2,84 +2,74 @@
 
 #include <array>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
-constexpr std::string_view kRunDetails =
-    "Examples:\n"
-    "  swarmsmith robot run --robot 1 --machine best.fsm --color-scale 255 --logs runs/\n"
-    "  swarmsmith robot run --robot 1 --machine best.fsm --color-scale 255 \\\n"
-    "      ground_color:=/rvr/ground_color wheels_speed:=/rvr/wheels_speed --wheels floats\n"
-    "  swarmsmith robot run --robot 2 --machine best.fsm --lock-step senses\n"
-    "\n"
-    "The node of one robot. It waits until `swarmsmith robot start` begins a run, steps the "
-    "machine\n"
-    "ten times a second, and writes a log of each run. When a sensor that the machine needs is\n"
-    "silent, the treads stand still. Ctrl-C or SIGTERM stops the treads and then the node.";
-constexpr std::string_view kWorldDetails =
-    "Examples:\n"
-    "  swarmsmith robot world --mission aggregation --seeds 1-20 --lock-step \\\n"
-    "      --compare --machine best.fsm\n"
-    "  swarmsmith robot world --mission aggregation --seeds 7 --real-time --csv truth.csv\n"
-    "\n"
-    "A simulated world in place of the robots' drivers, with the nodes of `swarmsmith robot run`.\n"
-    "In lock-step (nodes: --lock-step senses, or topics) it prints the scores of `evaluate`, bit "
-    "for\n"
-    "bit. In real time it is a laboratory: `swarmsmith robot start` begins the run, a command "
-    "acts\n"
-    "when it comes, and the drivers stop the treads 300 ms after the last one. Exit code 1: bits "
-    "or\n"
-    "answers are wrong; 5: a robot's node is not there or does not answer.";
-constexpr std::string_view kStartDetails =
-    "Examples:\n"
-    "  swarmsmith robot start --run run07 --robots 1-3 --seconds 120\n"
-    "  swarmsmith robot start --run run07 --robots 1-3 --mission aggregation --design d3 \\\n"
-    "      --video run07.mkv --robot-logs logs/\n"
-    "\n"
-    "Asks all nodes who they are, measures their clocks, and refuses with reasons when something "
-    "is\n"
-    "missing. Then all begin at an agreed instant. If a robot falls silent or fails, all stop;\n"
-    "Ctrl-C stops all. Run it on the computer that records the video: the run log then has the\n"
-    "start. Exit code 6: the run is INVALID; 1: nothing was started; 5: a robot does not answer.";
-constexpr std::string_view kStopDetails =
-    "Examples:\n"
-    "  swarmsmith robot stop --robots 1-3\n"
-    "  swarmsmith robot stop --robots 1-3 --kill\n"
-    "\n"
-    "Exit code 5: a robot does not say that it stands.";
-constexpr std::string_view kCheckDetails =
-    "Example:\n"
-    "  swarmsmith robot check --robots 1-3\n"
-    "\n"
-    "Exit code 0: all are ready; 1: something is missing or differs; 5: a robot does not answer.";
-constexpr std::string_view kReplayDetails =
-    "Examples:\n"
-    "  swarmsmith robot replay run07.rvr1.log.csv\n"
-    "  swarmsmith robot replay runs/*.log.csv\n"
-    "\n"
-    "Steps the machine of the log through the readings of the log. Exit code 0: each command,\n"
-    "state and random number has the bits of the log; 1: it says at which cycle one differs; 2: "
-    "the\n"
-    "log cannot be read.";
+constexpr std::string_view kRunDetails = R"(Examples:
+  swarmsmith robot run --robot 1 --machine best.fsm --color-scale 255 --logs runs/
+  swarmsmith robot run --robot 1 --machine best.fsm --color-scale 255 \
+      ground_color:=/rvr/ground_color wheels_speed:=/rvr/wheels_speed --wheels floats
+  swarmsmith robot run --robot 2 --machine best.fsm --lock-step senses
+
+The node of one robot. It waits until `swarmsmith robot start` begins a run, steps the machine
+ten times a second, and writes a log of each run. When a sensor that the machine needs is
+silent, the treads stand still. Ctrl-C or SIGTERM stops the treads and then the node.)";
+constexpr std::string_view kWorldDetails = R"(Examples:
+  swarmsmith robot world --mission aggregation --seeds 1-20 --lock-step \
+      --compare --machine best.fsm
+  swarmsmith robot world --mission aggregation --seeds 7 --real-time --csv truth.csv
+
+A simulated world in place of the robots' drivers, with the nodes of `swarmsmith robot run`.
+In lock-step (nodes: --lock-step senses, or topics) it prints the scores of `evaluate`, bit for
+bit. In real time it is a laboratory: `swarmsmith robot start` begins the run, a command acts
+when it comes, and the drivers stop the treads 300 ms after the last one. Exit code 1: bits or
+answers are wrong; 5: a robot's node is not there or does not answer.)";
+constexpr std::string_view kStartDetails = R"(Examples:
+  swarmsmith robot start --run run07 --robots 1-3 --seconds 120
+  swarmsmith robot start --run run07 --robots 1-3 --mission aggregation --design d3 \
+      --video run07.mkv --robot-logs logs/
+
+Asks all nodes who they are, measures their clocks, and refuses with reasons when something is
+missing. Then all begin at an agreed instant. If a robot falls silent or fails, all stop;
+Ctrl-C stops all. Run it on the computer that records the video: the run log then has the
+start. Exit code 6: the run is INVALID; 1: nothing was started; 5: a robot does not answer.)";
+constexpr std::string_view kStopDetails = R"(Examples:
+  swarmsmith robot stop --robots 1-3
+  swarmsmith robot stop --robots 1-3 --kill
+
+Exit code 5: a robot does not say that it stands.)";
+constexpr std::string_view kCheckDetails = R"(Example:
+  swarmsmith robot check --robots 1-3
+
+Exit code 0: all are ready; 1: something is missing or differs; 5: a robot does not answer.)";
+constexpr std::string_view kReplayDetails = R"(Examples:
+  swarmsmith robot replay run07.rvr1.log.csv
+  swarmsmith robot replay runs/*.log.csv
+
+Steps the machine of the log through the readings of the log. Exit code 0: each command,
+state and random number has the bits of the log; 1: it says at which cycle one differs; 2: the
+log cannot be read.)";
 
 constexpr std::array kCommands = {
-    Command{"run", "Run a machine on a robot", kRunDetails, declare_robot_run, nullptr,
-            without_ros_words},
-    Command{"world", "Play the world for robots' nodes", kWorldDetails, declare_robot_world,
-            nullptr, without_ros_words},
-    Command{"start", "Start a run on all robots, and watch over it", kStartDetails,
-            declare_robot_start, nullptr, without_ros_words},
-    Command{"stop", "Stop robots", kStopDetails, declare_robot_stop, nullptr, without_ros_words},
-    Command{"check", "Say which robots are there, and whether a run can start", kCheckDetails,
-            declare_robot_check, nullptr, without_ros_words},
-    Command{"replay", "Step a machine through logs of robots and compare", kReplayDetails,
-            declare_robot_replay},
-    Command{"version", "Print the version, and whether ROS is in it", "", declare_robot_version},
+    ProgramCommand{"run", "Run a machine on a robot", kRunDetails, declare_robot_run, nullptr,
+                   without_ros_words},
+    ProgramCommand{"world", "Play the world for robots' nodes", kWorldDetails, declare_robot_world,
+                   nullptr, without_ros_words},
+    ProgramCommand{"start", "Start a run on all robots, and watch over it", kStartDetails,
+                   declare_robot_start, nullptr, without_ros_words},
+    ProgramCommand{"stop", "Stop robots", kStopDetails, declare_robot_stop, nullptr,
+                   without_ros_words},
+    ProgramCommand{"check", "Say which robots are there, and whether a run can start",
+                   kCheckDetails, declare_robot_check, nullptr, without_ros_words},
+    ProgramCommand{"replay", "Step a machine through logs of robots and compare", kReplayDetails,
+                   declare_robot_replay},
+    ProgramCommand{"version", "Print the version, and whether ROS is in it", "",
+                   declare_robot_version},
 };
 
 }  // namespace
 
-std::span<const Command> robot_commands() {
+std::span<const ProgramCommand> robot_commands() {
   return kCommands;
 }
 
@@ -108,4 +98,4 @@ std::vector<std::string> without_ros_words(std::vector<std::string> words) {
   return plain;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

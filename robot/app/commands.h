@@ -4,20 +4,20 @@
 
 #include "console/program.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// All commands of swarmsmith-robot, in the order of the help. A new one: a file of its own with
 /// its `declare_` function, a line here, an entry in commands.cpp, a section in
 /// docs/robot-runtime.md.
-std::span<const Command> robot_commands();
+std::span<const ProgramCommand> robot_commands();
 
-Run declare_robot_run(Options& options);
-Run declare_robot_world(Options& options);
-Run declare_robot_start(Options& options);
-Run declare_robot_stop(Options& options);
-Run declare_robot_check(Options& options);
-Run declare_robot_replay(Options& options);
-Run declare_robot_version(Options& options);
+CommandRun declare_robot_run(Options& options);
+CommandRun declare_robot_world(Options& options);
+CommandRun declare_robot_start(Options& options);
+CommandRun declare_robot_stop(Options& options);
+CommandRun declare_robot_check(Options& options);
+CommandRun declare_robot_replay(Options& options);
+CommandRun declare_robot_version(Options& options);
 
 /// Words in the manner of ROS: `_seed:=7` as `--seed 7`, `ranges:=/teraranger/ranges` as `--topic`.
 std::vector<std::string> without_ros_words(std::vector<std::string> words);
@@ -25,4 +25,4 @@ std::vector<std::string> without_ros_words(std::vector<std::string> words);
 /// "swarmsmith-robot 0.1.0".
 std::string robot_program_name();
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

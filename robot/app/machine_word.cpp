@@ -5,7 +5,7 @@
 #include "base/text/whole_file.h"
 #include "sim/files/machine_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 Expected<FiledMachine> filed_machine(const std::string& word) {
@@ -27,7 +27,7 @@ Expected<FiledMachine> filed_machine(const std::string& word) {
 }  // namespace
 
 Expected<RobotMachine> robot_machine(const std::string& word, std::string flavour,
-                                     const std::string& turn_clock) {
+                                     std::optional<TurnClock> turn_clock) {
   const auto filed = filed_machine(word);
   if (!filed) return Unexpected(filed.error());
   if (flavour.empty()) flavour = filed->head.flavour;
@@ -37,10 +37,8 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
         "something else under another one: give --flavour",
         filed->place);
   }
-  TurnClock clock = filed->head.turn_clock.value_or(TurnClock::Cycles);
-  if (!turn_clock.empty())
-    clock = turn_clock == name_of(TurnClock::Seconds) ? TurnClock::Seconds : TurnClock::Cycles;
-  auto known = find_flavour(flavour, clock);
+  if (!turn_clock) turn_clock = filed->head.turn_clock;
+  auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles));
   if (!known) return Unexpected(known.error());
   auto controller = parse_controller(filed->text, *known);
   if (!controller) {
@@ -51,4 +49,4 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   return RobotMachine{std::move(*known), std::move(*controller)};
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@
 
 #include "base/overloaded.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Duration kTellEvery = std::chrono::milliseconds(500);
@@ -43,9 +43,7 @@ NodeLoop::Ending NodeLoop::run() {
 
 /// Each time: the wall clock may be stepped.
 void NodeLoop::set_wall_offset(const Now& now) {
-  const std::chrono::duration<double> wall(now.unix_s);
-  node_.feeds().set_wall_offset(std::chrono::duration_cast<Duration>(wall) -
-                                now.clock.time_since_epoch());
+  node_.feeds().set_wall_offset(duration_of(now.unix_s) - now.clock.time_since_epoch());
 }
 
 bool NodeLoop::turn() {
@@ -84,8 +82,7 @@ bool NodeLoop::turn_in_lock_step() {
   } else {
     if (node_.is_on() && steady_now() - world_heard_ > options_.patience) {
       const std::string why =
-          fmt::format("the world is silent for {:.1f} s",
-                      std::chrono::duration<double>(steady_now() - world_heard_).count());
+          fmt::format("the world is silent for {:.1f} s", seconds_of(steady_now() - world_heard_));
       node_.fail(why);
       options_.note(why);
       finish(Ending::Lost);
@@ -111,7 +108,6 @@ void NodeLoop::hear(const ToRobot& message) {
                         [this](const BatteryMessage& battery) { node_.hear(battery); },
                         [this](const DrivenMessage& driven) { node_.driver().hear(driven); },
                         [this](const RivalMessage& rival) { node_.driver().hear(rival); },
-                        [](const ImuMessage&) {}, [](const OdometryMessage&) {},
                         [this](const auto& reading) {
                           node_.feeds().hear(reading);
                           if (options_.pace == Pace::CountedTopics) step_counted();
@@ -159,7 +155,7 @@ void NodeLoop::answer(const SensesMessage& senses) {
     return;
   }
   if (senses.cycle == 1) open_log();
-  const swarmsmith::Command& command = *decision->command;  // cli has another
+  const Command& command = *decision->command;
   end_.send(AnswerMessage{.seed = senses.seed,
                           .cycle = senses.cycle,
                           .left_mps = command.left_mps,
@@ -280,4 +276,4 @@ void NodeLoop::close() {
   end_.flush(kFlush);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

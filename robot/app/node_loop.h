@@ -11,7 +11,7 @@
 #include "robot/runtime/node.h"
 #include "robot/transport/ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The wall clock and the steady one, at one instant.
 Now now_on_both_clocks();
@@ -83,4 +83,4 @@ class NodeLoop {
   std::string last_unknown_;  ///< keys of orders
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

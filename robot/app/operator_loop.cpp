@@ -9,7 +9,7 @@
 #include "base/text/text_table.h"
 #include "robot/app/node_loop.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kShownDigest = 8;
@@ -28,7 +28,7 @@ std::string ages_text(const NodeState& state) {
 std::vector<std::string> row_of(const RolledRobot& robot, TimePoint now) {
   if (!robot.state) return {robot.name, "no answer", "", "", "", "", "", ""};
   const NodeState& state = *robot.state;
-  const double heard_s = std::chrono::duration<double>(now - robot.heard).count();
+  const double heard_s = seconds_of(now - robot.heard);
   return {
       robot.name,
       heard_s > 1 ? fmt::format("silent for {:.0f} s", heard_s) : std::string(name_of(state.phase)),
@@ -65,8 +65,8 @@ bool hear_states(OperatorEnd& end, TimePoint until,
     }
     const Now now = now_on_both_clocks();
     // As it came, and not as it was taken: it may have waited.
-    const std::chrono::duration<double> waited = now.clock - message.arrival.at;
-    hear(received->robot, *state, {message.arrival.at, now.unix_s - waited.count()});
+    const double waited_s = seconds_of(now.clock - message.arrival.at);
+    hear(received->robot, *state, {message.arrival.at, now.unix_s - waited_s});
   }
   return true;
 }
@@ -90,11 +90,9 @@ std::string roll_json(const RollCall& roll, TimePoint now) {
                    [now](const RolledRobot& robot) {
                      JsonObject json;
                      json.add("robot", robot.name);
-                     json.add("heard_s_ago",
-                              robot.state
-                                  ? std::optional(
-                                        std::chrono::duration<double>(now - robot.heard).count())
-                                  : std::optional<double>());
+                     json.add("heard_s_ago", robot.state
+                                                 ? std::optional(seconds_of(now - robot.heard))
+                                                 : std::optional<double>());
                      json.add("clock_offset_s", robot.echoes > 0 ? std::optional(robot.offset_s)
                                                                  : std::optional<double>());
                      json.add("echo_s", robot.echoes > 0 ? std::optional(robot.echo_s)
@@ -106,4 +104,4 @@ std::string roll_json(const RollCall& roll, TimePoint now) {
       .text;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

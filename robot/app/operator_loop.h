@@ -6,7 +6,7 @@
 #include "robot/runtime/roll_call.h"
 #include "robot/transport/ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The beginning of orders' ids that no other operator has.
 std::string operator_id();
@@ -24,4 +24,4 @@ std::string roll_table(const RollCall& roll, TimePoint now);
 /// The same as a JSON array.
 std::string roll_json(const RollCall& roll, TimePoint now);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -9,7 +9,7 @@
 #include "robot/log/log_file.h"
 #include "robot/runtime/replay.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// 0: the same commands; 1: others; 2: no log that can be read.
@@ -54,11 +54,11 @@ ExitCode replay_all(const std::vector<std::string>& files, Output& output) {
 
 }  // namespace
 
-Run declare_robot_replay(Options& options) {
+CommandRun declare_robot_replay(Options& options) {
   auto files = std::make_shared<std::vector<std::string>>();
   options.words("LOG", *files, "Logs: run07.rvr1.log.csv or run07.rvr1.toml",
                 Options::Need::Required);
   return [files](Output& output) { return replay_all(*files, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -1,14 +1,11 @@
 #include "robot/app/robot_names.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 
 #include "base/text/csv.h"
 #include "robot/runtime/order.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr const char* kStem = "rvr";
@@ -31,8 +28,9 @@ Expected<std::string> robot_name(const std::string& word) {
     return kStem + std::to_string(number_of(word));
   }
   if (!is_plain_name(word) || (word[0] >= '0' && word[0] <= '9') || word[0] == '-')
-    return bad_input("`" + word + "` is no robot's name: a letter, then letters, digits and _",
-                     "--robot");
+    return bad_input(
+        "`" + word + "` is not a valid robot name (a letter, then letters, digits or _)",
+        "--robot");
   return word;
 }
 
@@ -71,13 +69,4 @@ Expected<std::vector<std::string>> robot_names(const std::string& words) {
   return names;
 }
 
-Expected<std::optional<double>> number_option(const std::string& text, const char* option,
-                                              double least, double most) {
-  if (text.empty()) return std::optional<double>();
-  const auto value = number_in(text);
-  if (!value || !(*value >= least && *value <= most))
-    return bad_input(fmt::format("`{}` is no number from {} to {}", text, least, most), option);
-  return value;
-}
-
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@
 
 #include "base/expected.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// A robot by a word: `2` is rvr2, any other plain name is itself.
 Expected<std::string> robot_name(const std::string& word);
@@ -16,8 +16,4 @@ std::optional<int> index_in_name(const std::string& name);
 /// `1-3` is rvr1, rvr2, rvr3; `rvr1,rvr4` is as it stands.
 Expected<std::vector<std::string>> robot_names(const std::string& words);
 
-/// A number of an option, at least `least` and at most `most`; nothing when it is not given.
-Expected<std::optional<double>> number_option(const std::string& text, const char* option,
-                                              double least, double most);
-
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

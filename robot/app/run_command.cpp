@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/text/csv.h"
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
 #include "robot/app/node_loop.h"
@@ -22,7 +23,7 @@
 #include "sim/files/color_text.h"
 #include "sim/mission/colors.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RunWords {
@@ -30,38 +31,32 @@ struct RunWords {
   std::optional<std::int64_t> index;
   std::string machine;
   std::string flavour;
-  std::string turn_clock;
+  std::optional<TurnClock> turn_clock;
   std::optional<std::int64_t> seed;
-  std::string lock_step;
+  Pace pace = Pace::Clock;
   std::string run = "run";
-  std::string period;
-  std::string max_speed;
-  std::string color_scale;
+  double period_s = kControlPeriod_s;
+  std::optional<double> max_mps;
+  std::optional<double> color_scale;
   std::string labels;
-  std::string lidar_turn;
-  std::string proximity_range;
+  double lidar_turn_deg = 0;
+  double proximity_range_m = kProximityRange_m;
   std::vector<std::string> max_ages;
   std::vector<std::string> needs;
-  std::string operator_gone;
-  std::string least_battery;
-  std::string patience;
-  std::string ranges = "array";
-  std::string neighbours = "scan";
-  std::string wheels = "doubles";
+  double operator_gone_s = 1;
+  double least_battery_percent = 20;
+  double patience_s = 10;
+  bool ranges_apart = false;
+  bool scan = true;
+  WheelsForm wheels = WheelsForm::Doubles;
   std::string logs;
   bool pipe = false;
   bool normal_priority = false;
   TransportWords transport;
 };
 
-Duration duration_of(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
 Expected<Feed> feed_by(const std::string& name, const char* option) {
-  for (const Feed feed : kAllFeeds) {
-    if (name_of(feed) == name) return feed;
-  }
+  if (const auto feed = named<Feed>(name)) return *feed;
   return bad_input("there is no sensor `" + name + "`: proximity, ground, neighbours or light",
                    option);
 }
@@ -79,30 +74,16 @@ Expected<std::vector<Rgb>> labels_of(const std::string& words) {
   return labels;
 }
 
-/// Takes one number after the other, and keeps the first thing that is wrong.
-struct Numbers {
-  std::optional<Error> error;
-
-  void read(const std::string& text, const char* option, double least, double most, double& value) {
-    const auto number = number_option(text, option, least, most);
-    if (!number) {
-      if (!error) error = number.error();
-    } else if (*number) {
-      value = **number;
-    }
-  }
-};
-
 Expected<void> read_max_ages(const std::vector<std::string>& words, NodeSettings& settings) {
   constexpr const char* kOption = "--max-age";
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     const auto feed = feed_by(word.substr(0, equals), kOption);
     if (!feed) return Unexpected(feed.error());
-    const auto seconds = number_option(equals == std::string::npos ? "?" : word.substr(equals + 1),
-                                       kOption, 0.01, 1);
-    if (!seconds) return Unexpected(seconds.error());
-    settings.hold[index_of(*feed)] = duration_of(seconds->value_or(0.3));
+    const auto seconds = number_in(equals == std::string::npos ? "" : word.substr(equals + 1));
+    if (!seconds || !(*seconds >= 0.01 && *seconds <= 1))
+      return bad_input("write SENSOR=SECONDS, from 0.01 to 1 s, such as ground=0.5", word);
+    settings.hold[index_of(*feed)] = duration_of(*seconds);
   }
   return {};
 }
@@ -122,33 +103,22 @@ Expected<void> read_name(const RunWords& words, NodeSettings& settings) {
   return {};
 }
 
-Expected<NodeSettings> settings_of(const RunWords& words, bool lock_step) {
+Expected<NodeSettings> settings_of(const RunWords& words) {
   NodeSettings settings;
   if (const auto read = read_name(words, settings); !read) return Unexpected(read.error());
   settings.seed = words.seed.value_or(1);
   settings.lock_step_run = words.run;
   if (!is_plain_name(words.run))
     return bad_input("a run's name has letters, digits, - and _", "--run");
-  Numbers numbers;
-  double period = kControlPeriod_s;
-  numbers.read(words.period, "--period", 0.001, 10, period);
-  settings.period = duration_of(period);
-  if (lock_step) settings.max_mps = kMaxWheelSpeed_mps;  // as in the simulator
-  numbers.read(words.max_speed, "--max-speed", 0.01, kMaxWheelSpeed_mps, settings.max_mps);
-  numbers.read(words.color_scale, "--color-scale", 1e-6, 1e6, settings.feeds.color_scale);
-  double lidar_turn_deg = 0;
-  numbers.read(words.lidar_turn, "--lidar-turn", -360, 360, lidar_turn_deg);
-  settings.feeds.lidar_turn_rad = lidar_turn_deg * kPi / 180;
-  numbers.read(words.proximity_range, "--proximity-range", kBlindZone_m, 100,
-               settings.feeds.proximity_range_m);
-  double operator_gone = 1;
-  numbers.read(words.operator_gone, "--operator-gone", 0, 3600, operator_gone);
-  settings.operator_gone = duration_of(operator_gone);
+  settings.period = duration_of(words.period_s);
+  if (words.pace != Pace::Clock) settings.max_mps = kMaxWheelSpeed_mps;  // as in the simulator
+  settings.max_mps = words.max_mps.value_or(settings.max_mps);
+  settings.feeds.color_scale = words.color_scale.value_or(settings.feeds.color_scale);
+  settings.feeds.lidar_turn_rad = words.lidar_turn_deg * kPi / 180;
+  settings.feeds.proximity_range_m = words.proximity_range_m;
+  settings.operator_gone = duration_of(words.operator_gone_s);
   settings.operator_hold = std::min(settings.operator_hold, settings.operator_gone);
-  double battery_percent = 100 * settings.least_battery;
-  numbers.read(words.least_battery, "--least-battery", 0, 100, battery_percent);
-  settings.least_battery = battery_percent / 100;
-  if (numbers.error) return Unexpected(*numbers.error);
+  settings.least_battery = words.least_battery_percent / 100;
   auto labels = labels_of(words.labels);
   if (!labels) return Unexpected(labels.error());
   settings.feeds.labels = std::move(*labels);
@@ -171,28 +141,21 @@ Expected<NodeSettings> settings_of(const RunWords& words, bool lock_step) {
 }
 
 /// What the node listens to.
-EndOptions end_options(const RunWords& words, const PerFeed<bool>& needed, Pace pace) {
-  EndOptions end;
-  end.keep = pace == Pace::Clock ? Keep::Newest : Keep::All;
-  end.wheels = words.wheels == "floats"  ? WheelsForm::Floats
-               : words.wheels == "twist" ? WheelsForm::Twist
-                                         : WheelsForm::Doubles;
-  const bool any = needed != PerFeed<bool>{};
+EndOptions end_options(const RunWords& words, const PerFeed<bool>& needed) {
+  const bool by_clock = words.pace == Pace::Clock;
+  EndOptions end{.keep = by_clock ? Keep::Newest : Keep::All, .wheels = words.wheels};
+  end.sensors = {.ranges = false, .ground_color = false, .senses = true};
+  if (words.pace == Pace::Senses) return end;
   const bool around = needed[index_of(Feed::Neighbours)];
-  end.sensors = {.ranges = needed[index_of(Feed::Proximity)] || !any,
-                 .ranges_apart = words.ranges == "apart",
+  end.sensors = {.ranges = needed[index_of(Feed::Proximity)] || needed == PerFeed<bool>{},
+                 .ranges_apart = words.ranges_apart,
                  .ground_color = needed[index_of(Feed::Ground)],
-                 .scan = around && words.neighbours == "scan",
-                 .neighbours = around && words.neighbours == "neighbours",
+                 .scan = around && words.scan,
+                 .neighbours = around && !words.scan,
                  .light = needed[index_of(Feed::Light)],
-                 .body = pace == Pace::Clock,
-                 .driven = pace == Pace::Clock,
+                 .battery = by_clock,
+                 .driven = by_clock,
                  .senses = false};
-  if (pace == Pace::Senses) {
-    end.sensors = {};
-    end.sensors.ranges = end.sensors.ground_color = false;
-    end.sensors.senses = true;
-  }
   return end;
 }
 
@@ -235,37 +198,29 @@ ExitCode exit_code_of(NodeLoop::Ending ending) {
 }
 
 ExitCode run(const RunWords& words, Output& output) {
-  const Pace pace = words.lock_step.empty()       ? Pace::Clock
-                    : words.lock_step == "senses" ? Pace::Senses
-                                                  : Pace::CountedTopics;
+  const Pace pace = words.pace;
   const auto machine = robot_machine(words.machine, words.flavour, words.turn_clock);
   if (!machine) return fail(output, ExitCode::Usage, machine.error());
-  auto settings = settings_of(words, pace != Pace::Clock);
+  auto settings = settings_of(words);
   if (!settings) return fail(output, ExitCode::Usage, settings.error());
-  LoopOptions loop_options{.pace = pace};
+  LoopOptions loop_options{.pace = pace, .patience = duration_of(words.patience_s)};
   if (pace == Pace::Clock || !words.logs.empty())
     loop_options.logs = words.logs.empty() ? "." : words.logs;
   if (loop_options.logs && !std::filesystem::is_directory(*loop_options.logs)) {
     return fail(output, ExitCode::Usage,
                 {ErrorKind::NotFound, "there is no such folder for logs", "--logs " + words.logs});
   }
-  double patience = 10;
-  Numbers numbers;
-  numbers.read(words.patience, "--patience", 0.1, 3600, patience);
-  if (numbers.error) return fail(output, ExitCode::Usage, *numbers.error);
-  loop_options.patience = duration_of(patience);
 
   catch_stop_signals();
   const PerFeed<bool> needed = RobotNode(*settings, machine->controller, machine->flavour).needed();
-  if (needed[index_of(Feed::Ground)] && words.color_scale.empty() && pace != Pace::Senses) {
+  if (needed[index_of(Feed::Ground)] && !words.color_scale && pace != Pace::Senses) {
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput,
                  "the machine looks at the floor: say which value of the driver is full colour, "
                  "255 or 1",
                  "--color-scale"});
   }
-  auto end =
-      open_robot_end(words.transport, settings->robot, end_options(words, needed, pace), output);
+  auto end = open_robot_end(words.transport, settings->robot, end_options(words, needed), output);
   if (!end) {
     return fail(output, exit_code_of_transport(end.error()), end.error());
   }
@@ -286,7 +241,7 @@ ExitCode run(const RunWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_run(Options& options) {
+CommandRun declare_robot_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   constexpr auto kNeeded = Options::Need::Required;
   options.text("--robot ROBOT", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);
@@ -294,45 +249,49 @@ Run declare_robot_run(Options& options) {
                "Machine, tree or network: a text or a file", kNeeded);
   options.text("--flavour FLAVOUR", words->flavour,
                "What its modules do (default: as its file says)");
-  options.choice("--turn-clock", words->turn_clock, {"cycles", "seconds"},
+  options.choice("--turn-clock", words->turn_clock,
+                 {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}},
                  "What a turn is measured in");
   options.integer("--seed", words->seed, {1, 2147483647},
                   "Of the random numbers (default 1; a start may give another)");
   options.integer("--index", words->index, {0, 100000},
                   "Of the robot's random stream, from 0 (default: the name's number minus 1)");
-  options.choice("--lock-step", words->lock_step, {"senses", "topics"},
+  options.choice("--lock-step", words->pace,
+                 {{"senses", Pace::Senses}, {"topics", Pace::CountedTopics}},
                  "Be stepped by a simulated world (swarmsmith robot world)");
   options.text("--run NAME", words->run, "Name of runs in lock-step, for logs (default run)");
   words->transport.declare_node(options);
-  options.choice("--ranges", words->ranges, {"array", "apart"},
+  options.choice("--ranges", words->ranges_apart, {{"array", false}, {"apart", true}},
                  "Proximity as one topic `ranges` or as eight (default array)");
-  options.choice("--neighbours", words->neighbours, {"scan", "neighbours"},
+  options.choice("--neighbours", words->scan, {{"scan", true}, {"neighbours", false}},
                  "Neighbours from a lidar's `scan` or ready (default scan)");
-  options.choice("--wheels", words->wheels, {"doubles", "floats", "twist"},
-                 "How speeds travel (default doubles)");
-  options.text("--color-scale", words->color_scale, "The driver's value of full colour: 255 or 1");
+  declare_wheels(options, words->wheels);
+  options.number("--color-scale", words->color_scale, {1e-6, 1e6},
+                 "The driver's value of full colour: 255 or 1");
   options.text("--labels", words->labels,
                "Colours of the floor, black,white,red: the nearest takes a reading's place");
-  options.text("--lidar-turn", words->lidar_turn,
-               "Degrees of the lidar's zero from the robot's head, counter-clockwise");
-  options.text("--proximity-range", words->proximity_range,
-               "Metres beyond which proximity sensors see nothing (default 0.4)");
-  options.text("--period SECONDS", words->period, "Seconds of a control cycle (default 0.1)");
-  options.text("--max-speed SPEED", words->max_speed, "Of a tread, m/s (default 0.35)");
+  options.number("--lidar-turn", words->lidar_turn_deg, {-360, 360},
+                 "Degrees of the lidar's zero from the robot's head, counter-clockwise");
+  options.number("--proximity-range", words->proximity_range_m, {kBlindZone_m, 100},
+                 "Metres beyond which proximity sensors see nothing (default 0.4)");
+  options.number("--period SECONDS", words->period_s, {0.001, 10},
+                 "Seconds of a control cycle (default 0.1)");
+  options.number("--max-speed SPEED", words->max_mps, {0.01, kMaxWheelSpeed_mps},
+                 "Of a tread, m/s (default 0.35)");
   options.texts("--max-age", words->max_ages,
                 "SENSOR=SECONDS of silence until the treads stop, repeatable (default "
                 "proximity=0.3, all others 0.35)");
   options.texts("--need SENSOR", words->needs, "A sensor that must be there besides the machine's");
-  options.text("--operator-gone", words->operator_gone,
-               "Seconds of silence of `start` that end a run; 0: never (default 1)");
-  options.text("--least-battery PERCENT", words->least_battery,
-               "Percent, less starts no run (default 20)");
+  options.number("--operator-gone", words->operator_gone_s, {0, 3600},
+                 "Seconds of silence of `start` that end a run; 0: never (default 1)");
+  options.number("--least-battery PERCENT", words->least_battery_percent, {0, 100},
+                 "Percent, less starts no run (default 20)");
   options.text("--logs DIR", words->logs, "Folder of logs (default: here; in lock-step: none)");
-  options.text("--patience SECONDS", words->patience,
-               "Seconds that a world in lock-step may be silent (default 10)");
+  options.number("--patience SECONDS", words->patience_s, {0.1, 3600},
+                 "Seconds that a world in lock-step may be silent (default 10)");
   options.flag("--pipe", words->pipe, "End when standard input ends");
   options.flag("--normal-priority", words->normal_priority, "Do not ask for SCHED_FIFO");
   return [words](Output& output) { return run(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -8,13 +8,12 @@
 
 #include "base/text/whole_file.h"
 #include "robot/log/log_file.h"
-#include "robot/log/track_log.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
-std::string file_of(const RunFileWords& words, const std::string& run) {
-  return words.write.empty() ? run + ".toml" : words.write;
+std::string file_of(const RunFileWords& words, const std::string& name) {
+  return words.write.empty() ? name + ".toml" : words.write;
 }
 
 /// The wall clock's date here.
@@ -58,20 +57,24 @@ std::optional<CameraClock> clock_of(const std::string& video,
 void RunFileWords::declare(Options& options) {
   options.text("--write FILE", write, "Run log for `swarmsmith track score` (default RUN.toml)");
   options.flag("--no-run-log", none, "Write none");
-  options.text("--mission MISSION|FILE", mission, "For that log: the mission, a name or a file");
-  options.text("--design DESIGN", design, "For that log: what ran, d3: a design's winner");
-  options.text("--candidate CANDIDATE", candidate, "For that log: what ran, c812");
-  options.text("--video FILE", video, "For that log: the video that is recorded on this computer");
-  options.text("--camera CAMERA", camera, "For that log: the video's camera, as in the arena file");
+  options.text("--mission MISSION|FILE", run.mission,
+               "For that log: the mission, a name or a file");
+  options.text("--design DESIGN", run.design, "For that log: what ran, d3: a design's winner");
+  options.text("--candidate CANDIDATE", run.candidate, "For that log: what ran, c812");
+  options.text("--video FILE", run.video,
+               "For that log: the video that is recorded on this computer");
+  options.text("--camera CAMERA", run.camera,
+               "For that log: the video's camera, as in the arena file");
   options.text("--robot-logs DIR", logs,
                "For that log: the folder in which the robots' logs will be");
   options.integer("--sync-tag", sync_tag, {0, 100000}, "For that log: a tag covered at the start");
-  options.flag("--patches", patches, "For that log: colour patches are to be found in the picture");
+  options.flag("--patches", run.has_patches,
+               "For that log: colour patches are to be found in the picture");
 }
 
-Expected<void> RunFileWords::check(const std::string& run) const {
+Expected<void> RunFileWords::check(const std::string& name) const {
   if (none) return {};
-  const std::string file = file_of(*this, run);
+  const std::string file = file_of(*this, name);
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored)) {
     return unexpected(ErrorKind::Conflict,
@@ -86,39 +89,32 @@ Expected<void> RunFileWords::check(const std::string& run) const {
 }
 
 Expected<std::string> RunFileWords::write_file(
-    const std::string& run, const RunStarter& starter,
+    const std::string& name, const RunStarter& starter,
     const std::function<void(const std::string&)>& note) const {
   if (none) return std::string();
-  const std::string file = file_of(*this, run);
-  StartedRun started{
-      .run = run,
-      .recorded = date_of(starter.start().unix_s),
-      .mission = mission,
-      .design = design,
-      .candidate = candidate,
-      .has_patches = patches,
-      .at_clock_s = std::chrono::duration<double>(starter.start().clock.time_since_epoch()).count(),
-      .video = video.empty() ? "" : seen_from(video, file),
-      .camera = camera,
-      .sync_tag = {},
-      .nodes = {}};
+  const std::string file = file_of(*this, name);
+  StartedRun started = run;
+  started.run = name;
+  started.recorded = date_of(starter.start().unix_s);
+  started.at_clock_s = seconds_of(starter.start().clock.time_since_epoch());
+  if (!run.video.empty()) started.video = seen_from(run.video, file);
   if (sync_tag) started.sync_tag = static_cast<int>(*sync_tag);
   for (const RolledRobot& robot : starter.roll().robots()) {
     NodeReport node{.robot = robot.name, .log = "", .verdict = {}, .reasons = {}};
-    if (!logs.empty()) node.log = seen_from(log_files_of(logs, run, robot.name).rows, file);
+    if (!logs.empty()) node.log = seen_from(log_files_of(logs, name, robot.name).rows, file);
     if (starter.is_over_for(robot)) {
       node.verdict = robot.state->verdict;
       node.reasons = robot.state->reasons;
     }
     started.nodes.push_back(std::move(node));
   }
-  const TrackLog log = track_log_of(started, clock_of(video, note));
+  const TrackLog log = track_log_of(started, clock_of(run.video, note));
   for (const std::string& warning : log.warnings) {
-    if (!video.empty()) note(warning);
+    if (!run.video.empty()) note(warning);
   }
   if (const auto written = write_whole_file(file, log.text); !written)
     return Unexpected(written.error());
   return file;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

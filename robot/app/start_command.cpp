@@ -12,7 +12,7 @@
 #include "robot/app/stop_signal.h"
 #include "robot/app/transports.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Duration kTurn = std::chrono::milliseconds(20);
@@ -20,9 +20,9 @@ constexpr Duration kTurn = std::chrono::milliseconds(20);
 struct StartWords {
   std::string robots;
   std::string run;
-  std::string seconds;
-  std::string lead;
-  std::string patience;
+  double seconds = 120;
+  double lead_s = 2;
+  double patience_s = 5;
   std::optional<std::int64_t> seed;
   RunFileWords file;
   TransportWords transport;
@@ -54,11 +54,11 @@ class Teller {
 /// A robot that was not heard to end its run: how it ended is not known here, whatever it said
 /// last.
 std::string unknown(const RolledRobot& robot) {
-  const std::chrono::duration<double> ago = now_on_both_clocks().clock - robot.heard;
   return fmt::format(
       "{}: unknown; it was last heard {:.1f} s ago, {} after {} cycles: look after it, and at its "
       "log",
-      robot.name, ago.count(), name_of(robot.state->phase), robot.state->cycle);
+      robot.name, seconds_of(now_on_both_clocks().clock - robot.heard), name_of(robot.state->phase),
+      robot.state->cycle);
 }
 
 /// The verdict of each robot; "unknown" of one that was not heard to end.
@@ -75,19 +75,18 @@ ExitCode answer(const StartWords& words, const RunStarter& starter, const std::s
                 Output& output) {
   const bool valid = starter.verdict() != RunVerdict::Invalid;
   if (output.json) {
-    output.out
-        << JsonObject()
-               .add("run", words.run)
-               .add("verdict", name_of(starter.verdict()))
-               .add("complaints", starter.complaints())
-               .add("start_clock_s",
-                    std::chrono::duration<double>(starter.start().clock.time_since_epoch()).count())
-               .add("start_unix_s", starter.start().unix_s)
-               .add("file", file)
-               .add("verdicts", verdicts_of(starter))
-               .add("robots", JsonPiece{roll_json(starter.roll(), now_on_both_clocks().clock)})
-               .text()
-        << "\n";
+    output.out << JsonObject()
+                      .add("run", words.run)
+                      .add("verdict", name_of(starter.verdict()))
+                      .add("complaints", starter.complaints())
+                      .add("start_clock_s", seconds_of(starter.start().clock.time_since_epoch()))
+                      .add("start_unix_s", starter.start().unix_s)
+                      .add("file", file)
+                      .add("verdicts", verdicts_of(starter))
+                      .add("robots",
+                           JsonPiece{roll_json(starter.roll(), now_on_both_clocks().clock)})
+                      .text()
+               << "\n";
   } else {
     for (const RolledRobot& robot : starter.roll().robots()) {
       if (!robot.state) continue;
@@ -117,22 +116,16 @@ ExitCode start(const StartWords& words, Output& output) {
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput, "a run's name has letters, digits, - and _", "--run"});
   }
-  const auto seconds = number_option(words.seconds, "--seconds", 0.5, 86'400);
-  if (!seconds) return fail(output, ExitCode::Usage, seconds.error());
-  const auto lead = number_option(words.lead, "--in", 0.5, 60);
-  if (!lead) return fail(output, ExitCode::Usage, lead.error());
-  const auto patience = number_option(words.patience, "--patience", 0.5, 3600);
-  if (!patience) return fail(output, ExitCode::Usage, patience.error());
   const auto place = words.file.check(words.run);
   if (!place) return fail(output, ExitCode::Usage, place.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
   if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
   RunStarter starter({.run = words.run,
-                      .seconds = seconds->value_or(120),
+                      .seconds = words.seconds,
                       .seed = words.seed,
-                      .lead_s = lead->value_or(2),
-                      .patience_s = patience->value_or(5)},
+                      .lead_s = words.lead_s,
+                      .patience_s = words.patience_s},
                      *names, operator_id(), now_on_both_clocks());
   Teller teller(output);
   bool interrupted = false;
@@ -175,21 +168,23 @@ ExitCode start(const StartWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_start(Options& options) {
+CommandRun declare_robot_start(Options& options) {
   auto words = std::make_shared<StartWords>();
   options.text("--run NAME", words->run, "Name of the run; no robot takes one twice",
                Options::Need::Required);
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
-  options.text("--seconds", words->seconds, "How long the run lasts (default 120)");
+  options.number("--seconds", words->seconds, {0.5, 86'400},
+                 "How long the run lasts (default 120)");
   options.integer("--seed", words->seed, {1, 2147483647},
                   "Of the random numbers of this run (default: the nodes' own)");
-  options.text("--in", words->lead, "Seconds from the order to the start (default 2)");
-  options.text("--patience SECONDS", words->patience,
-               "Seconds until all robots have answered and are ready (default 5)");
+  options.number("--in", words->lead_s, {0.5, 60},
+                 "Seconds from the order to the start (default 2)");
+  options.number("--patience SECONDS", words->patience_s, {0.5, 3600},
+                 "Seconds until all robots have answered and are ready (default 5)");
   words->file.declare(options);
   words->transport.declare_client(options);
   return [words](Output& output) { return start(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -10,7 +10,7 @@
 #include "robot/app/robot_names.h"
 #include "robot/app/transports.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Duration kAgainEvery = std::chrono::milliseconds(200);
@@ -66,7 +66,7 @@ ExitCode stop(const StopWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_stop(Options& options) {
+CommandRun declare_robot_stop(Options& options) {
   auto words = std::make_shared<StopWords>();
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);
@@ -75,4 +75,4 @@ Run declare_robot_stop(Options& options) {
   return [words](Output& output) { return stop(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

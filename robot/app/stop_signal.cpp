@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <csignal>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// A handler runs in whatever thread the signal finds.
@@ -44,4 +44,4 @@ bool input_has_ended() {
   }
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// From now on Ctrl-C and SIGTERM ask for an end instead of being one, and a file that grows too
 /// large is an error of writing it.
@@ -12,4 +12,4 @@ int stop_signal();
 /// what comes.
 bool input_has_ended();
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -12,21 +12,11 @@
 #include "robot/ros/ros_ends.h"
 #include "robot/zeromq/zmq_ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 RosOptions ros_options(const TransportWords& words, const EndOptions& end) {
   return {.end = end, .remappings = words.topics};
-}
-
-template <class End>
-Expected<std::unique_ptr<End>> as_expected(RosExpected<std::unique_ptr<End>> joined) {
-  if (joined) return std::move(*joined);
-  const RosError& error = joined.error();
-  const ErrorKind kind = error.kind == RosError::Kind::BadInput   ? ErrorKind::BadInput
-                         : error.kind == RosError::Kind::Conflict ? ErrorKind::Conflict
-                                                                  : ErrorKind::Unavailable;
-  return unexpected(kind, error.message, error.where);
 }
 
 Expected<std::optional<ServerKeys>> server_keys(const std::string& folder) {
@@ -118,11 +108,19 @@ void TransportWords::declare_client(Options& options) {
                "Of zeromq: file with a key: a worker's for worlds, an operator's for orders");
 }
 
+void declare_wheels(Options& options, WheelsForm& wheels) {
+  options.choice("--wheels", wheels,
+                 {{"doubles", WheelsForm::Doubles},
+                  {"floats", WheelsForm::Floats},
+                  {"twist", WheelsForm::Twist}},
+                 "How speeds travel (default doubles)");
+}
+
 Expected<std::unique_ptr<RobotEnd>> open_robot_end(const TransportWords& words,
                                                    const std::string& name, const EndOptions& end,
                                                    Output& output) {
   if (const auto good = check_words(words); !good) return Unexpected(good.error());
-  if (words.transport == "ros") return as_expected(ros_robot_end(name, ros_options(words, end)));
+  if (words.transport == "ros") return ros_robot_end(name, ros_options(words, end));
   auto keys = server_keys(words.keys);
   if (!keys) return Unexpected(keys.error());
   NodeServerOptions options{.end = end, .keys = std::move(*keys)};
@@ -137,7 +135,7 @@ Expected<std::unique_ptr<WorldEnd>> open_world_end(const TransportWords& words,
                                                    const std::vector<std::string>& names,
                                                    const EndOptions& end) {
   if (const auto good = check_words(words); !good) return Unexpected(good.error());
-  if (words.transport == "ros") return as_expected(ros_world_end(names, ros_options(words, end)));
+  if (words.transport == "ros") return ros_world_end(names, ros_options(words, end));
   auto places = places_of(words, names);
   if (!places) return Unexpected(places.error());
   const auto options = client_options(words, end);
@@ -148,7 +146,7 @@ Expected<std::unique_ptr<WorldEnd>> open_world_end(const TransportWords& words,
 Expected<std::unique_ptr<OperatorEnd>> open_operator_end(const TransportWords& words,
                                                          const std::vector<std::string>& names) {
   if (const auto good = check_words(words); !good) return Unexpected(good.error());
-  if (words.transport == "ros") return as_expected(ros_operator_end(names, ros_options(words, {})));
+  if (words.transport == "ros") return ros_operator_end(names, ros_options(words, {}));
   auto places = places_of(words, names);
   if (!places) return Unexpected(places.error());
   const auto options = client_options(words, {});
@@ -162,4 +160,4 @@ ExitCode exit_code_of_transport(const Error& error) {
              : ExitCode::Unreachable;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

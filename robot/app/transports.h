@@ -8,7 +8,7 @@
 #include "console/output.h"
 #include "robot/transport/ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The words that say how messages travel.
 struct TransportWords {
@@ -38,7 +38,10 @@ Expected<std::unique_ptr<WorldEnd>> open_world_end(const TransportWords& words,
 Expected<std::unique_ptr<OperatorEnd>> open_operator_end(const TransportWords& words,
                                                          const std::vector<std::string>& names);
 
+/// `--wheels`.
+void declare_wheels(Options& options, WheelsForm& wheels);
+
 /// What to exit with when an end cannot be opened: 2 for wrong words, else 5.
 ExitCode exit_code_of_transport(const Error& error);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

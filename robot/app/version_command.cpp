@@ -2,13 +2,13 @@
 #include "robot/app/commands.h"
 #include "robot/ros/ros_ends.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 std::string robot_program_name() {
   return "swarmsmith-robot " SWARMSMITH_VERSION;
 }
 
-Run declare_robot_version(Options&) {
+CommandRun declare_robot_version(Options&) {
   return [](Output& output) {
     if (output.json) {
       output.out << JsonObject()
@@ -24,4 +24,4 @@ Run declare_robot_version(Options&) {
   };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

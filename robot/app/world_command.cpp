@@ -24,7 +24,7 @@
 #include "sim/files/profile_file.h"
 #include "sim/mission/trajectory_csv.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct WorldWords {
@@ -39,13 +39,13 @@ struct WorldWords {
   bool compare = false;
   std::string machine;
   std::string flavour;
-  std::string turn_clock;
-  std::string ranges = "array";
-  std::string neighbours = "neighbours";
+  std::optional<TurnClock> turn_clock;
+  bool ranges_apart = false;
+  bool scan = false;
   bool light = false;
-  std::string wheels = "doubles";
-  std::string wait;
-  std::string patience;
+  WheelsForm wheels = WheelsForm::Doubles;
+  double wait_s = 60;
+  double patience_s = 5;
   std::vector<std::string> faults;
   std::string csv;
   TransportWords transport;
@@ -61,13 +61,7 @@ struct Plan {
   std::optional<RobotMachine> machine;
   EndOptions end;
   std::vector<Fault> faults;
-  Duration wait{};
-  Duration patience{};
 };
-
-Duration world_duration(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
 
 /// The last of what is wrong with a file is the error, the others are printed.
 Unexpected complain(const std::vector<Error>& errors, const char* option, Output& output) {
@@ -80,7 +74,7 @@ Unexpected complain(const std::vector<Error>& errors, const char* option, Output
 Expected<void> check_words(const WorldWords& words) {
   if (words.lock_step == words.real_time) {
     return bad_input(
-        "say how time goes: --lock-step (the world waits for the nodes: exact) or --real-time (by "
+        "choose --lock-step (the world waits for the nodes: exact) or --real-time (by "
         "the clock)");
   }
   if (words.topics && words.real_time) {
@@ -99,11 +93,11 @@ Expected<void> check_words(const WorldWords& words) {
 
 SensorTopics sensors_of(const WorldWords& words) {
   SensorTopics sensors = world_topics();
-  sensors.scan = words.neighbours == "scan";
+  sensors.scan = words.scan;
   sensors.neighbours = !sensors.scan;
-  sensors.ranges_apart = words.ranges == "apart";
+  sensors.ranges_apart = words.ranges_apart;
   sensors.light = words.light;
-  sensors.body = sensors.driven = words.real_time;
+  sensors.battery = sensors.driven = words.real_time;
   sensors.senses = words.lock_step && !words.topics;
   return sensors;
 }
@@ -166,16 +160,8 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   }
   plan.end = {.keep = words.lock_step ? Keep::All : Keep::Newest,
               .sensors = sensors_of(words),
-              .wheels = words.wheels == "floats"  ? WheelsForm::Floats
-                        : words.wheels == "twist" ? WheelsForm::Twist
-                                                  : WheelsForm::Doubles};
+              .wheels = words.wheels};
   if (const auto read = read_faults(words, plan); !read) return Unexpected(read.error());
-  const auto wait = number_option(words.wait, "--wait", 0, 86'400);
-  if (!wait) return Unexpected(wait.error());
-  plan.wait = world_duration(wait->value_or(60));
-  const auto patience = number_option(words.patience, "--patience", 0.05, 3600);
-  if (!patience) return Unexpected(patience.error());
-  plan.patience = world_duration(patience->value_or(5));
   return plan;
 }
 
@@ -238,7 +224,7 @@ std::optional<TimePoint> start_of(const StateMessage& message) {
   if (!state || (state->phase != Phase::Armed && state->phase != Phase::Running)) return {};
   const double now_unix_s =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-  return SystemClock().now() + world_duration(state->start_unix_s - now_unix_s);
+  return SystemClock().now() + duration_of(state->start_unix_s - now_unix_s);
 }
 
 ExitCode exit_code_of(const Error& error) {
@@ -252,14 +238,14 @@ class World {
   World(const WorldWords& words, const Plan& plan, WorldEnd& end, TrajectoryTable& table,
         Output& output)
       : words_(words), plan_(plan), end_(end), table_(table), output_(output) {
-    options_.patience = plan.patience;
+    options_.patience = duration_of(words.patience_s);
     options_.tell = [&output](const std::string& text) { print_note(output, text); };
     options_.is_over = [] { return stop_signal() != 0; };
   }
 
   ExitCode run() {
     print_note(output_, "the world sends " + sent());
-    if (const auto there = wait_for_robots(end_, plan_.wait, options_); !there)
+    if (const auto there = wait_for_robots(end_, duration_of(words_.wait_s), options_); !there)
       return fail(output_, exit_code_of(there.error()), there.error());
     const ExitCode code = words_.real_time ? run_by_clock() : run_in_steps();
     if (const auto written = table_.close(); !written)
@@ -276,7 +262,7 @@ class World {
     for (const auto& [is_sent, name] :
          {std::pair(sensors.ranges, "ranges"), std::pair(sensors.ground_color, "ground_color"),
           std::pair(sensors.scan, "scan"), std::pair(sensors.neighbours, "neighbours"),
-          std::pair(sensors.light, "light"), std::pair(sensors.body, "imu, odom, battery")}) {
+          std::pair(sensors.light, "light"), std::pair(sensors.battery, "battery")}) {
       if (is_sent) text += (text.empty() ? "" : ", ") + std::string(name);
     }
     return text;
@@ -358,7 +344,7 @@ class World {
     const auto result =
         run_in_real_time(end_, plan_.end.sensors, run_at(0), options, table_.recorder());
     if (!result) return fail(output_, exit_code_of(result.error()), result.error());
-    const double start_s = std::chrono::duration<double>(result->start.time_since_epoch()).count();
+    const double start_s = seconds_of(result->start.time_since_epoch());
     const double latest_ms = std::chrono::duration<double, std::milli>(result->latest).count();
     if (output_.json) {
       output_.out << JsonObject()
@@ -400,7 +386,7 @@ ExitCode run(const WorldWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_world(Options& options) {
+CommandRun declare_robot_world(Options& options) {
   auto words = std::make_shared<WorldWords>();
   options.text("--mission MISSION|FILE", words->mission,
                "aggregation, grid_exploration, color_selection or a file", Options::Need::Required);
@@ -423,19 +409,20 @@ Run declare_robot_world(Options& options) {
   options.text("--machine MACHINE|FILE", words->machine, "For --compare: the machine of the nodes");
   options.text("--flavour FLAVOUR", words->flavour,
                "For --compare: its flavour (default: its file's)");
-  options.choice("--turn-clock", words->turn_clock, {"cycles", "seconds"},
+  options.choice("--turn-clock", words->turn_clock,
+                 {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}},
                  "For --compare: what a turn is measured in");
-  options.choice("--ranges", words->ranges, {"array", "apart"},
+  options.choice("--ranges", words->ranges_apart, {{"array", false}, {"apart", true}},
                  "Proximity as one topic `ranges` or as eight (default array)");
   options.choice(
-      "--neighbours", words->neighbours, {"neighbours", "scan"},
+      "--neighbours", words->scan, {{"neighbours", false}, {"scan", true}},
       "Neighbours ready, or a lidar's `scan`, which has walls in it, too (default neighbours)");
   options.flag("--light", words->light, "Send `light`, for machines of flavour chocolate");
-  options.choice("--wheels", words->wheels, {"doubles", "floats", "twist"},
-                 "How speeds travel (default doubles)");
-  options.text("--wait SECONDS", words->wait, "Seconds to wait for the nodes (default 60)");
-  options.text("--patience SECONDS", words->patience,
-               "Seconds to wait for an answer in lock-step (default 5)");
+  declare_wheels(options, words->wheels);
+  options.number("--wait SECONDS", words->wait_s, {0, 86'400},
+                 "Seconds to wait for the nodes (default 60)");
+  options.number("--patience SECONDS", words->patience_s, {0.05, 3600},
+                 "Seconds to wait for an answer in lock-step (default 5)");
   options.texts("--fault", words->faults,
                 "Spoil a sensor for a while: ROBOT:SENSOR:WHAT:FROM-TO, such as "
                 "rvr1:ranges:silent:10-10.3; repeatable");
@@ -444,4 +431,4 @@ Run declare_robot_world(Options& options) {
   return [words](Output& output) { return run(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -16,75 +16,48 @@ namespace {
 
 constexpr std::string_view kKind = "robot log";
 
-/// The columns of a feed's ages and delays.
-std::string feed_column(std::string_view what, Feed feed) {
-  return std::string(what) + "_" + std::string(name_of(feed)) + "_ms";
+/// The columns of a row in their order, each with its name.
+template <class Row, class Field>
+void visit_columns(Row& row, Field& field) {
+  field("cycle", row.cycle);
+  field("time_s", row.sensed.time_s);
+  field("clock_s", row.clock_s);
+  field("late_ms", row.late_ms);
+  field("act", row.act);
+  field("state", row.state);
+  field("left_mps", row.command.left_mps);
+  field("right_mps", row.command.right_mps);
+  field("leds", row.command.leds);
+  for (std::size_t i = 0; i < row.sensed.proximity_m.size(); ++i)
+    field("prox" + std::to_string(i), row.sensed.proximity_m[i]);
+  field("r", row.sensed.ground.r);
+  field("g", row.sensed.ground.g);
+  field("b", row.sensed.ground.b);
+  field("raw_r", row.ground_as_sent.r);
+  field("raw_g", row.ground_as_sent.g);
+  field("raw_b", row.ground_as_sent.b);
+  field("neighbours", row.sensed.neighbours);
+  field("light", row.sensed.light_lux);
+  for (const Feed feed : kAllFeeds)
+    field("age_" + std::string(name_of(feed)) + "_ms", row.age_ms[index_of(feed)]);
+  for (const Feed feed : kAllFeeds)
+    field("stamp_" + std::string(name_of(feed)) + "_ms", row.stamp_ms[index_of(feed)]);
+  field("drawn", row.drawn);
+  field("event", row.event);
 }
 
 const std::vector<std::string>& columns() {
   static const std::vector<std::string> all = [] {
-    std::vector<std::string> names = {"cycle", "time_s",   "clock_s",   "late_ms", "act",
-                                      "state", "left_mps", "right_mps", "leds"};
-    for (int i = 0; i < kProximitySensors; ++i)
-      names.push_back("prox" + std::to_string(i));
-    names.insert(names.end(), {"r", "g", "b", "raw_r", "raw_g", "raw_b", "neighbours", "light"});
-    for (const Feed feed : kAllFeeds)
-      names.push_back(feed_column("age", feed));
-    for (const Feed feed : kAllFeeds)
-      names.push_back(feed_column("stamp", feed));
-    names.insert(names.end(), {"drawn", "event"});
+    std::vector<std::string> names;
+    const auto name = [&names](std::string column, const auto&) {
+      names.push_back(std::move(column));
+    };
+    const LogRow row;
+    visit_columns(row, name);
     return names;
   }();
   return all;
 }
-
-/// Fields of a line, one after the other.
-class Line {
- public:
-  Line& add(std::string_view field) {
-    if (!text_.empty()) text_ += ',';
-    text_ += field;
-    return *this;
-  }
-  Line& add(double value) {
-    comma();
-    number(value);
-    return *this;
-  }
-  Line& add(std::optional<double> value) { return value ? add(*value) : empty(); }
-  template <std::integral Integer>
-  Line& add(Integer value) {
-    return add(std::string_view(std::to_string(value)));
-  }
-  /// Several numbers in one field, with blanks.
-  template <class Numbers>
-  Line& add_numbers(const Numbers& numbers) {
-    comma();
-    bool first = true;
-    for (const double value : numbers) {
-      if (!first) text_ += ' ';
-      first = false;
-      number(value);
-    }
-    return *this;
-  }
-  std::string take() { return std::move(text_) + "\n"; }
-
- private:
-  void comma() { text_ += ','; }
-  Line& empty() {
-    comma();
-    return *this;
-  }
-  /// The shortest digits that read back to the same bits, -0 and infinities as well.
-  void number(double value) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    text_.append(buffer.data(), end);
-  }
-
-  std::string text_;
-};
 
 std::string leds_text(const Leds& leds) {
   if (leds == Leds{}) return "";
@@ -115,171 +88,235 @@ bool read_leds(std::string_view text, Leds& leds) {
   return true;
 }
 
-/// Takes the fields of a row in order, and remembers the first one that is wrong.
-class Fields {
+/// Writes a row's columns one after the other.
+class RowWriter {
  public:
-  explicit Fields(const std::vector<std::string>& cells) : cells_(&cells) {}
+  template <class Value>
+  void operator()(const std::string& /*column*/, const Value& value) {
+    if (!text_.empty()) text_ += ',';
+    add(value);
+  }
+  std::string take() { return std::move(text_) + "\n"; }
 
-  std::string_view text() { return (*cells_)[next_++]; }
-  void number(double& value) {
-    const std::string_view field = text();
-    if (const auto read = number_in(field)) {
-      value = *read;
-    } else {
-      wrong("a number", field);
+ private:
+  /// The shortest digits that read back to the same bits, -0 and infinities as well.
+  void add(double value) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    text_.append(buffer.data(), end);
+  }
+  void add(std::integral auto value) { text_ += std::to_string(value); }
+  void add(const std::optional<double>& value) {
+    if (value) add(*value);
+  }
+  void add(Act act) { text_ += name_of(act); }
+  void add(const Leds& leds) { text_ += leds_text(leds); }
+  void add(const std::string& text) { text_ += csv_field(text); }
+  void add(const LightReadings& lux) {
+    if (lux != LightReadings{}) add_numbers(lux);
+  }
+  void add(const std::vector<Neighbour>& neighbours) {
+    std::vector<double> numbers;
+    for (const Neighbour& one : neighbours)
+      numbers.insert(numbers.end(), {one.distance_m, one.direction_x, one.direction_y});
+    add_numbers(numbers);
+  }
+  /// In one field, with blanks between.
+  void add_numbers(std::span<const double> numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (i > 0) text_ += ' ';
+      add(numbers[i]);
     }
   }
-  void number(std::optional<double>& value) {
-    if ((*cells_)[next_].empty()) {
-      ++next_;
-      return;
-    }
-    number(value.emplace());
-  }
-  template <std::integral Integer>
-  void integer(Integer& value) {
-    const std::string_view field = text();
-    const auto read = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (read.ec != std::errc() || read.ptr != field.data() + field.size())
-      wrong("an integer in its range", field);
-  }
-  std::vector<double> numbers(std::size_t multiple) {
-    const std::string_view field = text();
-    std::vector<double> values;
-    std::string_view rest = field;
-    while (!rest.empty()) {
-      const std::size_t blank = rest.find(' ');
-      const auto value = number_in(rest.substr(0, blank));
-      if (!value) break;
-      values.push_back(*value);
-      rest = blank == std::string_view::npos ? "" : rest.substr(blank + 1);
-    }
-    if (!rest.empty() || values.size() % multiple != 0) {
-      wrong("numbers with blanks between, a multiple of " + std::to_string(multiple), field);
-      values.clear();
-    }
-    return values;
-  }
-  void wrong(const std::string& wanted, std::string_view found) {
-    if (!error_.empty()) return;
-    error_ = "column " + columns()[next_ - 1] + ": expected " + wanted + ", found `" +
-             std::string(found) + "`";
+
+  std::string text_;
+};
+
+/// Reads a row's fields one after the other, and remembers the first one that is wrong.
+class RowReader {
+ public:
+  explicit RowReader(const std::vector<std::string>& cells) : cells_(&cells) {}
+
+  template <class Value>
+  void operator()(const std::string& column, Value& value) {
+    const std::string& cell = (*cells_)[next_++];
+    const std::string wanted = read(cell, value);
+    if (!wanted.empty() && error_.empty())
+      error_ = "column " + column + ": expected " + wanted + ", found `" + cell + "`";
   }
   const std::string& error() const { return error_; }
 
  private:
+  /// Each returns what was wanted, or nothing when it is right.
+  static std::string read(std::string_view cell, double& value) {
+    const auto number = number_in(cell);
+    value = number.value_or(0);
+    return number ? "" : "a number";
+  }
+  static std::string read(std::string_view cell, std::optional<double>& value) {
+    return cell.empty() ? "" : read(cell, value.emplace());
+  }
+  static std::string read(std::string_view cell, std::integral auto& value) {
+    const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    const bool right = end.ec == std::errc() && end.ptr == cell.data() + cell.size();
+    return right ? "" : "an integer in its range";
+  }
+  static std::string read(std::string_view cell, Act& act) {
+    const auto known = named<Act>(cell);
+    act = known.value_or(Act::Step);
+    return known ? "" : "`step` or `hold`";
+  }
+  static std::string read(std::string_view cell, Leds& leds) {
+    return read_leds(cell, leds) ? "" : "five colours of six digits";
+  }
+  static std::string read(std::string_view cell, std::string& text) {
+    text = cell;
+    return "";
+  }
+  static std::string read(std::string_view cell, LightReadings& lux) {
+    std::vector<double> numbers;
+    std::string wanted = read(cell, lux.size(), numbers);
+    if (numbers.size() > lux.size()) return "eight numbers or none";
+    std::ranges::copy(numbers, lux.begin());
+    return wanted;
+  }
+  static std::string read(std::string_view cell, std::vector<Neighbour>& neighbours) {
+    std::vector<double> numbers;
+    std::string wanted = read(cell, 3, numbers);
+    for (std::size_t i = 0; i < numbers.size(); i += 3)
+      neighbours.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    return wanted;
+  }
+  static std::string read(std::string_view cell, std::size_t multiple,
+                          std::vector<double>& numbers) {
+    while (!cell.empty()) {
+      const std::size_t blank = cell.find(' ');
+      const auto value = number_in(cell.substr(0, blank));
+      if (!value) break;
+      numbers.push_back(*value);
+      cell = blank == std::string_view::npos ? "" : cell.substr(blank + 1);
+    }
+    if (cell.empty() && numbers.size() % multiple == 0) return "";
+    numbers.clear();
+    return "numbers with blanks between, a multiple of " + std::to_string(multiple);
+  }
+
   const std::vector<std::string>* cells_;
   std::size_t next_ = 0;
   std::string error_;
 };
-
-constexpr std::size_t kNeighbourNumbers = 3;
-
-Expected<LogRow> row_of(const std::vector<std::string>& cells) {
-  Fields fields(cells);
-  LogRow row;
-  fields.integer(row.cycle);
-  fields.number(row.sensed.time_s);
-  fields.number(row.clock_s);
-  fields.number(row.late_ms);
-  const std::string_view act = fields.text();
-  if (const auto known = act_from(act)) {
-    row.act = *known;
-  } else {
-    fields.wrong("`step` or `hold`", act);
-  }
-  fields.integer(row.state);
-  fields.number(row.command.left_mps);
-  fields.number(row.command.right_mps);
-  const std::string_view leds = fields.text();
-  if (!read_leds(leds, row.command.leds)) fields.wrong("five colours of six digits", leds);
-  for (double& distance : row.sensed.proximity_m)
-    fields.number(distance);
-  fields.integer(row.sensed.ground.r);
-  fields.integer(row.sensed.ground.g);
-  fields.integer(row.sensed.ground.b);
-  fields.number(row.ground_as_sent.r);
-  fields.number(row.ground_as_sent.g);
-  fields.number(row.ground_as_sent.b);
-  const std::vector<double> neighbours = fields.numbers(kNeighbourNumbers);
-  for (std::size_t i = 0; i < neighbours.size(); i += kNeighbourNumbers)
-    row.sensed.neighbours.push_back({neighbours[i], neighbours[i + 1], neighbours[i + 2]});
-  const std::vector<double> light = fields.numbers(kProximitySensors);
-  if (light.size() > kProximitySensors) fields.wrong("eight numbers or none", "more");
-  if (!light.empty()) std::copy_n(light.begin(), kProximitySensors, row.sensed.light_lux.begin());
-  for (std::optional<double>& age : row.age_ms)
-    fields.number(age);
-  for (std::optional<double>& stamp : row.stamp_ms)
-    fields.number(stamp);
-  fields.integer(row.drawn);
-  row.event = fields.text();
-  if (!fields.error().empty()) return bad_input(fields.error());
-  return row;
-}
-
-std::string texts_of(const std::vector<std::string>& texts) {
-  return "[" + list_of(texts, quoted_text) + "]";
-}
 
 constexpr Limits<std::int64_t> kCounts = {0, std::numeric_limits<std::int64_t>::max()};
 constexpr double kMost = std::numeric_limits<double>::max();
 constexpr Limits<double> kPositive = {0, kMost};
 constexpr Limits<double> kAny = {-kMost, kMost};
 
-/// Takes a key that must be there.
-template <class T, class U>
-void need(TableReader& table, std::string_view key, const std::optional<U>& read, T& value) {
-  if (read) {
-    value = *read;
-  } else if (!table.has(key)) {
-    table.complain(key, table.name() + " needs `" + std::string(key) + "`");
-  }
+/// The fields of a head in their order, each with its key. `maybe`: those that need not be there,
+/// with whether they are written.
+template <class Head, class Field>
+void visit_head(Head& head, Field& field) {
+  field("run", head.run);
+  field("robot", head.robot);
+  field("robot_index", head.robot_index, Limits<std::int64_t>{0, 1'000'000});
+  field("machine", head.machine);
+  field("machine_digest", head.machine_digest);
+  field("flavour", head.flavour);
+  field("turn_clock", head.turn_clock);
+  field("seed", head.seed, kCounts);
+  field("lock_step", head.lock_step);
+  field("period_s", head.period_s, kPositive);
+  field("seconds", head.seconds, kPositive);
+  field("max_mps", head.max_mps, kPositive);
+  field("program", head.program);
+  field("host", head.host);
+  field("scheduling", head.scheduling);
+  field("start_clock_s", head.start_clock_s, kAny);
+  field("start_unix_s", head.start_unix_s, kAny);
+  field.maybe(head.clock_offset_s.has_value(), "clock_offset_s", head.clock_offset_s, kAny);
 }
 
-void read_end(TableReader& root, LogHead& head) {
-  auto table = root.table("end");
-  if (!table) return;
-  RunEnd& end = head.end.emplace();
-  need(*table, "state", table->text("state"), end.state);
-  const std::vector<std::string> verdicts = {"VALID", "DEGRADED", "INVALID"};
-  if (const auto verdict = table->choice("verdict", verdicts)) {
-    end.verdict = *run_verdict_from(*verdict);
-  } else if (!table->has("verdict")) {
-    table->complain("verdict", "[end] needs a `verdict`");
-  }
-  if (auto reasons = table->texts("reasons")) end.reasons = std::move(*reasons);
-  need(*table, "stepped", table->integer("stepped", kCounts), end.stepped);
-  need(*table, "held", table->integer("held", kCounts), end.held);
-  need(*table, "skipped", table->integer("skipped", kCounts), end.skipped);
-  end.driven = table->boolean("driven");
-  if (const auto driver = table->choice("driver", verdicts))
-    end.driver = *run_verdict_from(*driver);
-  if (const auto off_s = table->number("driver_off_s", {0, kMost})) end.driver_off_s = *off_s;
-  table->finish();
+template <class End, class Field>
+void visit_end(End& end, Field& field) {
+  const bool driven = end.driven.value_or(false);
+  field("state", end.state);
+  field("verdict", end.verdict);
+  field.maybe(true, "reasons", end.reasons);
+  field("stepped", end.stepped, kCounts);
+  field("held", end.held, kCounts);
+  field("skipped", end.skipped, kCounts);
+  field.maybe(end.driven.has_value(), "driven", end.driven);
+  field.maybe(driven, "driver", end.driver);
+  field.maybe(driven, "driver_off_s", end.driver_off_s, kPositive);
 }
+
+class HeadWriter {
+ public:
+  explicit HeadWriter(Section& section) : section_(&section) {}
+
+  void operator()(const char* key, const auto& value, const auto&... /*limits*/) {
+    section_->lines.push_back({key, toml_of(value)});
+  }
+  void maybe(bool is_written, const char* key, const auto& value, const auto&... /*limits*/) {
+    if (is_written) (*this)(key, value);
+  }
+
+ private:
+  static std::string toml_of(const std::string& text) { return quoted_text(text); }
+  static std::string toml_of(bool flag) { return flag_text(flag); }
+  static std::string toml_of(std::int64_t number) { return std::to_string(number); }
+  static std::string toml_of(double number) { return number_text(number); }
+  static std::string toml_of(RunVerdict verdict) { return quoted_text(name_of(verdict)); }
+  template <class Value>
+  static std::string toml_of(const std::optional<Value>& value) {
+    return toml_of(*value);
+  }
+  static std::string toml_of(const std::vector<std::string>& texts) {
+    return "[" + list_of(texts, quoted_text) + "]";
+  }
+
+  Section* section_;
+};
+
+class HeadReader {
+ public:
+  explicit HeadReader(TableReader& table) : table_(&table) {}
+
+  /// A key that must be there.
+  void operator()(const char* key, auto& value, const auto&... limits) {
+    if (!table_->has(key))
+      table_->complain(key, table_->name() + " needs `" + std::string(key) + "`");
+    maybe(true, key, value, limits...);
+  }
+  void maybe(bool /*is_written*/, const char* key, auto& value, const auto&... limits) {
+    if (auto found = read(key, value, limits...)) value = std::move(*found);
+  }
+
+ private:
+  auto read(const char* key, const std::string&) { return table_->text(key); }
+  auto read(const char* key, const std::vector<std::string>&) { return table_->texts(key); }
+  auto read(const char* key, bool) { return table_->boolean(key); }
+  auto read(const char* key, const std::optional<bool>&) { return table_->boolean(key); }
+  auto read(const char* key, std::int64_t, Limits<std::int64_t> limits) {
+    return table_->integer(key, limits);
+  }
+  auto read(const char* key, const std::optional<double>&, Limits<double> limits) {
+    return table_->number(key, limits);
+  }
+  std::optional<RunVerdict> read(const char* key, RunVerdict) {
+    constexpr auto kNames = names_of(RunVerdict());
+    const auto name = table_->choice(key, std::vector<std::string>(kNames.begin(), kNames.end()));
+    return name ? named<RunVerdict>(*name) : std::nullopt;
+  }
+
+  TableReader* table_;
+};
 
 void read_head(TableReader& root, LogHead& head) {
   const std::vector<std::string> kinds = {std::string(kKind)};
   if (!root.choice("kind", kinds) && !root.has("kind"))
     root.complain("kind", "this is no robot's log: `kind = \"robot log\"` is missing");
-  need(root, "run", root.text("run"), head.run);
-  need(root, "robot", root.text("robot"), head.robot);
-  need(root, "robot_index", root.integer("robot_index", {0, 1'000'000}), head.robot_index);
-  need(root, "machine", root.text("machine"), head.machine);
-  need(root, "machine_digest", root.text("machine_digest"), head.machine_digest);
-  need(root, "flavour", root.text("flavour"), head.flavour);
-  need(root, "turn_clock", root.text("turn_clock"), head.turn_clock);
-  need(root, "seed", root.integer("seed", kCounts), head.seed);
-  need(root, "lock_step", root.boolean("lock_step"), head.lock_step);
-  need(root, "period_s", root.number("period_s", kPositive), head.period_s);
-  need(root, "seconds", root.number("seconds", kPositive), head.seconds);
-  need(root, "max_mps", root.number("max_mps", kPositive), head.max_mps);
-  need(root, "program", root.text("program"), head.program);
-  need(root, "host", root.text("host"), head.host);
-  need(root, "scheduling", root.text("scheduling"), head.scheduling);
-  need(root, "start_clock_s", root.number("start_clock_s", kAny), head.start_clock_s);
-  need(root, "start_unix_s", root.number("start_unix_s", kAny), head.start_unix_s);
-  head.clock_offset_s = root.number("clock_offset_s", kAny);
+  HeadReader reader(root);
+  visit_head(head, reader);
   if (auto topics = root.table("topics")) {
     for (const auto& [name, node] : topics->take_all()) {
       const auto* topic = std::get_if<std::string>(&node->value);
@@ -291,7 +328,11 @@ void read_head(TableReader& root, LogHead& head) {
     }
     topics->finish();
   }
-  read_end(root, head);
+  auto end = root.table("end");
+  if (!end) return;
+  HeadReader end_reader(*end);
+  visit_end(head.end.emplace(), end_reader);
+  end->finish();
 }
 
 }  // namespace
@@ -301,78 +342,25 @@ std::string log_columns() {
 }
 
 std::string log_line(const LogRow& row) {
-  Line line;
-  line.add(row.cycle).add(row.sensed.time_s).add(row.clock_s).add(row.late_ms);
-  line.add(name_of(row.act)).add(row.state);
-  line.add(row.command.left_mps).add(row.command.right_mps).add(leds_text(row.command.leds));
-  for (const double distance : row.sensed.proximity_m)
-    line.add(distance);
-  const Rgb& ground = row.sensed.ground;
-  line.add(int{ground.r}).add(int{ground.g}).add(int{ground.b});
-  line.add(row.ground_as_sent.r).add(row.ground_as_sent.g).add(row.ground_as_sent.b);
-  std::vector<double> neighbours;
-  for (const Neighbour& neighbour : row.sensed.neighbours) {
-    neighbours.insert(neighbours.end(),
-                      {neighbour.distance_m, neighbour.direction_x, neighbour.direction_y});
-  }
-  line.add_numbers(neighbours);
-  const bool dark = row.sensed.light_lux == LightReadings{};
-  line.add_numbers(dark ? std::span<const double>{}
-                        : std::span<const double>(row.sensed.light_lux));
-  for (const std::optional<double>& age : row.age_ms)
-    line.add(age);
-  for (const std::optional<double>& stamp : row.stamp_ms)
-    line.add(stamp);
-  line.add(row.drawn).add(csv_field(row.event));
-  return line.take();
+  RowWriter writer;
+  visit_columns(row, writer);
+  return writer.take();
 }
 
 std::string log_head_text(const LogHead& head) {
-  Section top{.header = "", .prefix = "", .lines = {}};
-  const auto add = [](Section& section, const char* key, std::string value) {
-    section.lines.push_back({key, std::move(value)});
-  };
-  add(top, "format", "1");
-  add(top, "kind", quoted_text(kKind));
-  add(top, "run", quoted_text(head.run));
-  add(top, "robot", quoted_text(head.robot));
-  add(top, "robot_index", std::to_string(head.robot_index));
-  add(top, "machine", quoted_text(head.machine));
-  add(top, "machine_digest", quoted_text(head.machine_digest));
-  add(top, "flavour", quoted_text(head.flavour));
-  add(top, "turn_clock", quoted_text(head.turn_clock));
-  add(top, "seed", std::to_string(head.seed));
-  add(top, "lock_step", flag_text(head.lock_step));
-  add(top, "period_s", number_text(head.period_s));
-  add(top, "seconds", number_text(head.seconds));
-  add(top, "max_mps", number_text(head.max_mps));
-  add(top, "program", quoted_text(head.program));
-  add(top, "host", quoted_text(head.host));
-  add(top, "scheduling", quoted_text(head.scheduling));
-  add(top, "start_clock_s", number_text(head.start_clock_s));
-  add(top, "start_unix_s", number_text(head.start_unix_s));
-  if (head.clock_offset_s) add(top, "clock_offset_s", number_text(*head.clock_offset_s));
-  std::vector<Section> sections = {std::move(top)};
+  std::vector<Section> sections = {
+      {.header = "", .prefix = "", .lines = {{"format", "1"}, {"kind", quoted_text(kKind)}}}};
+  HeadWriter writer(sections.back());
+  visit_head(head, writer);
   if (!head.topics.empty()) {
-    Section topics{.header = "[topics]", .prefix = "", .lines = {}};
+    Section& topics =
+        sections.emplace_back(Section{.header = "[topics]", .prefix = "", .lines = {}});
     for (const auto& [name, topic] : head.topics)
-      add(topics, name.c_str(), quoted_text(topic));
-    sections.push_back(std::move(topics));
+      topics.lines.push_back({name, quoted_text(topic)});
   }
   if (head.end) {
-    Section end{.header = "[end]", .prefix = "", .lines = {}};
-    add(end, "state", quoted_text(head.end->state));
-    add(end, "verdict", quoted_text(name_of(head.end->verdict)));
-    add(end, "reasons", texts_of(head.end->reasons));
-    add(end, "stepped", std::to_string(head.end->stepped));
-    add(end, "held", std::to_string(head.end->held));
-    add(end, "skipped", std::to_string(head.end->skipped));
-    if (head.end->driven) add(end, "driven", *head.end->driven ? "true" : "false");
-    if (head.end->driven.value_or(false)) {
-      add(end, "driver", quoted_text(name_of(head.end->driver)));
-      add(end, "driver_off_s", number_text(head.end->driver_off_s));
-    }
-    sections.push_back(std::move(end));
+    HeadWriter end(sections.emplace_back(Section{.header = "[end]", .prefix = "", .lines = {}}));
+    visit_end(*head.end, end);
   }
   return text_of(sections);
 }
@@ -397,9 +385,9 @@ OrErrors<std::vector<LogRow>> parse_log_rows(std::string_view text, const std::s
       return wrong(line, "a row has " + std::to_string(columns().size()) +
                              " fields, this one has " + std::to_string(cells->size()));
     }
-    auto row = row_of(*cells);
-    if (!row) return wrong(line, row.error().message);
-    rows.push_back(std::move(*row));
+    RowReader row_reader(*cells);
+    visit_columns(rows.emplace_back(), row_reader);
+    if (!row_reader.error().empty()) return wrong(line, row_reader.error());
   }
   return rows;
 }

@@ -1,18 +1,6 @@
 #include "robot/ros/ros_ends.h"
 
-#include <geometry_msgs/Twist.h>
-#include <nav_msgs/Odometry.h>
-#include <sensor_msgs/BatteryState.h>
-#include <sensor_msgs/Imu.h>
-#include <sensor_msgs/LaserScan.h>
-#include <sensor_msgs/Range.h>
-#include <std_msgs/ColorRGBA.h>
-#include <std_msgs/Float32MultiArray.h>
-#include <std_msgs/Float64MultiArray.h>
-#include <std_msgs/String.h>
-
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -20,22 +8,17 @@
 #include <thread>
 #include <utility>
 
+#include "base/overloaded.h"
+#include "robot/ros/internal/conversions.h"
 #include "robot/ros/internal/listener_watch.h"
-#include "robot/ros/internal/range_array.h"
 #include "robot/ros/internal/session.h"
 #include "robot/transport/inbox.h"
-#include "robot/transport/numbers.h"
 
 namespace swarmsmith {
 
 namespace {
 
 constexpr const char* kOrderTopic = "/swarm/order";
-
-/// Of the proximity sensors' driver (ros facts, 1.2).
-constexpr float kRangeFieldOfView_rad = 0.2967F;
-constexpr float kLeastRange_m = 0.05F;
-constexpr float kMostRange_m = 2.0F;
 
 constexpr std::uint32_t kUnlimited = 0;
 
@@ -53,59 +36,10 @@ Arrival arrival_of(std::int64_t stamp_ns = 0) {
   return {SystemClock().now(), stamp_ns};
 }
 
-std::int64_t nanoseconds(const ros::Time& stamp) {
-  return std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nsec;
-}
-
-/// Times before 1970, which ROS has no stamps for, become 0: none.
-ros::Time stamp_of(const Arrival& arrival) {
-  ros::Time stamp;
-  if (arrival.stamp_ns > 0) stamp.fromNSec(static_cast<std::uint64_t>(arrival.stamp_ns));
-  return stamp;
-}
-
-template <class Array>
-std::vector<double> as_doubles(const Array& values) {
-  return {values.begin(), values.end()};
-}
-
-std::vector<float> as_floats(const std::vector<double>& values) {
-  std::vector<float> floats;
-  floats.reserve(values.size());
-  for (const double value : values)
-    floats.push_back(static_cast<float>(value));
-  return floats;
-}
-
-std_msgs::Float64MultiArray doubles_message(std::vector<double> numbers) {
-  std_msgs::Float64MultiArray message;
-  message.data = std::move(numbers);
-  return message;
-}
-
-std_msgs::String text_message(const std::string& text) {
-  std_msgs::String message;
-  message.data = text;
-  return message;
-}
-
-sensor_msgs::Range range_message(const Arrival& arrival, std::size_t sensor, double range_m) {
-  sensor_msgs::Range message;
-  message.header.stamp = stamp_of(arrival);
-  message.header.frame_id = "base_range_" + std::to_string(sensor);
-  message.radiation_type = sensor_msgs::Range::INFRARED;
-  message.field_of_view = kRangeFieldOfView_rad;
-  message.min_range = kLeastRange_m;
-  message.max_range = kMostRange_m;
-  message.range = static_cast<float>(range_m);
-  return message;
-}
-
 std::string range_topic(std::size_t sensor) {
   return "range_" + std::to_string(sensor);
 }
 
-/// Wheels as one of the three forms.
 const char* wheels_topic(WheelsForm form) {
   switch (form) {
     case WheelsForm::Doubles:
@@ -118,8 +52,40 @@ const char* wheels_topic(WheelsForm form) {
   return "wheels";
 }
 
-/// A publisher that has seen each of who will listen. Subscribes, too.
+/// Calls `use` with an empty message of the form's type.
+template <class Use>
+void with_wheels_type(WheelsForm form, const Use& use) {
+  if (form == WheelsForm::Doubles) return use(std_msgs::Float64MultiArray());
+  if (form == WheelsForm::Floats) return use(std_msgs::Float32MultiArray());
+  use(geometry_msgs::Twist());
+}
+
+bool has_ranges_apart(const SensorTopics& sensors) {
+  return sensors.ranges && sensors.ranges_apart && !sensors.senses;
+}
+
+/// Calls `use` with an empty message of each sensor that the topics name, but for ranges apart.
+template <class Use>
+void for_each_sensor(const SensorTopics& sensors, const Use& use) {
+  if (sensors.senses) return use(SensesMessage());
+  if (sensors.ranges && !sensors.ranges_apart) use(RangesMessage());
+  if (sensors.ground_color) use(GroundColorMessage());
+  if (sensors.scan) use(ScanMessage());
+  if (sensors.neighbours) use(NeighboursMessage());
+  if (sensors.light) use(LightMessage());
+  if (sensors.battery) use(BatteryMessage());
+}
+
+template <class Ours>
+RosType<Ours> ros_message(const Ours& ours) {
+  RosType<Ours> theirs;
+  to_ros(ours, theirs);
+  return theirs;
+}
+
+/// What a node of ROS listens to.
 struct Node {
+  std::set<std::string> complained;  ///< topics; of the thread of callbacks
   std::unique_ptr<Session> session;
   std::vector<ros::Subscriber> subscribers;
 
@@ -134,15 +100,23 @@ struct Node {
     subscribers.push_back(handle.subscribe<Message>(topic, queue, on_event, ros::VoidConstPtr(),
                                                     ros::TransportHints().tcpNoDelay()));
   }
-};
 
-/// Says once a topic what is wrong with its messages.
-class Complaints {
- public:
-  bool first(const std::string& topic) { return topics_.insert(topic).second; }
-
- private:
-  std::set<std::string> topics_;
+  /// `put` gets what comes as our message, and troubles: of each topic the first one.
+  template <class Ours, class Theirs = RosType<Ours>, class Put>
+  void listen(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue, Put put) {
+    const std::string whole_topic = handle.resolveName(topic);
+    subscribe<Theirs>(
+        handle, topic, queue,
+        [this, topic, whole_topic, put](const Theirs& theirs, const std::string& sender) {
+          Ours ours;
+          ours.arrival = arrival_of();
+          if constexpr (kHasSender<Ours>) ours.sender = sender;
+          if (from_ros(theirs, ours)) return put(std::move(ours));
+          if (!complained.insert(whole_topic).second) return;
+          put(TroubleMessage{sender + " sent other numbers on " + topic +
+                             " than it has; they are not used"});
+        });
+  }
 };
 
 /// Messages leave at once, in threads of ROS; there is nothing in its interface to wait for.
@@ -153,8 +127,8 @@ void give_time(Duration most) {
 
 class RosRobotEnd final : public RobotEnd {
  public:
-  static RosExpected<std::unique_ptr<RobotEnd>> join(const std::string& name,
-                                                     const RosOptions& options) {
+  static Expected<std::unique_ptr<RobotEnd>> join(const std::string& name,
+                                                  const RosOptions& options) {
     std::unique_ptr<RosRobotEnd> end(new RosRobotEnd(options.end));
     auto session = Session::join("/" + name, "control", false, options,
                                  [inbox = end->inbox_](std::string text, bool ended) {
@@ -170,37 +144,27 @@ class RosRobotEnd final : public RobotEnd {
 
   std::optional<ToRobot> receive(TimePoint until) override { return inbox_->take(until); }
 
-  void send(const WheelsMessage& wheels) override {
-    if (form_ == WheelsForm::Doubles)
-      return publish_or_keep(wheels_, doubles_message(numbers_of(wheels)));
-    if (form_ == WheelsForm::Floats) {
-      std_msgs::Float32MultiArray message;
-      message.data = as_floats(numbers_of(wheels));
-      return publish_or_keep(wheels_, message);
-    }
-    geometry_msgs::Twist message;
-    message.linear.x = (wheels.left_mps + wheels.right_mps) / 2;
-    message.angular.z = (wheels.right_mps - wheels.left_mps) / kTreadDistance_m;
-    publish_or_keep(wheels_, message);
-  }
-  void send(const LedsMessage& leds) override {
-    std_msgs::Float32MultiArray message;
-    message.data = as_floats(numbers_of(leds));
-    leds_.publish(message);
-  }
-  void send(const StateMessage& state) override { state_.publish(text_message(state.text)); }
-  void send(const AnswerMessage& answer) override {
-    publish_or_keep(answers_, doubles_message(numbers_of(answer)));
+  void send(const FromRobot& message) override {
+    std::visit(Overloaded{[this](const WheelsMessage& wheels) {
+                            with_wheels_type(options_.wheels, [&](auto theirs) {
+                              to_ros(wheels, theirs);
+                              publish_or_keep(wheels_, theirs);
+                            });
+                          },
+                          [this](const AnswerMessage& answer) {
+                            publish_or_keep(answers_, ros_message(answer));
+                          },
+                          [this](const LedsMessage& leds) { leds_.publish(ros_message(leds)); },
+                          [this](const StateMessage& state) { state_.publish(ros_message(state)); },
+                          [](const TroubleMessage&) {}},
+               message);
   }
   std::vector<Listener> listeners() override { return watch_->listeners(); }
   void flush(Duration most) override { give_time(most); }
 
  private:
   explicit RosRobotEnd(const EndOptions& options)
-      : options_(options),
-        form_(options.wheels),
-        by_number_(options.sensors.senses),
-        inbox_(std::make_shared<RobotInbox>(options.keep)) {}
+      : options_(options), inbox_(std::make_shared<Inbox<ToRobot>>(options.keep)) {}
 
   /// A world sends its first question when this node listens to it; it may be that its own
   /// connection for answers does not stand yet. Then the answer waits for it.
@@ -230,7 +194,7 @@ class RosRobotEnd final : public RobotEnd {
   /// Commands go out, and those of others to the same treads come in.
   template <class Message>
   void advertise_wheels(ros::NodeHandle& handle) {
-    const std::string topic = wheels_topic(form_);
+    const std::string topic = wheels_topic(options_.wheels);
     wheels_ = advertise<Message>(handle, topic);
     if (options_.keep == Keep::All) return;
     node_.subscribe<Message>(handle, topic, command_queue_of(options_.keep),
@@ -241,108 +205,49 @@ class RosRobotEnd final : public RobotEnd {
     watch_->look_for_rivals(wheels_.getTopic());
   }
 
-  /// A message made of numbers.
-  template <class Ours, class Theirs>
-  void listen(ros::NodeHandle& handle, const std::string& topic) {
-    node_.subscribe<Theirs>(
-        handle, topic, queue_of(options_.keep),
-        [this, topic](const Theirs& message, const std::string& sender) {
-          Ours ours;
-          ours.arrival = arrival_of();
-          if (read_numbers(as_doubles(message.data), ours)) return inbox_->put(std::move(ours));
-          if (complaints_.first(topic)) {
-            inbox_->put(TroubleMessage{sender + " sent " + std::to_string(message.data.size()) +
-                                           " numbers on " + topic +
-                                           ", which are none of that kind; they are not used",
-                                       false});
-          }
-        });
-  }
-
   void connect(const std::string& name_space) {
     ros::NodeHandle handle = node_.session->handle(name_space);
     const SensorTopics& sensors = options_.sensors;
-    if (sensors.senses) listen<SensesMessage, std_msgs::Float64MultiArray>(handle, "senses");
-    if (!sensors.senses) connect_sensors(handle);
-    node_.subscribe<std_msgs::String>(handle, kOrderTopic, kUnlimited,
-                                      [this](const std_msgs::String& order, const std::string&) {
-                                        inbox_->put(OrderMessage{arrival_of(), order.data});
-                                      });
     const std::uint32_t queue = queue_of(options_.keep);
+    const auto put = [this](ToRobot message) { inbox_->put(std::move(message)); };
+    for_each_sensor(sensors, [&](const auto& kind) {
+      using Ours = std::decay_t<decltype(kind)>;
+      node_.listen<Ours>(handle, Ours::kTopic, queue, put);
+    });
+    if (has_ranges_apart(sensors)) listen_to_ranges_apart(handle);
+    if (sensors.driven) listen_to_driven(handle);
+    node_.listen<OrderMessage>(handle, kOrderTopic, kUnlimited, put);
     if (sensors.senses) {
-      answers_ = advertise<std_msgs::Float64MultiArray>(handle, AnswerMessage::kTopic);
-    } else if (form_ == WheelsForm::Doubles) {
-      advertise_wheels<std_msgs::Float64MultiArray>(handle);
-    } else if (form_ == WheelsForm::Floats) {
-      advertise_wheels<std_msgs::Float32MultiArray>(handle);
+      answers_ = advertise<RosType<AnswerMessage>>(handle, AnswerMessage::kTopic);
     } else {
-      advertise_wheels<geometry_msgs::Twist>(handle);
+      with_wheels_type(options_.wheels, [&](const auto& theirs) {
+        advertise_wheels<std::decay_t<decltype(theirs)>>(handle);
+      });
     }
-    leds_ = handle.advertise<std_msgs::Float32MultiArray>("leds", queue);
+    leds_ = handle.advertise<RosType<LedsMessage>>(LedsMessage::kTopic, queue);
     // The last one: who sees it at the master sees all the others (RosWorldEnd::connected).
-    state_ = handle.advertise<std_msgs::String>("state", 10, true);
+    state_ = handle.advertise<RosType<StateMessage>>(StateMessage::kTopic, 10, true);
     node_.session->spin(node_.subscribers);
   }
 
-  void connect_sensors(ros::NodeHandle& handle) {
-    const SensorTopics& sensors = options_.sensors;
-    const std::uint32_t queue = queue_of(options_.keep);
-    if (sensors.ranges && sensors.ranges_apart) {
-      ranges_.ranges_m.assign(kRangeSensors, std::numeric_limits<double>::quiet_NaN());
-      for (std::size_t i = 0; i < kRangeSensors; ++i) {
-        node_.subscribe<sensor_msgs::Range>(
-            handle, range_topic(i), queue,
-            [this, i](const sensor_msgs::Range& range, const std::string&) {
-              take_range(i, range);
-            });
-      }
-    } else if (sensors.ranges) {
-      node_.subscribe<teraranger_array::RangeArray>(
-          handle, "ranges", queue,
-          [this](const teraranger_array::RangeArray& array, const std::string&) {
-            RangesMessage message{arrival_of(nanoseconds(array.header.stamp)), {}};
-            for (const sensor_msgs::Range& range : array.ranges)
-              message.ranges_m.push_back(double{range.range});
-            inbox_->put(std::move(message));
-          });
+  void listen_to_ranges_apart(ros::NodeHandle& handle) {
+    ranges_.ranges_m.assign(kRangeSensors, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < kRangeSensors; ++i) {
+      node_.subscribe<sensor_msgs::Range>(
+          handle, range_topic(i), queue_of(options_.keep),
+          [this, i](const sensor_msgs::Range& range, const std::string&) { take_range(i, range); });
     }
-    if (sensors.ground_color) {
-      node_.subscribe<std_msgs::ColorRGBA>(
-          handle, "ground_color", queue,
-          [this](const std_msgs::ColorRGBA& color, const std::string&) {
-            inbox_->put(GroundColorMessage{arrival_of(), double{color.r}, double{color.g},
-                                           double{color.b}});
-          });
-    }
-    if (sensors.scan) {
-      node_.subscribe<sensor_msgs::LaserScan>(
-          handle, "scan", queue, [this](const sensor_msgs::LaserScan& scan, const std::string&) {
-            inbox_->put(ScanMessage{arrival_of(nanoseconds(scan.header.stamp)),
-                                    double{scan.angle_min}, double{scan.angle_max},
-                                    double{scan.angle_increment}, double{scan.range_min},
-                                    double{scan.range_max}, as_doubles(scan.ranges)});
-          });
-    }
-    if (sensors.neighbours)
-      listen<NeighboursMessage, std_msgs::Float64MultiArray>(handle, "neighbours");
-    if (sensors.light) listen<LightMessage, std_msgs::Float64MultiArray>(handle, "light");
-    if (sensors.body) connect_body(handle);
-    if (sensors.driven) {
-      node_.subscribe<std_msgs::Float64MultiArray>(
-          handle, DrivenMessage::kTopic, command_queue_of(options_.keep),
-          [this](const std_msgs::Float64MultiArray& message, const std::string& sender) {
-            if (!watch_->listens(sender)) return not_believed(sender);
-            DrivenMessage driven;
-            driven.arrival = arrival_of();
-            driven.sender = watch_->name_of(sender);
-            if (read_numbers(message.data, driven)) return inbox_->put(std::move(driven));
-            if (complaints_.first(DrivenMessage::kTopic)) {
-              inbox_->put(TroubleMessage{sender + " sent " + std::to_string(message.data.size()) +
-                                             " numbers on driven, and two are wanted: left, right",
-                                         false});
-            }
-          });
-    }
+  }
+
+  void listen_to_driven(ros::NodeHandle& handle) {
+    node_.listen<DrivenMessage>(
+        handle, DrivenMessage::kTopic, command_queue_of(options_.keep),
+        Overloaded{[this](DrivenMessage driven) {
+                     if (!watch_->listens(driven.sender)) return not_believed(driven.sender);
+                     driven.sender = watch_->name_of(driven.sender);
+                     inbox_->put(std::move(driven));
+                   },
+                   [this](TroubleMessage trouble) { inbox_->put(std::move(trouble)); }});
   }
 
   /// Its first words may come before its connection.
@@ -352,34 +257,6 @@ class RosRobotEnd final : public RobotEnd {
     inbox_->put(TroubleMessage{sender + " says what the treads do, and does not listen to their "
                                         "speeds; it is not believed",
                                false});
-  }
-
-  void connect_body(ros::NodeHandle& handle) {
-    const std::uint32_t queue = queue_of(options_.keep);
-    node_.subscribe<sensor_msgs::Imu>(
-        handle, "imu", queue, [this](const sensor_msgs::Imu& imu, const std::string&) {
-          inbox_->put(ImuMessage{
-              arrival_of(nanoseconds(imu.header.stamp)),
-              {imu.orientation.x, imu.orientation.y, imu.orientation.z, imu.orientation.w},
-              {imu.angular_velocity.x, imu.angular_velocity.y, imu.angular_velocity.z},
-              {imu.linear_acceleration.x, imu.linear_acceleration.y, imu.linear_acceleration.z}});
-        });
-    node_.subscribe<nav_msgs::Odometry>(
-        handle, "odom", queue, [this](const nav_msgs::Odometry& odom, const std::string&) {
-          const auto& q = odom.pose.pose.orientation;
-          const double heading =
-              std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
-          inbox_->put(OdometryMessage{arrival_of(nanoseconds(odom.header.stamp)),
-                                      odom.pose.pose.position.x, odom.pose.pose.position.y, heading,
-                                      odom.twist.twist.linear.x, odom.twist.twist.linear.y,
-                                      odom.twist.twist.angular.z});
-        });
-    node_.subscribe<sensor_msgs::BatteryState>(
-        handle, "battery", queue,
-        [this](const sensor_msgs::BatteryState& battery, const std::string&) {
-          inbox_->put(BatteryMessage{arrival_of(nanoseconds(battery.header.stamp)),
-                                     double{battery.voltage}, double{battery.percentage}});
-        });
   }
 
   /// Eight topics become one message, whenever the last sensor of a round has come.
@@ -393,11 +270,9 @@ class RosRobotEnd final : public RobotEnd {
   }
 
   EndOptions options_;
-  WheelsForm form_;
-  bool by_number_;
-  std::shared_ptr<RobotInbox> inbox_;
-  Complaints complaints_;            ///< of the spinner's thread, as is the next one
-  std::map<std::string, int> deaf_;  ///< messages of those who drive and do not listen
+  std::shared_ptr<Inbox<ToRobot>> inbox_;
+  /// Messages of those who drive and do not listen; of the thread of callbacks.
+  std::map<std::string, int> deaf_;
   std::mutex early_mutex_;
   std::function<void()> early_;  ///< sends what had nobody to go to
   RangesMessage ranges_;         ///< with ranges_apart
@@ -412,13 +287,13 @@ class RosRobotEnd final : public RobotEnd {
 
 class RosWorldEnd final : public WorldEnd {
  public:
-  static RosExpected<std::unique_ptr<WorldEnd>> join(const std::vector<std::string>& names,
-                                                     const RosOptions& options) {
+  static Expected<std::unique_ptr<WorldEnd>> join(const std::vector<std::string>& names,
+                                                  const RosOptions& options) {
     std::unique_ptr<RosWorldEnd> end(new RosWorldEnd(names, options.end));
     auto session =
         Session::join("/", "world", false, options,
                       [inbox = end->inbox_, nobody = names.size()](std::string text, bool ended) {
-                        inbox->put(nobody, TroubleMessage{std::move(text), ended});
+                        inbox->put({nobody, TroubleMessage{std::move(text), ended}});
                       });
     if (!session) return tl::unexpected(session.error());
     end->node_.session = std::move(*session);
@@ -432,86 +307,16 @@ class RosWorldEnd final : public WorldEnd {
   const std::string& name(std::size_t robot) const override { return names_[robot]; }
   std::optional<Received> receive(TimePoint until) override { return inbox_->take(until); }
 
-  void send(std::size_t robot, const RangesMessage& ranges) override {
-    Topics& topics = topics_[robot];
-    if (options_.sensors.ranges_apart) {
-      for (std::size_t i = 0; i < ranges.ranges_m.size() && i < kRangeSensors; ++i)
-        topics.sensors.at(range_topic(i))
-            .publish(range_message(ranges.arrival, i, ranges.ranges_m[i]));
-      return;
-    }
-    teraranger_array::RangeArray message;
-    message.header.stamp = stamp_of(ranges.arrival);
-    message.header.frame_id = "base_hub";
-    for (std::size_t i = 0; i < ranges.ranges_m.size(); ++i)
-      message.ranges.push_back(range_message(ranges.arrival, i, ranges.ranges_m[i]));
-    publish(robot, "ranges", message);
-  }
-  void send(std::size_t robot, const GroundColorMessage& color) override {
-    std_msgs::ColorRGBA message;
-    message.r = static_cast<float>(color.r);
-    message.g = static_cast<float>(color.g);
-    message.b = static_cast<float>(color.b);
-    message.a = 255;
-    publish(robot, "ground_color", message);
-  }
-  void send(std::size_t robot, const ScanMessage& scan) override {
-    sensor_msgs::LaserScan message;
-    message.header.stamp = stamp_of(scan.arrival);
-    message.header.frame_id = "laser_frame";
-    message.angle_min = static_cast<float>(scan.angle_min_rad);
-    message.angle_max = static_cast<float>(scan.angle_max_rad);
-    message.angle_increment = static_cast<float>(scan.angle_increment_rad);
-    message.range_min = static_cast<float>(scan.range_min_m);
-    message.range_max = static_cast<float>(scan.range_max_m);
-    message.ranges = as_floats(scan.ranges_m);
-    publish(robot, "scan", message);
-  }
-  void send(std::size_t robot, const NeighboursMessage& neighbours) override {
-    publish(robot, "neighbours", doubles_message(numbers_of(neighbours)));
-  }
-  void send(std::size_t robot, const LightMessage& light) override {
-    publish(robot, "light", doubles_message(numbers_of(light)));
-  }
-  void send(std::size_t robot, const ImuMessage& imu) override {
-    sensor_msgs::Imu message;
-    message.header.stamp = stamp_of(imu.arrival);
-    message.orientation.x = imu.orientation[0];
-    message.orientation.y = imu.orientation[1];
-    message.orientation.z = imu.orientation[2];
-    message.orientation.w = imu.orientation[3];
-    message.angular_velocity.x = imu.angular_velocity_radps[0];
-    message.angular_velocity.y = imu.angular_velocity_radps[1];
-    message.angular_velocity.z = imu.angular_velocity_radps[2];
-    message.linear_acceleration.x = imu.acceleration_mps2[0];
-    message.linear_acceleration.y = imu.acceleration_mps2[1];
-    message.linear_acceleration.z = imu.acceleration_mps2[2];
-    publish(robot, "imu", message);
-  }
-  void send(std::size_t robot, const OdometryMessage& odometry) override {
-    nav_msgs::Odometry message;
-    message.header.stamp = stamp_of(odometry.arrival);
-    message.pose.pose.position.x = odometry.x_m;
-    message.pose.pose.position.y = odometry.y_m;
-    message.pose.pose.orientation.z = std::sin(odometry.heading_rad / 2);
-    message.pose.pose.orientation.w = std::cos(odometry.heading_rad / 2);
-    message.twist.twist.linear.x = odometry.vx_mps;
-    message.twist.twist.linear.y = odometry.vy_mps;
-    message.twist.twist.angular.z = odometry.turn_radps;
-    publish(robot, "odom", message);
-  }
-  void send(std::size_t robot, const BatteryMessage& battery) override {
-    sensor_msgs::BatteryState message;
-    message.header.stamp = stamp_of(battery.arrival);
-    message.voltage = static_cast<float>(battery.voltage_V);
-    message.percentage = static_cast<float>(battery.charge);
-    publish(robot, "battery", message);
-  }
-  void send(std::size_t robot, const DrivenMessage& driven) override {
-    publish(robot, DrivenMessage::kTopic, doubles_message(numbers_of(driven)));
-  }
-  void send(std::size_t robot, const SensesMessage& senses) override {
-    publish(robot, "senses", doubles_message(numbers_of(senses)));
+  void send(std::size_t robot, const ToRobot& message) override {
+    std::visit(
+        [&](const auto& ours) {
+          using Ours = std::decay_t<decltype(ours)>;
+          if constexpr (std::is_same_v<Ours, RangesMessage>) {
+            if (options_.sensors.ranges_apart) return send_apart(robot, ours);
+          }
+          if constexpr (kTravels<Ours>) publish(robot, Ours::kTopic, ros_message(ours));
+        },
+        message);
   }
 
   /// The node advertises its state last, so that the master then knows all topics that it listens
@@ -540,7 +345,7 @@ class RosWorldEnd final : public WorldEnd {
   RosWorldEnd(std::vector<std::string> names, const EndOptions& options)
       : names_(std::move(names)),
         options_(options),
-        inbox_(std::make_shared<WorldInbox>(options.keep)),
+        inbox_(std::make_shared<Inbox<Received>>(options.keep)),
         topics_(names_.size()) {}
 
   template <class Message>
@@ -549,96 +354,56 @@ class RosWorldEnd final : public WorldEnd {
     if (found != topics_[robot].sensors.end()) found->second.publish(message);
   }
 
-  template <class Ours, class Theirs>
-  void listen(ros::NodeHandle& handle, std::size_t robot, const std::string& topic) {
-    node_.subscribe<Theirs>(
-        handle, topic, command_queue_of(options_.keep),
-        [this, robot, topic](const Theirs& message, const std::string& sender) {
-          Ours ours;
-          ours.arrival = arrival_of();
-          if constexpr (std::is_same_v<Ours, WheelsMessage>) ours.sender = sender;
-          if (read_numbers(as_doubles(message.data), ours))
-            return inbox_->put(robot, std::move(ours));
-          if (complaints_.first(names_[robot] + topic)) {
-            inbox_->put(robot,
-                        TroubleMessage{sender + " sent " + std::to_string(message.data.size()) +
-                                           " numbers on " + topic +
-                                           ", which are none of that kind; they are not used",
-                                       false});
-          }
-        });
-  }
-
-  template <class Message>
-  void offer(ros::NodeHandle& handle, std::size_t robot, const std::string& topic) {
-    topics_[robot].sensors[topic] = handle.advertise<Message>(topic, queue_of(options_.keep));
+  void send_apart(std::size_t robot, const RangesMessage& ranges) {
+    for (std::size_t i = 0; i < ranges.ranges_m.size() && i < kRangeSensors; ++i)
+      publish(robot, range_topic(i), range_of(ranges, i));
   }
 
   void connect(std::size_t robot) {
     ros::NodeHandle handle = node_.session->handle("/" + names_[robot]);
     const SensorTopics& sensors = options_.sensors;
+    const auto put = [this, robot](FromRobot message) { inbox_->put({robot, std::move(message)}); };
+    const std::uint32_t queue = command_queue_of(options_.keep);
+    offer_sensors(handle, robot);
     if (sensors.senses) {
-      offer<std_msgs::Float64MultiArray>(handle, robot, "senses");
-      listen<AnswerMessage, std_msgs::Float64MultiArray>(handle, robot, "answer");
+      node_.listen<AnswerMessage>(handle, AnswerMessage::kTopic, queue, put);
     } else {
-      offer_sensors(handle, robot);
-      listen_to_wheels(handle, robot);
+      with_wheels_type(options_.wheels, [&](const auto& theirs) {
+        node_.listen<WheelsMessage, std::decay_t<decltype(theirs)>>(
+            handle, wheels_topic(options_.wheels), queue, put);
+      });
     }
-    listen<LedsMessage, std_msgs::Float32MultiArray>(handle, robot, "leds");
-    node_.subscribe<std_msgs::String>(
-        handle, "state", kUnlimited,
-        [this, robot](const std_msgs::String& state, const std::string&) {
-          inbox_->put(robot, StateMessage{arrival_of(), state.data});
-        });
+    node_.listen<LedsMessage>(handle, LedsMessage::kTopic, queue, put);
+    node_.listen<StateMessage>(handle, StateMessage::kTopic, kUnlimited, put);
     topics_[robot].state = node_.subscribers.back();
   }
 
   void offer_sensors(ros::NodeHandle& handle, std::size_t robot) {
     const SensorTopics& sensors = options_.sensors;
-    if (sensors.ranges && sensors.ranges_apart) {
-      for (std::size_t i = 0; i < kRangeSensors; ++i)
-        offer<sensor_msgs::Range>(handle, robot, range_topic(i));
-    } else if (sensors.ranges) {
-      offer<teraranger_array::RangeArray>(handle, robot, "ranges");
-    }
-    if (sensors.ground_color) offer<std_msgs::ColorRGBA>(handle, robot, "ground_color");
-    if (sensors.scan) offer<sensor_msgs::LaserScan>(handle, robot, "scan");
-    if (sensors.neighbours) offer<std_msgs::Float64MultiArray>(handle, robot, "neighbours");
-    if (sensors.light) offer<std_msgs::Float64MultiArray>(handle, robot, "light");
-    if (sensors.driven) offer<std_msgs::Float64MultiArray>(handle, robot, DrivenMessage::kTopic);
-    if (!sensors.body) return;
-    offer<sensor_msgs::Imu>(handle, robot, "imu");
-    offer<nav_msgs::Odometry>(handle, robot, "odom");
-    offer<sensor_msgs::BatteryState>(handle, robot, "battery");
-  }
-
-  void listen_to_wheels(ros::NodeHandle& handle, std::size_t robot) {
-    const std::string topic = wheels_topic(options_.wheels);
-    if (options_.wheels == WheelsForm::Doubles)
-      return listen<WheelsMessage, std_msgs::Float64MultiArray>(handle, robot, topic);
-    if (options_.wheels == WheelsForm::Floats)
-      return listen<WheelsMessage, std_msgs::Float32MultiArray>(handle, robot, topic);
-    node_.subscribe<geometry_msgs::Twist>(
-        handle, topic, command_queue_of(options_.keep),
-        [this, robot](const geometry_msgs::Twist& twist, const std::string& sender) {
-          const double half = twist.angular.z * kTreadDistance_m / 2;
-          inbox_->put(robot, WheelsMessage{arrival_of(), twist.linear.x - half,
-                                           twist.linear.x + half, -1, sender});
-        });
+    const auto offer = [&](const std::string& topic, const auto& theirs) {
+      topics_[robot].sensors[topic] =
+          handle.advertise<std::decay_t<decltype(theirs)>>(topic, queue_of(options_.keep));
+    };
+    for_each_sensor(sensors, [&](const auto& kind) {
+      using Ours = std::decay_t<decltype(kind)>;
+      offer(Ours::kTopic, RosType<Ours>());
+    });
+    for (std::size_t i = 0; has_ranges_apart(sensors) && i < kRangeSensors; ++i)
+      offer(range_topic(i), sensor_msgs::Range());
+    if (sensors.driven) offer(DrivenMessage::kTopic, RosType<DrivenMessage>());
   }
 
   std::vector<std::string> names_;
   EndOptions options_;
-  std::shared_ptr<WorldInbox> inbox_;
-  Complaints complaints_;
+  std::shared_ptr<Inbox<Received>> inbox_;
   std::vector<Topics> topics_;
   Node node_;
 };
 
 class RosOperatorEnd final : public OperatorEnd {
  public:
-  static RosExpected<std::unique_ptr<OperatorEnd>> join(const std::vector<std::string>& names,
-                                                        const RosOptions& options) {
+  static Expected<std::unique_ptr<OperatorEnd>> join(const std::vector<std::string>& names,
+                                                     const RosOptions& options) {
     std::unique_ptr<RosOperatorEnd> end(new RosOperatorEnd(names));
     auto session =
         Session::join("/", "operator", true, options,
@@ -654,7 +419,7 @@ class RosOperatorEnd final : public OperatorEnd {
   std::size_t robots() const override { return names_.size(); }
   const std::string& name(std::size_t robot) const override { return names_[robot]; }
   std::optional<Received> receive(TimePoint until) override { return inbox_->take(until); }
-  void send(const OrderMessage& order) override { orders_.publish(text_message(order.text)); }
+  void send(const OrderMessage& order) override { orders_.publish(ros_message(order)); }
 
   /// The operator's own subscriptions come first, one a robot.
   bool connected(std::size_t robot) override {
@@ -669,18 +434,17 @@ class RosOperatorEnd final : public OperatorEnd {
 
  private:
   explicit RosOperatorEnd(std::vector<std::string> names)
-      : names_(std::move(names)), inbox_(std::make_shared<Inbox<Received>>()) {}
+      : names_(std::move(names)), inbox_(std::make_shared<Inbox<Received>>(Keep::All)) {}
 
   void connect() {
     ros::NodeHandle handle = node_.session->handle("/");
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      node_.subscribe<std_msgs::String>(
-          handle, "/" + names_[i] + "/state", kUnlimited,
-          [this, i](const std_msgs::String& state, const std::string&) {
-            inbox_->put({i, StateMessage{arrival_of(), state.data}});
-          });
+      node_.listen<StateMessage>(handle, "/" + names_[i] + "/state", kUnlimited,
+                                 [this, i](auto message) {
+                                   inbox_->put({i, std::move(message)});
+                                 });
     }
-    orders_ = handle.advertise<std_msgs::String>(kOrderTopic, 10);
+    orders_ = handle.advertise<RosType<OrderMessage>>(kOrderTopic, 10);
     node_.session->spin(node_.subscribers);
   }
 
@@ -690,12 +454,12 @@ class RosOperatorEnd final : public OperatorEnd {
   Node node_;
 };
 
-std::optional<RosError> check_names(const std::vector<std::string>& names) {
+std::optional<Error> check_names(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     if (is_ros_name(name)) continue;
-    return RosError{RosError::Kind::BadInput,
-                    "a robot's name in ROS is a letter, then letters, digits and _, such as rvr1",
-                    name};
+    return Error{ErrorKind::BadInput,
+                 "a robot's name in ROS is a letter, then letters, digits and _, such as rvr1",
+                 name};
   }
   return std::nullopt;
 }
@@ -706,20 +470,20 @@ bool has_ros() {
   return true;
 }
 
-RosExpected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
-                                                     const RosOptions& options) {
+Expected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
+                                                  const RosOptions& options) {
   if (auto wrong = check_names({name})) return tl::unexpected(*wrong);
   return RosRobotEnd::join(name, options);
 }
 
-RosExpected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
-                                                     const RosOptions& options) {
+Expected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
+                                                  const RosOptions& options) {
   if (auto wrong = check_names(names)) return tl::unexpected(*wrong);
   return RosWorldEnd::join(names, options);
 }
 
-RosExpected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
-                                                           const RosOptions& options) {
+Expected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
+                                                        const RosOptions& options) {
   if (auto wrong = check_names(names)) return tl::unexpected(*wrong);
   return RosOperatorEnd::join(names, options);
 }

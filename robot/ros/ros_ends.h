@@ -2,9 +2,9 @@
 
 #include <memory>
 #include <string>
-#include <tl/expected.hpp>
 #include <vector>
 
+#include "base/expected.h"
 #include "robot/transport/ends.h"
 
 namespace swarmsmith {
@@ -12,16 +12,6 @@ namespace swarmsmith {
 /// The three ends over ROS 1 topics (docs/robot-messages.md has their names and types). A process
 /// can have one end: ROS keeps one node a process. The master is found as ROS has it, by
 /// ROS_MASTER_URI; others find this node by ROS_IP or ROS_HOSTNAME.
-
-/// As `Error` of base/expected.h, which is C++20.
-struct RosError {
-  enum class Kind { BadInput, Conflict, Unavailable };
-  Kind kind = Kind::BadInput;
-  std::string message;
-  std::string where;
-};
-template <class T>
-using RosExpected = tl::expected<T, RosError>;
 
 struct RosOptions {
   EndOptions end{};
@@ -36,15 +26,15 @@ bool has_ros();
 
 /// The node /NAME/control. BadInput: a name or remapping that ROS does not take. Unavailable: no
 /// master answers. Conflict: this process has an end.
-RosExpected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
-                                                     const RosOptions& options);
+Expected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
+                                                  const RosOptions& options);
 
 /// The node /world, with the topics of all robots.
-RosExpected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
-                                                     const RosOptions& options);
+Expected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
+                                                  const RosOptions& options);
 
 /// A node /operator_..., whose name nobody else has.
-RosExpected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
-                                                           const RosOptions& options);
+Expected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
+                                                        const RosOptions& options);
 
 }  // namespace swarmsmith

@@ -113,8 +113,8 @@ std::string DriverWatch::why_behind(const Follows& follows) const {
   const double prompt = *std::max_element(share.begin(), late);
   const auto best = std::max_element(late, share.end());
   if (*best < kSure || *best - prompt < follows.better) return {};
-  const std::chrono::duration<double> delay = (best - share.begin()) * kDelayStep;
-  return fmt::format("{} does each change {:.2f} s after its command", driver_, delay.count());
+  return fmt::format("{} does each change {:.2f} s after its command", driver_,
+                     seconds_of((best - share.begin()) * kDelayStep));
 }
 
 std::string DriverWatch::why_behind() const {
@@ -171,10 +171,10 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint n
   }
   // One that looks five times a second misses half of what is commanded for 0.1 s.
   if (sum <= limits_.give_up) return std::nullopt;
-  return Trouble{changed_, true, sum > 2 * limits_.give_up,
-                 fmt::format("{} does not do {}, which was commanded {} times, for {:.1f} s in all",
-                             driver_, speeds(last->left_mps, last->right_mps), times,
-                             std::chrono::duration<double>(sum).count())};
+  return Trouble{
+      changed_, true, sum > 2 * limits_.give_up,
+      fmt::format("{} does not do {}, which was commanded {} times, for {:.1f} s in all", driver_,
+                  speeds(last->left_mps, last->right_mps), times, seconds_of(sum))};
 }
 
 void DriverWatch::extend(std::optional<Spell>& spell, const std::string& name, TimePoint at) {
@@ -266,8 +266,7 @@ std::string DriverWatch::why_not_obeyed(TimePoint now) const {
   const auto until = commanded_until(*last_);
   if (stands && (!until || now - *until > limits_.give_up)) return told + "it holds them";
   if (until) {
-    return told + fmt::format("it is {:.2f} s behind{}",
-                              std::chrono::duration<double>(last_->arrival.at - *until).count(),
+    return told + fmt::format("it is {:.2f} s behind{}", seconds_of(last_->arrival.at - *until),
                               stands ? ", or holds them" : "");
   }
   if (same(last_->left_mps, wanted.left_mps)) return told + "only the left one obeys";
@@ -364,8 +363,7 @@ std::vector<std::string> DriverWatch::not_ready(TimePoint now) const {
     reasons.emplace_back("driver: no driver listens to the speeds of the treads");
   } else if (last_ && listens(last_->sender) && now - last_->arrival.at > limits_.give_up) {
     reasons.push_back(fmt::format("driver: {} has not said what the treads do for {:.1f} s",
-                                  last_->sender,
-                                  std::chrono::duration<double>(now - last_->arrival.at).count()));
+                                  last_->sender, seconds_of(now - last_->arrival.at)));
   }
   if (other_ && last_ && now - other_->arrival.at <= limits_.give_up) {
     reasons.push_back("driver: " + other_->sender + " and " + last_->sender +

@@ -17,10 +17,6 @@ constexpr double kDegraded = 0.01;
 constexpr double kInvalid = 0.05;
 constexpr double kLatestStart_s = 60;  ///< a start is at most so far ahead
 
-double seconds_of(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
-
 double milliseconds_of(Duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }

@@ -23,9 +23,10 @@ enum class Phase {
   Stopped,  ///< by an order or a signal
   Failed,
 };
-/// `idle`, `ready`, ...
-std::string_view name_of(Phase phase);
-std::optional<Phase> phase_from(std::string_view name);
+constexpr auto names_of(Phase) {
+  return std::to_array<std::string_view>(
+      {"idle", "ready", "armed", "running", "ended", "stopped", "failed"});
+}
 
 /// What a node says of itself, twice a second and whenever it changes.
 struct NodeState {
@@ -58,6 +59,37 @@ struct NodeState {
 
   friend bool operator==(const NodeState&, const NodeState&) = default;
 };
+
+/// The fields in the order in which they travel, each with its key. What is missing when a state is
+/// read, or of another type, keeps its default: so do fields that came later.
+template <class AnyState, class Field>
+void visit_state_fields(AnyState& state, Field& field) {
+  field("robot", state.robot);
+  field("state", state.phase);
+  field("run", state.run);
+  field("cycle", state.cycle);
+  field("machine", state.machine_digest);
+  field("flavour", state.flavour);
+  field("turn_clock", state.turn_clock);
+  field("seed", state.seed);
+  field("robot_index", state.robot_index);
+  field("version", state.version);
+  field("scheduling", state.scheduling);
+  field("age_ms", state.age_ms);
+  field("held", state.held);
+  field("skipped", state.skipped);
+  field("battery", state.battery);
+  field("verdict", state.verdict);
+  field("reasons", state.reasons);
+  field("not_ready", state.not_ready);
+  field("log_trouble", state.log_trouble);
+  field("log_open", state.log_open);
+  field("order", state.order);
+  field("refused", state.refused);
+  field("start_unix_s", state.start_unix_s);
+  field("clock_s", state.clock_s);
+  field("unix_s", state.unix_s);
+}
 
 /// As JSON, and back.
 std::string state_text(const NodeState& state);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "robot/runtime/sensed.h"
 
 namespace swarmsmith {
 
@@ -39,8 +40,25 @@ struct Order {
   friend bool operator==(const Order&, const Order&) = default;
 };
 
-/// `start`, `stop`, `kill`, `alive` or `echo`.
-std::string_view name_of(Order::Kind kind);
+constexpr auto names_of(Order::Kind) {
+  return std::to_array<std::string_view>({"start", "stop", "kill", "alive", "echo"});
+}
+
+/// The fields in the order in which they travel, each with its key and whether it is written.
+template <class AnyOrder, class Field>
+void visit_order_fields(AnyOrder& order, Field& field) {
+  const bool starts = order.kind == Order::Kind::Start;
+  field("order", order.kind);
+  field("id", order.id);
+  field("run", order.run);
+  field("robots", order.robots, !order.robots.empty());
+  field("sent_unix_s", order.sent_unix_s);
+  field("valid_s", order.valid_s);
+  field("at_unix_s", order.at_unix_s, starts);
+  field("seconds", order.seconds, starts);
+  field("seed", order.seed, starts && order.seed);
+  field("clock_offsets_s", order.clock_offsets_s, starts);
+}
 
 /// As JSON, and back.
 std::string order_text(const Order& order);

@@ -17,10 +17,6 @@ constexpr Duration kRunningPatience = std::chrono::milliseconds(500);
 constexpr Duration kStopPatience = std::chrono::seconds(2);
 constexpr Duration kEndPatience = std::chrono::seconds(2);
 
-Duration duration_of(double seconds) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
-}
-
 bool is_on(Phase phase) {
   return phase == Phase::Armed || phase == Phase::Running;
 }
@@ -48,7 +44,7 @@ void RollCall::hear(std::size_t robot, const NodeState& state, const Now& now) {
   rolled.heard = now.clock;
   if (answered_[robot] || state.order != fmt::format("{}-echo{}", id_, round_)) return;
   answered_[robot] = true;
-  const double took_s = std::chrono::duration<double>(now.clock - sent_.clock).count();
+  const double took_s = seconds_of(now.clock - sent_.clock);
   if (rolled.echoes == 0 || took_s < rolled.echo_s) {
     rolled.echo_s = took_s;
     rolled.offset_s = state.unix_s - (sent_.unix_s + took_s / 2);

@@ -21,9 +21,9 @@ enum class Act {
   Step,  ///< the controller decided
   Hold,  ///< a needed sensor was silent: treads 0, the controller did not see the cycle
 };
-/// `step` or `hold`.
-std::string_view name_of(Act act);
-std::optional<Act> act_from(std::string_view name);
+constexpr auto names_of(Act) {
+  return std::to_array<std::string_view>({"step", "hold"});
+}
 
 /// A colour as the driver sent it, in its own scale.
 struct RawColor {
@@ -54,9 +54,10 @@ struct LogRow {
 
 /// How trustworthy a run is.
 enum class RunVerdict { Valid, Degraded, Invalid };
-/// `VALID`, `DEGRADED` or `INVALID`, as for filmed runs.
-std::string_view name_of(RunVerdict verdict);
-std::optional<RunVerdict> run_verdict_from(std::string_view name);
+/// As for filmed runs.
+constexpr auto names_of(RunVerdict) {
+  return std::to_array<std::string_view>({"VALID", "DEGRADED", "INVALID"});
+}
 
 /// What is decided when a run is over.
 struct RunEnd {

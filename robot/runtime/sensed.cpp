@@ -2,12 +2,6 @@
 
 namespace swarmsmith {
 
-std::string_view name_of(Feed feed) {
-  static constexpr PerFeed<std::string_view> kNames = {"proximity", "ground", "neighbours",
-                                                       "light"};
-  return kNames[index_of(feed)];
-}
-
 PerFeed<bool> feeds_of(const UsedSenses& used) {
   PerFeed<bool> feeds{};
   feeds[index_of(Feed::Proximity)] = used.proximity;

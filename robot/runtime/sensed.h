@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,6 +12,20 @@
 #include "sim/control/used_senses.h"
 
 namespace swarmsmith {
+
+/// Enumerators have names in files and messages: `names_of` lists them in their order.
+template <class Enum>
+std::string_view name_of(Enum value) requires requires {
+  names_of(value);
+}
+{ return names_of(value)[static_cast<std::size_t>(value)]; }
+template <class Enum>
+std::optional<Enum> named(std::string_view name) {
+  const auto names = names_of(Enum());
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Enum>(found - names.begin());
+}
 
 /// What a robot's drivers deliver, one message each. A scan or ready neighbours: the same feed.
 enum class Feed { Proximity, Ground, Neighbours, Light };
@@ -20,8 +36,9 @@ constexpr std::size_t index_of(Feed feed) {
   return static_cast<std::size_t>(feed);
 }
 
-/// `proximity`, `ground`, `neighbours` or `light`.
-std::string_view name_of(Feed feed);
+constexpr auto names_of(Feed) {
+  return std::to_array<std::string_view>({"proximity", "ground", "neighbours", "light"});
+}
 
 /// A value a feed.
 template <class T>

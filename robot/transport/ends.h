@@ -12,7 +12,8 @@ namespace swarmsmith {
 
 /// The three ends of what connects control software, drivers and operator. `receive` gives the
 /// oldest message that was not taken yet; if there is none, it waits for one until `until`, and
-/// then gives nothing. Sending never blocks. One thread receives, any thread may send.
+/// then gives nothing. Sending never blocks; what only a transport says (troubles, rivals)
+/// is not sent. One thread receives, any thread may send.
 
 /// Which messages are kept until they are taken.
 enum class Keep {
@@ -27,9 +28,6 @@ enum class WheelsForm {
   Twist,    ///< `cmd_vel`: speed and turn rate
 };
 
-/// Distance of the treads, for WheelsForm::Twist.
-inline constexpr double kTreadDistance_m = 0.147;
-
 /// Which sensors a node listens to, or a world sends.
 struct SensorTopics {
   bool ranges = true;
@@ -39,7 +37,7 @@ struct SensorTopics {
   bool scan = false;
   bool neighbours = false;
   bool light = false;
-  bool body = false;    ///< imu, odom and battery
+  bool battery = false;
   bool driven = false;  ///< what the driver of the treads says
   bool senses = false;  ///< lock-step by number; then none of the others is needed
 };
@@ -63,10 +61,7 @@ class RobotEnd {
  public:
   virtual ~RobotEnd() = default;
   virtual std::optional<ToRobot> receive(TimePoint until) = 0;
-  virtual void send(const WheelsMessage& wheels) = 0;
-  virtual void send(const LedsMessage& leds) = 0;
-  virtual void send(const StateMessage& state) = 0;
-  virtual void send(const AnswerMessage& answer) = 0;
+  virtual void send(const FromRobot& message) = 0;
   /// Drivers, a world and all others that get what this node commands.
   virtual std::vector<Listener> listeners() = 0;
   /// Whether there is one: what was sent before is lost.
@@ -88,16 +83,7 @@ class WorldEnd {
   virtual std::size_t robots() const = 0;
   virtual const std::string& name(std::size_t robot) const = 0;
   virtual std::optional<Received> receive(TimePoint until) = 0;
-  virtual void send(std::size_t robot, const RangesMessage& ranges) = 0;
-  virtual void send(std::size_t robot, const GroundColorMessage& color) = 0;
-  virtual void send(std::size_t robot, const ScanMessage& scan) = 0;
-  virtual void send(std::size_t robot, const NeighboursMessage& neighbours) = 0;
-  virtual void send(std::size_t robot, const LightMessage& light) = 0;
-  virtual void send(std::size_t robot, const ImuMessage& imu) = 0;
-  virtual void send(std::size_t robot, const OdometryMessage& odometry) = 0;
-  virtual void send(std::size_t robot, const BatteryMessage& battery) = 0;
-  virtual void send(std::size_t robot, const DrivenMessage& driven) = 0;
-  virtual void send(std::size_t robot, const SensesMessage& senses) = 0;
+  virtual void send(std::size_t robot, const ToRobot& message) = 0;
   /// Whether the robot's node listens to all that it needs: what was sent before is lost.
   virtual bool connected(std::size_t robot) = 0;
   virtual void flush(Duration most) = 0;

@@ -12,12 +12,6 @@ TimePoint now() {
   return SystemClock().now();
 }
 
-template <class Message>
-Message arrived(Message message) {
-  message.arrival.at = now();
-  return message;
-}
-
 }  // namespace
 
 struct InProcessSwarm::Impl {
@@ -25,25 +19,20 @@ struct InProcessSwarm::Impl {
     Robot(Impl& of_swarm, std::size_t at, Keep keep) : swarm(&of_swarm), index(at), inbox(keep) {}
 
     std::optional<ToRobot> receive(TimePoint until) override { return inbox.take(until); }
-    void send(const WheelsMessage& wheels) override {
-      WheelsMessage sent = wheels;
-      if (sent.sender.empty()) sent.sender = swarm->names[index];
-      swarm->world.inbox.put(index, arrived(std::move(sent)));
-    }
-    void send(const LedsMessage& leds) override { swarm->world.inbox.put(index, arrived(leds)); }
-    void send(const StateMessage& state) override {
-      swarm->world.inbox.put(index, arrived(state));
-      swarm->operating.inbox.put({index, arrived(state)});
-    }
-    void send(const AnswerMessage& answer) override {
-      swarm->world.inbox.put(index, arrived(answer));
+    void send(const FromRobot& message) override {
+      FromRobot sent = arrived(message);
+      if (auto* wheels = std::get_if<WheelsMessage>(&sent); wheels && wheels->sender.empty())
+        wheels->sender = swarm->names[index];
+      if (const auto* state = std::get_if<StateMessage>(&sent))
+        swarm->operating.inbox.put({index, *state});
+      swarm->world.inbox.put({index, std::move(sent)});
     }
     std::vector<Listener> listeners() override { return {{"world", now()}}; }
     void flush(Duration) override {}
 
     Impl* swarm;
     std::size_t index;
-    RobotInbox inbox;
+    Inbox<ToRobot> inbox;
   };
 
   struct World final : WorldEnd {
@@ -52,27 +41,17 @@ struct InProcessSwarm::Impl {
     std::size_t robots() const override { return swarm->names.size(); }
     const std::string& name(std::size_t robot) const override { return swarm->names[robot]; }
     std::optional<Received> receive(TimePoint until) override { return inbox.take(until); }
-    void send(std::size_t robot, const RangesMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const GroundColorMessage& m) override {
-      swarm->to_robot(robot, m);
+    void send(std::size_t robot, const ToRobot& message) override {
+      ToRobot sent = arrived(message);
+      if (auto* driven = std::get_if<DrivenMessage>(&sent); driven && driven->sender.empty())
+        driven->sender = "world";
+      swarm->robots[robot]->inbox.put(std::move(sent));
     }
-    void send(std::size_t robot, const ScanMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const NeighboursMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const LightMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const ImuMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const OdometryMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const BatteryMessage& m) override { swarm->to_robot(robot, m); }
-    void send(std::size_t robot, const DrivenMessage& m) override {
-      DrivenMessage sent = m;
-      if (sent.sender.empty()) sent.sender = "world";
-      swarm->to_robot(robot, sent);
-    }
-    void send(std::size_t robot, const SensesMessage& m) override { swarm->to_robot(robot, m); }
     bool connected(std::size_t) override { return true; }
     void flush(Duration) override {}
 
     Impl* swarm;
-    WorldInbox inbox;
+    Inbox<Received> inbox;
   };
 
   struct Operator final : OperatorEnd {
@@ -83,24 +62,19 @@ struct InProcessSwarm::Impl {
     std::optional<Received> receive(TimePoint until) override { return inbox.take(until); }
     void send(const OrderMessage& order) override {
       for (std::size_t i = 0; i < swarm->names.size(); ++i)
-        swarm->to_robot(i, order);
+        swarm->world.send(i, order);
     }
     bool connected(std::size_t) override { return true; }
     void flush(Duration) override {}
 
     Impl* swarm;
-    Inbox<Received> inbox;
+    Inbox<Received> inbox{Keep::All};
   };
 
   Impl(std::vector<std::string> of_robots, Keep keep)
       : names(std::move(of_robots)), world(*this, keep), operating(*this) {
     for (std::size_t i = 0; i < names.size(); ++i)
       robots.push_back(std::make_unique<Robot>(*this, i, keep));
-  }
-
-  template <class Message>
-  void to_robot(std::size_t robot, const Message& message) {
-    robots[robot]->inbox.put(arrived(message));
   }
 
   std::vector<std::string> names;

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
-#include <cstddef>
 #include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "base/clock.h"
 #include "robot/transport/ends.h"
@@ -15,33 +16,56 @@
 
 namespace swarmsmith {
 
-/// Of these the newest counts, and none waits behind it, unless all are kept (Keep::All).
-template <class Message>
-inline constexpr bool kNewestCounts =
-    !std::is_same_v<Message, OrderMessage> && !std::is_same_v<Message, StateMessage> &&
-    !std::is_same_v<Message, TroubleMessage>;
+/// The message, as it arrives now.
+template <class Variant>
+Variant arrived(Variant message) {
+  std::visit(
+      [](auto& one) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, TroubleMessage>)
+          one.arrival.at = SystemClock().now();
+      },
+      message);
+  return message;
+}
+
+/// Whether the older one counts no more once the newer one is there: of sensors and commands the
+/// newest counts, of each sender where several are to be noticed.
+template <class Variant>
+bool takes_place_of(const Variant& newer, const Variant& older) {
+  if (newer.index() != older.index()) return false;
+  return std::visit(
+      [&older](const auto& one) {
+        using Message = std::decay_t<decltype(one)>;
+        constexpr bool kHasText = std::is_same_v<Message, OrderMessage> ||
+                                  std::is_same_v<Message, StateMessage> ||
+                                  std::is_same_v<Message, TroubleMessage>;
+        if constexpr (kHasSender<Message>) return std::get<Message>(older).sender == one.sender;
+        return !kHasText;
+      },
+      newer);
+}
+inline bool takes_place_of(const WorldEnd::Received& newer, const WorldEnd::Received& older) {
+  return newer.robot == older.robot && takes_place_of(newer.message, older.message);
+}
+/// Its states and troubles are all kept.
+inline bool takes_place_of(const OperatorEnd::Received&, const OperatorEnd::Received&) {
+  return false;
+}
 
 /// Messages that came and were not taken yet, oldest first. Any thread puts, one takes.
 template <class Message>
 class Inbox {
  public:
+  explicit Inbox(Keep keep) : keep_(keep) {}
+
   void put(Message message) {
     {
       const std::lock_guard lock(mutex_);
-      messages_.push_back(std::move(message));
-    }
-    came_.notify_one();
-  }
-
-  /// The same; of those that wait, the first that `is_older` knows is dropped.
-  template <class IsOlder>
-  void put_newest(Message message, const IsOlder& is_older) {
-    {
-      const std::lock_guard lock(mutex_);
-      for (auto old = messages_.begin(); old != messages_.end(); ++old) {
-        if (!is_older(*old)) continue;
-        messages_.erase(old);
-        break;
+      if (keep_ == Keep::Newest) {
+        const auto old = std::find_if(
+            messages_.begin(), messages_.end(),
+            [&message](const Message& waiting) { return takes_place_of(message, waiting); });
+        if (old != messages_.end()) messages_.erase(old);
       }
       messages_.push_back(std::move(message));
     }
@@ -59,59 +83,10 @@ class Inbox {
   }
 
  private:
+  Keep keep_;
   std::mutex mutex_;
   std::condition_variable came_;
   std::deque<Message> messages_;
-};
-
-/// What came for a robot's node.
-class RobotInbox {
- public:
-  explicit RobotInbox(Keep keep) : keep_(keep) {}
-
-  template <class Message>
-  void put(Message message) {
-    if (keep_ == Keep::All || !kNewestCounts<Message>) return inbox_.put(std::move(message));
-    if constexpr (std::is_same_v<Message, DrivenMessage> || std::is_same_v<Message, RivalMessage>) {
-      const std::string sender = message.sender;  // a second one must be noticed
-      return inbox_.put_newest(std::move(message), [&sender](const ToRobot& old) {
-        const auto* of_kind = std::get_if<Message>(&old);
-        return of_kind != nullptr && of_kind->sender == sender;
-      });
-    }
-    inbox_.put_newest(std::move(message),
-                      [](const ToRobot& old) { return std::holds_alternative<Message>(old); });
-  }
-  std::optional<ToRobot> take(TimePoint until) { return inbox_.take(until); }
-
- private:
-  Keep keep_;
-  Inbox<ToRobot> inbox_;
-};
-
-/// What came for a world.
-class WorldInbox {
- public:
-  explicit WorldInbox(Keep keep) : keep_(keep) {}
-
-  template <class Message>
-  void put(std::size_t robot, Message message) {
-    if (keep_ == Keep::All || !kNewestCounts<Message>)
-      return inbox_.put({robot, std::move(message)});
-    std::string sender;  // of commands: a driver must notice a second one
-    if constexpr (std::is_same_v<Message, WheelsMessage>) sender = message.sender;
-    inbox_.put_newest({robot, std::move(message)}, [&](const WorldEnd::Received& old) {
-      if (old.robot != robot || !std::holds_alternative<Message>(old.message)) return false;
-      if constexpr (std::is_same_v<Message, WheelsMessage>)
-        return std::get<WheelsMessage>(old.message).sender == sender;
-      return true;
-    });
-  }
-  std::optional<WorldEnd::Received> take(TimePoint until) { return inbox_.take(until); }
-
- private:
-  Keep keep_;
-  Inbox<WorldEnd::Received> inbox_;
 };
 
 }  // namespace swarmsmith

@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -13,8 +16,10 @@ namespace swarmsmith {
 
 /// What travels between a robot's control software, its drivers (or a simulated world in their
 /// place) and the operator. Plain values in SI units, as they were sent: nothing is clamped,
-/// resampled or labelled yet. `kTopic` is the topic's name in the robot's name space. Robot frame:
-/// x forward, y left, angles counter-clockwise.
+/// resampled or labelled yet. Robot frame: x forward, y left, angles counter-clockwise.
+///
+/// `kTopic` is the topic's name in the robot's name space; a message without one is never sent.
+/// `kNumbers` are the fields that travel, in the order of the wire (docs/robot-messages.md).
 
 inline constexpr std::size_t kRangeSensors = 8;
 
@@ -30,6 +35,8 @@ struct RangesMessage {
   static constexpr const char* kTopic = "ranges";
   Arrival arrival{};
   std::vector<double> ranges_m{};
+
+  static constexpr std::tuple kNumbers{&RangesMessage::ranges_m};
 };
 
 /// The floor's colour, in the driver's scale (0 to 255 or 0 to 1).
@@ -39,6 +46,9 @@ struct GroundColorMessage {
   double r = 0;
   double g = 0;
   double b = 0;
+
+  static constexpr std::tuple kNumbers{&GroundColorMessage::r, &GroundColorMessage::g,
+                                       &GroundColorMessage::b};
 };
 
 /// One turn of the lidar: value i was measured at `angle_min_rad` + i * `angle_increment_rad`.
@@ -51,6 +61,10 @@ struct ScanMessage {
   double range_min_m = 0;
   double range_max_m = 0;
   std::vector<double> ranges_m{};  ///< of any length; 0, NaN, infinity: no return
+
+  static constexpr std::tuple kNumbers{
+      &ScanMessage::angle_min_rad, &ScanMessage::angle_max_rad, &ScanMessage::angle_increment_rad,
+      &ScanMessage::range_min_m,   &ScanMessage::range_max_m,   &ScanMessage::ranges_m};
 };
 
 /// A robot nearby: distance of its centre and the unit vector towards it in the robot's frame.
@@ -65,6 +79,8 @@ struct NeighboursMessage {
   static constexpr const char* kTopic = "neighbours";
   Arrival arrival{};
   std::vector<SeenRobot> robots{};
+
+  static constexpr std::tuple kNumbers{&NeighboursMessage::robots};
 };
 
 /// Lux at the directions of the proximity sensors, by index.
@@ -72,26 +88,8 @@ struct LightMessage {
   static constexpr const char* kTopic = "light";
   Arrival arrival{};
   std::vector<double> lux{};
-};
 
-/// For the log alone, as are the next two.
-struct ImuMessage {
-  static constexpr const char* kTopic = "imu";
-  Arrival arrival{};
-  std::array<double, 4> orientation{0, 0, 0, 1};  ///< quaternion x, y, z, w
-  std::array<double, 3> angular_velocity_radps{};
-  std::array<double, 3> acceleration_mps2{};
-};
-
-struct OdometryMessage {
-  static constexpr const char* kTopic = "odom";
-  Arrival arrival{};
-  double x_m = 0;
-  double y_m = 0;
-  double heading_rad = 0;
-  double vx_mps = 0;
-  double vy_mps = 0;
-  double turn_radps = 0;
+  static constexpr std::tuple kNumbers{&LightMessage::lux};
 };
 
 struct BatteryMessage {
@@ -99,6 +97,8 @@ struct BatteryMessage {
   Arrival arrival{};
   double voltage_V = 0;
   double charge = 0;  ///< 0 empty to 1 full; NaN not known
+
+  static constexpr std::tuple kNumbers{&BatteryMessage::voltage_V, &BatteryMessage::charge};
 };
 
 /// What the driver of the treads has them do: the speeds of the command that it obeys, as they
@@ -109,6 +109,8 @@ struct DrivenMessage {
   double left_mps = 0;
   double right_mps = 0;
   std::string sender{};  ///< who sent it, where the transport knows
+
+  static constexpr std::tuple kNumbers{&DrivenMessage::left_mps, &DrivenMessage::right_mps};
 };
 
 /// Speeds for this node's treads that another one sent.
@@ -136,6 +138,11 @@ struct SensesMessage {
   std::array<double, 3> color{};  ///< r, g, b, 0 to 255
   std::array<double, kRangeSensors> light_lux{};
   std::vector<SeenRobot> neighbours{};
+
+  static constexpr std::tuple kNumbers{&SensesMessage::seed,      &SensesMessage::cycle,
+                                       &SensesMessage::time_s,    &SensesMessage::ranges_m,
+                                       &SensesMessage::color,     &SensesMessage::light_lux,
+                                       &SensesMessage::neighbours};
 };
 
 /// What went wrong on the way, as a sentence: a name that does not resolve, a peer that hung up.
@@ -145,10 +152,9 @@ struct TroubleMessage {
 };
 
 /// What reaches a robot's node.
-using ToRobot =
-    std::variant<RangesMessage, GroundColorMessage, ScanMessage, NeighboursMessage, LightMessage,
-                 ImuMessage, OdometryMessage, BatteryMessage, DrivenMessage, RivalMessage,
-                 OrderMessage, SensesMessage, TroubleMessage>;
+using ToRobot = std::variant<RangesMessage, GroundColorMessage, ScanMessage, NeighboursMessage,
+                             LightMessage, BatteryMessage, DrivenMessage, RivalMessage,
+                             OrderMessage, SensesMessage, TroubleMessage>;
 
 /// Speeds of the treads over ground.
 struct WheelsMessage {
@@ -156,9 +162,11 @@ struct WheelsMessage {
   Arrival arrival{};
   double left_mps = 0;
   double right_mps = 0;
-  /// State of the machine after the cycle; sent in lock-step alone, -1 elsewhere.
-  int state = -1;
-  std::string sender{};  ///< who sent it, where the transport knows; a driver obeys only one
+  std::optional<int> state{};  ///< of the machine after the cycle; sent in lock-step alone
+  std::string sender{};        ///< who sent it, where the transport knows; a driver obeys only one
+
+  static constexpr std::tuple kNumbers{&WheelsMessage::left_mps, &WheelsMessage::right_mps,
+                                       &WheelsMessage::state};
 };
 
 /// Two in front, one on each side, one at the back; r, g, b of each, 0 to 255.
@@ -166,6 +174,8 @@ struct LedsMessage {
   static constexpr const char* kTopic = "leds";
   Arrival arrival{};
   std::array<double, 15> colors{};
+
+  static constexpr std::tuple kNumbers{&LedsMessage::colors};
 };
 
 /// A node's state: a JSON object. What is in it is robot/runtime's.
@@ -184,9 +194,23 @@ struct AnswerMessage {
   double left_mps = 0;
   double right_mps = 0;
   int state = 0;  ///< of the machine, after the cycle
+
+  static constexpr std::tuple kNumbers{&AnswerMessage::seed, &AnswerMessage::cycle,
+                                       &AnswerMessage::left_mps, &AnswerMessage::right_mps,
+                                       &AnswerMessage::state};
 };
 
 using FromRobot =
     std::variant<WheelsMessage, LedsMessage, StateMessage, AnswerMessage, TroubleMessage>;
+
+template <class Message, class = void>
+inline constexpr bool kTravels = false;
+template <class Message>
+inline constexpr bool kTravels<Message, std::void_t<decltype(Message::kTopic)>> = true;
+
+template <class Message, class = void>
+inline constexpr bool kHasSender = false;
+template <class Message>
+inline constexpr bool kHasSender<Message, std::void_t<decltype(Message::sender)>> = true;
 
 }  // namespace swarmsmith

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "robot/transport/messages.h"
@@ -7,57 +13,110 @@
 namespace swarmsmith {
 
 /// Messages as rows of numbers, as they travel where a transport has no type of its own for them
-/// (docs/robot-messages.md). Arrivals are no part of them. `read_numbers` is false, and the message
-/// untouched, when there are more or fewer numbers than the message has, or when one of them cannot
-/// be what it stands for.
+/// (docs/robot-messages.md): the fields of `kNumbers`, one after the other. A neighbour is d, x, y;
+/// what is optional or of any length stands at the end. Arrivals are not part of them.
 
-/// d, x, y of each.
-std::vector<double> numbers_of(const NeighboursMessage& neighbours);
-bool read_numbers(const std::vector<double>& numbers, NeighboursMessage& neighbours);
+namespace detail {
 
-/// seed, cycle, time_s, 8 ranges, r, g, b, 8 lux, then d, x, y of each neighbour.
-std::vector<double> numbers_of(const SensesMessage& senses);
-bool read_numbers(const std::vector<double>& numbers, SensesMessage& senses);
+class NumberWriter {
+ public:
+  void operator()(double number) { numbers_.push_back(number); }
+  void operator()(std::int64_t number) { numbers_.push_back(static_cast<double>(number)); }
+  void operator()(int number) { numbers_.push_back(number); }
+  void operator()(const SeenRobot& robot) {
+    numbers_.insert(numbers_.end(), {robot.distance_m, robot.direction_x, robot.direction_y});
+  }
+  template <class Number>
+  void operator()(const std::optional<Number>& number) {
+    if (number) (*this)(*number);
+  }
+  template <class List>
+  void operator()(const List& list) {
+    for (const auto& item : list)
+      (*this)(item);
+  }
+  std::vector<double> take() { return std::move(numbers_); }
 
-/// seed, cycle, left, right, state.
-std::vector<double> numbers_of(const AnswerMessage& answer);
-bool read_numbers(const std::vector<double>& numbers, AnswerMessage& answer);
+ private:
+  std::vector<double> numbers_;
+};
 
-/// left, right, and the state where it is sent.
-std::vector<double> numbers_of(const WheelsMessage& wheels);
-bool read_numbers(const std::vector<double>& numbers, WheelsMessage& wheels);
+/// Takes number after number; is wrong for good once one is missing or cannot be.
+class NumberReader {
+ public:
+  explicit NumberReader(const std::vector<double>& numbers) : numbers_(numbers) {}
 
-/// r, g, b of each of the five.
-std::vector<double> numbers_of(const LedsMessage& leds);
-bool read_numbers(const std::vector<double>& numbers, LedsMessage& leds);
+  void operator()(double& number) {
+    if (at_ < numbers_.size()) {
+      number = numbers_[at_++];
+    } else {
+      right_ = false;
+    }
+  }
+  void operator()(std::int64_t& number) {
+    constexpr double kLargestWhole = 9007199254740992.0;  // up to here doubles are exact
+    number = whole(-kLargestWhole, kLargestWhole);
+  }
+  /// A state of a machine.
+  void operator()(int& number) { number = static_cast<int>(whole(0, 1000)); }
+  void operator()(SeenRobot& robot) {
+    (*this)(robot.distance_m);
+    (*this)(robot.direction_x);
+    (*this)(robot.direction_y);
+  }
+  template <class Number>
+  void operator()(std::optional<Number>& number) {
+    number.reset();
+    if (at_ < numbers_.size()) (*this)(number.emplace());
+  }
+  template <class Number, std::size_t N>
+  void operator()(std::array<Number, N>& numbers) {
+    for (Number& number : numbers)
+      (*this)(number);
+  }
+  /// All that is left.
+  template <class Number>
+  void operator()(std::vector<Number>& numbers) {
+    numbers.clear();
+    while (at_ < numbers_.size())
+      (*this)(numbers.emplace_back());
+  }
+  bool all_read() const { return right_ && at_ == numbers_.size(); }
 
-std::vector<double> numbers_of(const RangesMessage& ranges);
-bool read_numbers(const std::vector<double>& numbers, RangesMessage& ranges);
+ private:
+  std::int64_t whole(double least, double most) {
+    double number = 0;
+    (*this)(number);
+    if (number >= least && number <= most && number == std::floor(number))
+      return static_cast<std::int64_t>(number);
+    right_ = false;
+    return 0;
+  }
 
-std::vector<double> numbers_of(const GroundColorMessage& color);
-bool read_numbers(const std::vector<double>& numbers, GroundColorMessage& color);
+  const std::vector<double>& numbers_;
+  std::size_t at_ = 0;
+  bool right_ = true;
+};
 
-/// angle_min, angle_max, angle_increment, range_min, range_max, then the values.
-std::vector<double> numbers_of(const ScanMessage& scan);
-bool read_numbers(const std::vector<double>& numbers, ScanMessage& scan);
+}  // namespace detail
 
-std::vector<double> numbers_of(const LightMessage& light);
-bool read_numbers(const std::vector<double>& numbers, LightMessage& light);
+template <class Message>
+std::vector<double> numbers_of(const Message& message) {
+  detail::NumberWriter writer;
+  std::apply([&](auto... field) { (writer(message.*field), ...); }, Message::kNumbers);
+  return writer.take();
+}
 
-/// Quaternion x, y, z, w; turn rates; accelerations.
-std::vector<double> numbers_of(const ImuMessage& imu);
-bool read_numbers(const std::vector<double>& numbers, ImuMessage& imu);
-
-/// x, y, heading, vx, vy, turn rate.
-std::vector<double> numbers_of(const OdometryMessage& odometry);
-bool read_numbers(const std::vector<double>& numbers, OdometryMessage& odometry);
-
-/// Voltage, charge.
-std::vector<double> numbers_of(const BatteryMessage& battery);
-bool read_numbers(const std::vector<double>& numbers, BatteryMessage& battery);
-
-/// left, right.
-std::vector<double> numbers_of(const DrivenMessage& driven);
-bool read_numbers(const std::vector<double>& numbers, DrivenMessage& driven);
+/// False, and the message untouched, when there are more or fewer numbers than the message has, or
+/// when one of them cannot be what it stands for.
+template <class Message>
+bool read_numbers(const std::vector<double>& numbers, Message& message) {
+  Message read = message;  // also what does not travel
+  detail::NumberReader reader(numbers);
+  std::apply([&](auto... field) { (reader(read.*field), ...); }, Message::kNumbers);
+  if (!reader.all_read()) return false;
+  message = std::move(read);
+  return true;
+}
 
 }  // namespace swarmsmith

@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
-#include <system_error>
 #include <utility>
+
+#include "base/math.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 
 namespace {
 
+constexpr std::int64_t kMostValues = 100'000;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPi = 3.141592653589793;
 
-constexpr std::array<std::pair<std::string_view, Fault::Sensor>, 5> kSensors = {
-    {{"ranges", Fault::Sensor::Ranges},
-     {"ground_color", Fault::Sensor::GroundColor},
-     {"scan", Fault::Sensor::Scan},
-     {"neighbours", Fault::Sensor::Neighbours},
-     {"light", Fault::Sensor::Light}}};
+constexpr std::array<std::string_view, 5> kSensors = {
+    RangesMessage::kTopic, GroundColorMessage::kTopic, ScanMessage::kTopic,
+    NeighboursMessage::kTopic, LightMessage::kTopic};
 
 std::vector<std::string_view> split(std::string_view text, char at) {
   std::vector<std::string_view> parts;
@@ -31,13 +29,6 @@ std::vector<std::string_view> split(std::string_view text, char at) {
   }
 }
 
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && at == end;
-}
-
 bool read_kind(std::string_view text, Fault& fault) {
   if (text == "silent") {
     fault.kind = Fault::Kind::Silent;
@@ -45,34 +36,75 @@ bool read_kind(std::string_view text, Fault& fault) {
     fault.kind = Fault::Kind::Nan;
   } else if (text == "turned") {
     fault.kind = Fault::Kind::Turned;
-    return fault.sensor == Fault::Sensor::Scan;
+    return fault.sensor == ScanMessage::kTopic;
   } else {
-    constexpr int kMostValues = 100'000;
+    const std::int64_t length = integer_in(text).value_or(-1);
     fault.kind = Fault::Kind::Length;
-    return read_number(text, fault.length) && fault.length >= 0 && fault.length <= kMostValues &&
-           fault.sensor != Fault::Sensor::GroundColor && fault.sensor != Fault::Sensor::Neighbours;
+    fault.length = static_cast<int>(std::clamp<std::int64_t>(length, 0, kMostValues));
+    return length == fault.length && fault.sensor != GroundColorMessage::kTopic &&
+           fault.sensor != NeighboursMessage::kTopic;
   }
   return true;
 }
 
 bool read_times(std::string_view text, Fault& fault) {
   const std::size_t dash = text.find('-');
-  if (dash == std::string_view::npos || !read_number(text.substr(0, dash), fault.from_s))
-    return false;
-  fault.to_s = std::numeric_limits<double>::infinity();
+  if (dash == std::string_view::npos) return false;
   const std::string_view to = text.substr(dash + 1);
-  return (to.empty() || read_number(to, fault.to_s)) && fault.from_s >= 0 &&
-         fault.to_s > fault.from_s;
+  fault.from_s = number_in(text.substr(0, dash)).value_or(-1);
+  fault.to_s = to.empty() ? std::numeric_limits<double>::infinity() : number_in(to).value_or(-1);
+  return fault.from_s >= 0 && fault.to_s > fault.from_s;
 }
 
-/// Other values in place of the first ones.
-void spoil(std::vector<double>& values) {
-  std::fill(values.begin(), values.end(), kNan);
+/// Other values, or as many as `fault` says, which are what the sensor saw as far as they go.
+void spoil(std::vector<double>& values, const Fault& fault) {
+  if (fault.kind == Fault::Kind::Nan) std::fill(values.begin(), values.end(), kNan);
+  if (fault.kind == Fault::Kind::Length)
+    values.resize(static_cast<std::size_t>(fault.length), std::numeric_limits<double>::infinity());
 }
 
-/// As many values, which are what the sensor saw as far as they go.
-void resize(std::vector<double>& values, int length) {
-  values.resize(static_cast<std::size_t>(length), std::numeric_limits<double>::infinity());
+void spoil(RangesMessage& message, const Fault& fault) {
+  // One sensor that is off is enough.
+  if (fault.kind == Fault::Kind::Nan && !message.ranges_m.empty()) {
+    message.ranges_m.front() = kNan;
+  } else {
+    spoil(message.ranges_m, fault);
+  }
+}
+
+void spoil(GroundColorMessage& message, const Fault&) {
+  message.r = message.g = message.b = kNan;
+}
+
+void spoil(ScanMessage& message, const Fault& fault) {
+  std::vector<double>& ranges_m = message.ranges_m;
+  if (fault.kind == Fault::Kind::Nan) spoil(ranges_m, fault);
+  if (fault.kind == Fault::Kind::Length) {
+    // One turn in so many values: each the nearest of the old ones.
+    const auto length = static_cast<std::size_t>(fault.length);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < length; ++i)
+      values.push_back(ranges_m[i * ranges_m.size() / length]);
+    ranges_m = std::move(values);
+    message.angle_increment_rad = 2 * kPi / std::max(1, fault.length);
+    message.angle_max_rad =
+        message.angle_min_rad + message.angle_increment_rad * (fault.length - 1);
+  }
+  if (fault.kind == Fault::Kind::Turned) {
+    const auto half = static_cast<std::ptrdiff_t>(ranges_m.size() / 2);
+    std::rotate(ranges_m.begin(), ranges_m.begin() + half, ranges_m.end());
+    const double turn = message.angle_increment_rad * static_cast<double>(half);
+    message.angle_min_rad += turn - 2 * kPi;
+    message.angle_max_rad += turn - 2 * kPi;
+  }
+}
+
+void spoil(NeighboursMessage& message, const Fault&) {
+  message.robots.assign(1, {kNan, kNan, kNan});
+}
+
+void spoil(LightMessage& message, const Fault& fault) {
+  spoil(message.lux, fault);
 }
 
 }  // namespace
@@ -89,10 +121,8 @@ Expected<Fault> parse_fault(std::string_view text) {
   if (parts.size() != 4 || parts[0].empty()) return wrong();
   Fault fault;
   fault.robot = parts[0];
-  const auto* sensor = std::find_if(kSensors.begin(), kSensors.end(),
-                                    [&](const auto& known) { return known.first == parts[1]; });
-  if (sensor == kSensors.end()) return wrong();
-  fault.sensor = sensor->second;
+  if (std::ranges::find(kSensors, parts[1]) == kSensors.end()) return wrong();
+  fault.sensor = parts[1];
   if (!read_kind(parts[2], fault) || !read_times(parts[3], fault)) return wrong();
   return fault;
 }
@@ -102,81 +132,22 @@ FaultySensors::FaultySensors(std::vector<Fault> faults, const std::string& robot
   std::erase_if(faults_, [&](const Fault& fault) { return fault.robot != robot; });
 }
 
-const Fault* FaultySensors::find(Fault::Sensor sensor, double time_s) const {
-  const auto found = std::find_if(faults_.begin(), faults_.end(), [&](const Fault& fault) {
-    return fault.sensor == sensor && fault.at(time_s);
-  });
-  return found == faults_.end() ? nullptr : &*found;
-}
-
-std::optional<RangesMessage> FaultySensors::pass(RangesMessage message, double time_s) const {
-  const Fault* fault = find(Fault::Sensor::Ranges, time_s);
-  if (fault == nullptr) return message;
-  if (fault->kind == Fault::Kind::Silent) return std::nullopt;
-  // One sensor that is off is enough.
-  if (fault->kind == Fault::Kind::Nan && !message.ranges_m.empty()) message.ranges_m.front() = kNan;
-  if (fault->kind == Fault::Kind::Length) resize(message.ranges_m, fault->length);
-  return message;
-}
-
-std::optional<GroundColorMessage> FaultySensors::pass(GroundColorMessage message,
-                                                      double time_s) const {
-  const Fault* fault = find(Fault::Sensor::GroundColor, time_s);
-  if (fault == nullptr) return message;
-  if (fault->kind == Fault::Kind::Silent) return std::nullopt;
-  message.r = message.g = message.b = kNan;
-  return message;
-}
-
-std::optional<ScanMessage> FaultySensors::pass(ScanMessage message, double time_s) const {
-  const Fault* fault = find(Fault::Sensor::Scan, time_s);
-  if (fault == nullptr) return message;
-  switch (fault->kind) {
-    case Fault::Kind::Silent:
-      return std::nullopt;
-    case Fault::Kind::Nan:
-      spoil(message.ranges_m);
-      break;
-    case Fault::Kind::Length: {
-      // One turn in so many values: each the nearest of the old ones.
-      const auto length = static_cast<std::size_t>(fault->length);
-      std::vector<double> values;
-      for (std::size_t i = 0; i < length; ++i)
-        values.push_back(message.ranges_m[i * message.ranges_m.size() / length]);
-      message.ranges_m = std::move(values);
-      message.angle_increment_rad = 2 * kPi / std::max(1, fault->length);
-      message.angle_max_rad =
-          message.angle_min_rad + message.angle_increment_rad * (fault->length - 1);
-      break;
-    }
-    case Fault::Kind::Turned: {
-      const auto half = static_cast<std::ptrdiff_t>(message.ranges_m.size() / 2);
-      std::rotate(message.ranges_m.begin(), message.ranges_m.begin() + half,
-                  message.ranges_m.end());
-      const double turn = message.angle_increment_rad * static_cast<double>(half);
-      message.angle_min_rad += turn - 2 * kPi;
-      message.angle_max_rad += turn - 2 * kPi;
-      break;
-    }
-  }
-  return message;
-}
-
-std::optional<NeighboursMessage> FaultySensors::pass(NeighboursMessage message,
-                                                     double time_s) const {
-  const Fault* fault = find(Fault::Sensor::Neighbours, time_s);
-  if (fault == nullptr) return message;
-  if (fault->kind == Fault::Kind::Silent) return std::nullopt;
-  message.robots.assign(1, {kNan, kNan, kNan});
-  return message;
-}
-
-std::optional<LightMessage> FaultySensors::pass(LightMessage message, double time_s) const {
-  const Fault* fault = find(Fault::Sensor::Light, time_s);
-  if (fault == nullptr) return message;
-  if (fault->kind == Fault::Kind::Silent) return std::nullopt;
-  if (fault->kind == Fault::Kind::Nan) spoil(message.lux);
-  if (fault->kind == Fault::Kind::Length) resize(message.lux, fault->length);
+std::optional<ToRobot> FaultySensors::pass(ToRobot message, double time_s) const {
+  const bool is_sent = std::visit(
+      [&](auto& one) {
+        using Message = std::decay_t<decltype(one)>;
+        if constexpr (requires(const Fault& fault) { spoil(one, fault); }) {
+          const auto fault = std::ranges::find_if(faults_, [&](const Fault& known) {
+            return known.sensor == Message::kTopic && known.at(time_s);
+          });
+          if (fault == faults_.end()) return true;
+          if (fault->kind == Fault::Kind::Silent) return false;
+          spoil(one, *fault);
+        }
+        return true;
+      },
+      message);
+  if (!is_sent) return std::nullopt;
   return message;
 }
 

@@ -14,7 +14,6 @@ namespace swarmsmith {
 /// What a simulated world does to one sensor of one robot for a while, so that people and tests see
 /// what their robots do then.
 struct Fault {
-  enum class Sensor { Ranges, GroundColor, Scan, Neighbours, Light };
   enum class Kind {
     Silent,  ///< sends nothing
     Nan,     ///< sends no numbers
@@ -23,7 +22,7 @@ struct Fault {
   };
 
   std::string robot;
-  Sensor sensor = Sensor::Ranges;
+  std::string sensor;  ///< its topic
   Kind kind = Kind::Silent;
   int length = 0;
   double from_s = 0;  ///< of the run, inclusive
@@ -43,15 +42,9 @@ class FaultySensors {
  public:
   FaultySensors(std::vector<Fault> faults, const std::string& robot);
 
-  std::optional<RangesMessage> pass(RangesMessage message, double time_s) const;
-  std::optional<GroundColorMessage> pass(GroundColorMessage message, double time_s) const;
-  std::optional<ScanMessage> pass(ScanMessage message, double time_s) const;
-  std::optional<NeighboursMessage> pass(NeighboursMessage message, double time_s) const;
-  std::optional<LightMessage> pass(LightMessage message, double time_s) const;
+  std::optional<ToRobot> pass(ToRobot message, double time_s) const;
 
  private:
-  const Fault* find(Fault::Sensor sensor, double time_s) const;
-
   std::vector<Fault> faults_;
 };
 

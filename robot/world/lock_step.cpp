@@ -37,16 +37,9 @@ class LockStep final : public Decider {
     const auto robot = static_cast<std::size_t>(question.robot);
     robots_[robot].asked = question.cycle;
     if (sensors_.senses) return end_->send(robot, senses_message(question, seed_));
-    const Arrival arrival{{}, stamp_of_time(question.time_s)};
-    const auto send = [&](auto message) {
-      message.arrival = arrival;
+    for (const ToRobot& message :
+         driver_messages(sensors_, question.senses, stamp_of_time(question.time_s)))
       end_->send(robot, message);
-    };
-    if (sensors_.ranges) send(ranges_message(question.senses));
-    if (sensors_.ground_color) send(ground_color_message(question.senses));
-    if (sensors_.scan) send(scan_message(question.senses));
-    if (sensors_.neighbours) send(neighbours_message(question.senses));
-    if (sensors_.light) send(light_message(question.senses));
   }
 
   std::optional<Answer> answer(int index) override {
@@ -122,7 +115,7 @@ class LockStep final : public Decider {
   void take(std::size_t robot, const WheelsMessage& wheels) {
     // Before the first question a node may say that it stands still.
     if (sensors_.senses || robots_[robot].asked == 0) return;
-    if (wheels.state < 0) {
+    if (!wheels.state) {
       throw RunEnded({ErrorKind::BadInput,
                       "sends commands without the controller's state: its node does not run in "
                       "lock-step by counting",
@@ -137,7 +130,7 @@ class LockStep final : public Decider {
     }
     robots_[robot].answers.push_back(
         {.command = {.left_mps = wheels.left_mps, .right_mps = wheels.right_mps, .leds = {}},
-         .state = wheels.state});
+         .state = *wheels.state});
   }
 
   WorldEnd* end_;

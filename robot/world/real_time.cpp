@@ -20,10 +20,6 @@ struct Broken : std::exception {
   std::optional<Error> error;
 };
 
-Duration seconds(double value) {
-  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(value));
-}
-
 std::string time_text(double time_s) {
   char buffer[32];
   const int size = std::snprintf(buffer, sizeof buffer, "%.2f s: ", time_s);
@@ -54,7 +50,7 @@ class Laboratory final : public Decider {
   /// Until then, messages come in.
   void begin(double time_s) override {
     time_s_ = time_s;
-    const TimePoint due = zero_ + seconds(time_s);
+    const TimePoint due = zero_ + duration_of(time_s);
     if (waits_ && start_ && due >= *start_) throw Broken(std::nullopt);
     if (options_->is_over()) throw Broken(Error{ErrorKind::Unavailable, "stopped", {}});
     while (const auto received = end_->receive(due))
@@ -67,29 +63,13 @@ class Laboratory final : public Decider {
     const auto robot = static_cast<std::size_t>(question.robot);
     // Faults are of the run.
     const double time_s = waits_ ? -1 : question.time_s;
-    const Arrival arrival{{}, stamp_now()};
+    const std::int64_t stamp_ns = stamp_now();
     const FaultySensors& faults = *robots_[robot].faults;
-    const auto send = [&](auto message) {
-      message.arrival = arrival;
-      if (auto passed = faults.pass(std::move(message), time_s)) end_->send(robot, *passed);
-    };
-    if (sensors_.ranges) send(ranges_message(question.senses));
-    if (sensors_.ground_color) send(ground_color_message(question.senses));
-    if (sensors_.scan) send(scan_message(question.senses));
-    if (sensors_.neighbours) send(neighbours_message(question.senses));
-    if (sensors_.light) send(light_message(question.senses));
+    for (ToRobot& message : driver_messages(sensors_, question.senses, stamp_ns)) {
+      if (const auto passed = faults.pass(std::move(message), time_s)) end_->send(robot, *passed);
+    }
     say_driven(robot);
-    if (!sensors_.body) return;
-    const auto send_body = [&](auto message) {
-      message.arrival = arrival;
-      end_->send(robot, message);
-    };
-    send_body(imu_message(question.senses));
-    send_body(odometry_message(question.senses));
-    BatteryMessage battery;
-    battery.voltage_V = 7.4;
-    battery.charge = 1;
-    send_body(battery);
+    if (sensors_.battery) end_->send(robot, BatteryMessage{{{}, stamp_ns}, 7.4, 1});
   }
 
   std::optional<Answer> answer(int index) override {

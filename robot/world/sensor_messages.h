@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "robot/transport/ends.h"
 #include "robot/transport/messages.h"
 #include "sim/engine/decider.h"
@@ -11,13 +14,9 @@ namespace swarmsmith {
 /// All that control software may read, for lock-step by number.
 SensesMessage senses_message(const Decider::Question& question, std::int64_t seed);
 
-RangesMessage ranges_message(Senses& senses);
-GroundColorMessage ground_color_message(Senses& senses);
-NeighboursMessage neighbours_message(Senses& senses);
-LightMessage light_message(Senses& senses);
-ScanMessage scan_message(SimulatedSenses& senses);
-ImuMessage imu_message(SimulatedSenses& senses);
-OdometryMessage odometry_message(SimulatedSenses& senses);
+/// The readings as the drivers' own messages.
+std::vector<ToRobot> driver_messages(const SensorTopics& sensors, SimulatedSenses& senses,
+                                     std::int64_t stamp_ns);
 
 /// Time of the run as a header's stamp: exact for instants of 10 ms, and never 0, which is no
 /// stamp.

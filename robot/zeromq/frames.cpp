@@ -44,77 +44,78 @@ bool read_frame(std::string_view text, std::int64_t& stamp_ns, std::vector<doubl
   }
 }
 
-/// Reads the frame if it is of this topic; whether it was.
+template <class Message>
+inline constexpr bool kIsText =
+    std::is_same_v<Message, OrderMessage> || std::is_same_v<Message, StateMessage>;
+
+/// Reads the frame if it is of this topic.
 template <class Message, class Variant>
-bool read_as(std::string_view topic, std::string_view rest, std::optional<Variant>& found) {
-  if (topic != Message::kTopic) return false;
-  Message message;
-  std::vector<double> numbers;
-  if (read_frame(rest, message.arrival.stamp_ns, numbers) && read_numbers(numbers, message))
-    found = std::move(message);
-  return true;
+void read_as(std::string_view topic, std::string_view rest, std::optional<Variant>& found) {
+  if constexpr (kTravels<Message>) {
+    if (topic != Message::kTopic) return;
+    Message message;
+    std::vector<double> numbers;
+    if constexpr (kIsText<Message>) {
+      if (rest.empty()) return;
+      message.text = rest.substr(1);
+      found = std::move(message);
+    } else if (read_frame(rest, message.arrival.stamp_ns, numbers) &&
+               read_numbers(numbers, message)) {
+      found = std::move(message);
+    }
+  }
+}
+
+template <class... Messages>
+std::string frame_text(const std::variant<Messages...>& message) {
+  return std::visit(
+      [](const auto& one) -> std::string {
+        using Message = std::decay_t<decltype(one)>;
+        if constexpr (!kTravels<Message>) {
+          return {};
+        } else if constexpr (kIsText<Message>) {
+          return std::string(Message::kTopic) + ' ' + one.text;
+        } else {
+          std::string text = Message::kTopic + (' ' + std::to_string(one.arrival.stamp_ns));
+          for (const double number : numbers_of(one))
+            append(text, number);
+          return text;
+        }
+      },
+      message);
+}
+
+template <class... Messages>
+void read_any(std::string_view frame, std::optional<std::variant<Messages...>>& found) {
+  const std::string_view topic = next_word(frame);
+  (read_as<Messages>(topic, frame, found), ...);
 }
 
 }  // namespace
 
-template <class Message>
-std::string frame_of(const Message& message) {
-  std::string text(Message::kTopic);
-  if constexpr (std::is_same_v<Message, OrderMessage> || std::is_same_v<Message, StateMessage>) {
-    return text + ' ' + message.text;
-  } else {
-    text += ' ' + std::to_string(message.arrival.stamp_ns);
-    for (const double number : numbers_of(message))
-      append(text, number);
-    return text;
-  }
+std::string frame_of(const ToRobot& message) {
+  return frame_text(message);
 }
 
-template std::string frame_of(const RangesMessage&);
-template std::string frame_of(const GroundColorMessage&);
-template std::string frame_of(const ScanMessage&);
-template std::string frame_of(const NeighboursMessage&);
-template std::string frame_of(const LightMessage&);
-template std::string frame_of(const ImuMessage&);
-template std::string frame_of(const OdometryMessage&);
-template std::string frame_of(const BatteryMessage&);
-template std::string frame_of(const DrivenMessage&);
-template std::string frame_of(const SensesMessage&);
-template std::string frame_of(const OrderMessage&);
-template std::string frame_of(const WheelsMessage&);
-template std::string frame_of(const LedsMessage&);
-template std::string frame_of(const StateMessage&);
-template std::string frame_of(const AnswerMessage&);
+std::string frame_of(const FromRobot& message) {
+  return frame_text(message);
+}
 
 std::optional<ToRobot> message_to_robot(std::string_view frame) {
-  const std::string_view topic = next_word(frame);
   std::optional<ToRobot> found;
-  if (topic == OrderMessage::kTopic) {
-    if (!frame.empty()) found = OrderMessage{{}, std::string(frame.substr(1))};
-    return found;
-  }
-  (void)(read_as<RangesMessage>(topic, frame, found) ||
-         read_as<GroundColorMessage>(topic, frame, found) ||
-         read_as<ScanMessage>(topic, frame, found) ||
-         read_as<NeighboursMessage>(topic, frame, found) ||
-         read_as<LightMessage>(topic, frame, found) || read_as<ImuMessage>(topic, frame, found) ||
-         read_as<OdometryMessage>(topic, frame, found) ||
-         read_as<BatteryMessage>(topic, frame, found) ||
-         read_as<DrivenMessage>(topic, frame, found) ||
-         read_as<SensesMessage>(topic, frame, found));
+  read_any(frame, found);
   return found;
 }
 
 std::optional<FromRobot> message_from_robot(std::string_view frame) {
-  const std::string_view topic = next_word(frame);
   std::optional<FromRobot> found;
-  if (topic == StateMessage::kTopic) {
-    if (!frame.empty()) found = StateMessage{{}, std::string(frame.substr(1))};
-    return found;
-  }
-  (void)(read_as<WheelsMessage>(topic, frame, found) || read_as<LedsMessage>(topic, frame, found) ||
-         read_as<AnswerMessage>(topic, frame, found));
+  read_any(frame, found);
   return found;
+}
+
+bool is_unused_frame(std::string_view frame) {
+  const std::string_view topic = next_word(frame);
+  return topic == "imu" || topic == "odom";
 }
 
 std::string hello_frame(const std::vector<std::string>& words) {

@@ -16,13 +16,17 @@ namespace swarmsmith {
 /// "ranges 0 0.31 inf nan ...". Numbers have the shortest digits that read back to the same bits.
 /// "order" and "state" have their JSON object behind the name alone.
 
-template <class Message>
-std::string frame_of(const Message& message);
+/// Empty for what does not travel.
+std::string frame_of(const ToRobot& message);
+std::string frame_of(const FromRobot& message);
 
 /// A frame that was read; `arrival.at` is not set. Nothing: no such topic, or other numbers than it
 /// has.
 std::optional<ToRobot> message_to_robot(std::string_view frame);
 std::optional<FromRobot> message_from_robot(std::string_view frame);
+
+/// Whether drivers may send the frame though nodes have no use for it: "imu" and "odom".
+bool is_unused_frame(std::string_view frame);
 
 /// The first words of a connection. A driver, world or operator says "hello driver" or "hello
 /// operator"; the node answers "hello NAME TOPIC...", with the topics that it needs.

@@ -27,22 +27,12 @@ constexpr std::chrono::milliseconds kTryAgain{200};
 /// For what was sent last, treads that stand still above all, when an end goes.
 constexpr std::chrono::milliseconds kLastFrames{200};
 
-template <class Variant>
-void set_arrival(Variant& message) {
-  const TimePoint now = SystemClock().now();
-  std::visit(
-      [&](auto& one) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, TroubleMessage>)
-          one.arrival.at = now;
-      },
-      message);
-}
-
 /// Frames on their way out, put by any thread.
 class Outbox {
  public:
-  /// `topic` is dropped where it waits already, unless it is empty.
+  /// `newest_only`: a frame of the same topic that still waits is dropped.
   void put(std::string frame, bool newest_only) {
+    if (frame.empty()) return;
     {
       const std::lock_guard lock(mutex_);
       if (newest_only) {
@@ -109,14 +99,11 @@ class ServingEnd final : public RobotEnd {
   }
 
   std::optional<ToRobot> receive(TimePoint until) override { return inbox_.take(until); }
-  void send(const WheelsMessage& wheels) override {
-    outbox_.put(frame_of(wheels), keep_ == Keep::Newest);
+  void send(const FromRobot& message) override {
+    const bool newest_counts = std::holds_alternative<WheelsMessage>(message) ||
+                               std::holds_alternative<LedsMessage>(message);
+    outbox_.put(frame_of(message), newest_counts && keep_ == Keep::Newest);
   }
-  void send(const LedsMessage& leds) override {
-    outbox_.put(frame_of(leds), keep_ == Keep::Newest);
-  }
-  void send(const StateMessage& state) override { outbox_.put(frame_of(state), false); }
-  void send(const AnswerMessage& answer) override { outbox_.put(frame_of(answer), false); }
   std::vector<Listener> listeners() override {
     const std::lock_guard lock(drivers_mutex_);
     return drivers_;
@@ -156,6 +143,7 @@ class ServingEnd final : public RobotEnd {
     }
     if (const auto hello = hello_of(received.frame)) return greet(received, *hello);
     auto message = message_to_robot(received.frame);
+    if (!message && is_unused_frame(received.frame)) return;
     if (!message) {
       return complain(received.peer, "sent what is no message of a driver or operator: `" +
                                          std::string(received.frame.substr(0, 40)) +
@@ -167,7 +155,7 @@ class ServingEnd final : public RobotEnd {
                                          ? "gave an order, and its key is no operator's"
                                          : "sent a sensor's message, and its key is no worker's");
     }
-    set_arrival(*message);
+    message = arrived(*std::move(message));
     if (auto* driven = std::get_if<DrivenMessage>(&*message)) {
       const auto known = peers_.find(received.peer);
       if (known == peers_.end() || !known->second.drives) {
@@ -177,7 +165,7 @@ class ServingEnd final : public RobotEnd {
       }
       driven->sender = known->second.name;
     }
-    std::visit([this](auto& one) { inbox_.put(std::move(one)); }, *message);
+    inbox_.put(*std::move(message));
   }
 
   /// "client at 10.0.0.11 (connection 3)".
@@ -247,7 +235,7 @@ class ServingEnd final : public RobotEnd {
 
   Keep keep_;
   std::vector<std::string> hello_;
-  RobotInbox inbox_;
+  Inbox<ToRobot> inbox_;
   Outbox outbox_;
   std::unique_ptr<ServerSocket> socket_;
   std::map<PeerId, Peer> peers_;
@@ -265,16 +253,14 @@ class ServingEnd final : public RobotEnd {
 /// A connection to one robot's node, in a thread of its own.
 class NodeLink {
  public:
-  struct Events {
-    std::function<void(FromRobot)> message;
-    std::function<void(std::string)> trouble;
-  };
+  /// What the node sent, and troubles with it.
+  using OnMessage = std::function<void(FromRobot)>;
 
   NodeLink(RobotPlace place, std::string_view greeting, std::optional<ClientKeys> keys,
-           Events events)
+           OnMessage on_message)
       : place_(std::move(place)),
         greeting_(greeting),
-        events_(std::move(events)),
+        on_message_(std::move(on_message)),
         socket_(place_.endpoint, {}, std::move(keys)) {
     thread_ = std::thread([this] { run(); });
   }
@@ -334,7 +320,7 @@ class NodeLink {
   }
 
   void tell(const std::string& text) {
-    if (std::exchange(told_, text) != text) events_.trouble(text);
+    if (std::exchange(told_, text) != text) on_message_(TroubleMessage{text});
   }
 
   void hear() {
@@ -351,14 +337,14 @@ class NodeLink {
       return tell(place_.name + " sent what is no message of a node: `" + frame_.substr(0, 40) +
                   "`");
     }
-    set_arrival(*message);
+    message = arrived(*std::move(message));
     if (auto* wheels = std::get_if<WheelsMessage>(&*message)) wheels->sender = place_.endpoint;
-    events_.message(std::move(*message));
+    on_message_(*std::move(message));
   }
 
   RobotPlace place_;
   std::string greeting_;
-  Events events_;
+  OnMessage on_message_;
   Outbox outbox_;
   ClientSocket socket_;
   std::string frame_;
@@ -371,91 +357,83 @@ class NodeLink {
   std::thread thread_;
 };
 
-bool all_sent(const std::vector<std::unique_ptr<NodeLink>>& links) {
-  return std::all_of(links.begin(), links.end(), [](const auto& link) { return link->sent(); });
-}
+/// Connections to the nodes of all robots.
+class NodeLinks {
+ public:
+  using OnMessage = std::function<void(std::size_t robot, FromRobot)>;
+
+  NodeLinks(std::vector<RobotPlace> places, std::string_view greeting,
+            const NodeClientOptions& options, const OnMessage& on_message) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      links_.push_back(std::make_unique<NodeLink>(
+          std::move(places[i]), greeting, options.keys,
+          [on_message, i](FromRobot message) { on_message(i, std::move(message)); }));
+    }
+  }
+
+  std::size_t size() const { return links_.size(); }
+  NodeLink& operator[](std::size_t robot) const { return *links_[robot]; }
+  void flush(Duration most) const {
+    wait_until_sent(
+        [this] { return std::ranges::all_of(links_, [](const auto& one) { return one->sent(); }); },
+        most);
+  }
+
+ private:
+  std::vector<std::unique_ptr<NodeLink>> links_;
+};
 
 class ClientWorldEnd final : public WorldEnd {
  public:
   ClientWorldEnd(std::vector<RobotPlace> places, const NodeClientOptions& options)
-      : keep_(options.end.keep), inbox_(options.end.keep) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      links_.push_back(std::make_unique<NodeLink>(
-          std::move(places[i]), kDriver, options.keys,
-          NodeLink::Events{.message =
-                               [this, i](FromRobot message) {
-                                 std::visit([&](auto& one) { inbox_.put(i, std::move(one)); },
-                                            message);
-                               },
-                           .trouble =
-                               [this, i](std::string text) {
-                                 inbox_.put(i, TroubleMessage{std::move(text), false});
-                               }}));
-    }
-  }
+      : keep_(options.end.keep),
+        inbox_(keep_),
+        links_(std::move(places), kDriver, options, [this](std::size_t robot, FromRobot message) {
+          inbox_.put({robot, std::move(message)});
+        }) {}
 
   std::size_t robots() const override { return links_.size(); }
-  const std::string& name(std::size_t robot) const override { return links_[robot]->name(); }
+  const std::string& name(std::size_t robot) const override { return links_[robot].name(); }
   std::optional<Received> receive(TimePoint until) override { return inbox_.take(until); }
-  void send(std::size_t robot, const RangesMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const GroundColorMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const ScanMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const NeighboursMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const LightMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const ImuMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const OdometryMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const BatteryMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const DrivenMessage& m) override { put(robot, m); }
-  void send(std::size_t robot, const SensesMessage& m) override { put(robot, m); }
-  bool connected(std::size_t robot) override { return links_[robot]->connected(); }
-  void flush(Duration most) override {
-    wait_until_sent([this] { return all_sent(links_); }, most);
+  void send(std::size_t robot, const ToRobot& message) override {
+    links_[robot].send(frame_of(message), keep_ == Keep::Newest);
   }
+  bool connected(std::size_t robot) override { return links_[robot].connected(); }
+  void flush(Duration most) override { links_.flush(most); }
 
  private:
-  template <class Message>
-  void put(std::size_t robot, const Message& message) {
-    links_[robot]->send(frame_of(message), keep_ == Keep::Newest);
-  }
-
   Keep keep_;
-  WorldInbox inbox_;
-  std::vector<std::unique_ptr<NodeLink>> links_;  ///< end first: they put into the inbox
+  Inbox<Received> inbox_;
+  NodeLinks links_;  ///< end first: they put into the inbox
 };
 
 class ClientOperatorEnd final : public OperatorEnd {
  public:
-  ClientOperatorEnd(std::vector<RobotPlace> places, const NodeClientOptions& options) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      links_.push_back(std::make_unique<NodeLink>(
-          std::move(places[i]), kOperator, options.keys,
-          NodeLink::Events{.message =
-                               [this, i](FromRobot message) {
-                                 if (auto* state = std::get_if<StateMessage>(&message))
-                                   inbox_.put({i, std::move(*state)});
-                               },
-                           .trouble =
-                               [this, i](std::string text) {
-                                 inbox_.put({i, TroubleMessage{std::move(text), false}});
-                               }}));
+  ClientOperatorEnd(std::vector<RobotPlace> places, const NodeClientOptions& options)
+      : links_(std::move(places), kOperator, options,
+               [this](std::size_t robot, FromRobot message) { hear(robot, std::move(message)); }) {}
+
+  std::size_t robots() const override { return links_.size(); }
+  const std::string& name(std::size_t robot) const override { return links_[robot].name(); }
+  std::optional<Received> receive(TimePoint until) override { return inbox_.take(until); }
+  void send(const OrderMessage& order) override {
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      links_[i].send(frame_of(ToRobot(order)), false);
+  }
+  bool connected(std::size_t robot) override { return links_[robot].connected(); }
+  void flush(Duration most) override { links_.flush(most); }
+
+ private:
+  void hear(std::size_t robot, FromRobot message) {
+    if (auto* state = std::get_if<StateMessage>(&message)) {
+      inbox_.put({robot, std::move(*state)});
+    } else if (auto* trouble = std::get_if<TroubleMessage>(&message)) {
+      inbox_.put({robot, std::move(*trouble)});
     }
   }
 
-  std::size_t robots() const override { return links_.size(); }
-  const std::string& name(std::size_t robot) const override { return links_[robot]->name(); }
-  std::optional<Received> receive(TimePoint until) override { return inbox_.take(until); }
-  void send(const OrderMessage& order) override {
-    for (const auto& link : links_)
-      link->send(frame_of(order), false);
-  }
-  bool connected(std::size_t robot) override { return links_[robot]->connected(); }
-  void flush(Duration most) override {
-    wait_until_sent([this] { return all_sent(links_); }, most);
-  }
-
- private:
-  Inbox<Received> inbox_;
-  std::vector<std::unique_ptr<NodeLink>> links_;
+  Inbox<Received> inbox_{Keep::All};
+  NodeLinks links_;
 };
 
 std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool has_keys) {

@@ -25,7 +25,7 @@ std::optional<KeptConstants> kept_constants(const Outline& body) {
   if (body == Outline(BoxOutline{kBodySide_m, kBodySide_m})) return std::nullopt;
   return KeptConstants{.mass_kg = kMass_kg,
                        .drive_N = kMaxForce_N,
-                       .treads_m = kWheelSeparation_m,
+                       .treads_m = kTreadDistance_m,
                        .ground_sensor_m = kGroundSensorAhead_m,
                        .ground_sensor_is_outside = !has_ground_sensor_inside(body),
                        .height_m = kBodyHeight_m,

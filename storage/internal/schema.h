@@ -15,7 +15,7 @@ namespace swarmsmith {
 /// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). A change of either is a new version.
-inline constexpr std::int64_t kSchemaVersion = 13;
+inline constexpr std::int64_t kSchemaVersion = 14;
 /// The version that changed tables of before last: what came later are other views of the same
 /// tables, indexes, and tables of their own.
 inline constexpr std::int64_t kTablesVersion = 6;

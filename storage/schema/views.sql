@@ -1,6 +1,13 @@
 -- The public schema: documented column by column in docs/storage.md, fixed by
 -- tests/storage/views_test.cpp. A change is a new schema version.
 
+-- Not public: what acts of `extend` have added to designs' budgets.
+CREATE VIEW design_extension AS
+SELECT design, sum(budget) AS budget
+FROM command
+WHERE kind = 'extend' AND step IS NOT NULL
+GROUP BY design;
+
 -- Ids of candidates are numbered through designs: those of a campaign's designs lie in one range.
 CREATE VIEW v_campaign_status AS
 SELECT c.name, c.state, c.seed, c.designs, c.designs_finished, c.designs_stopped, c.budget, c.used,
@@ -17,9 +24,11 @@ SELECT c.name, c.state, c.seed, c.designs, c.designs_finished, c.designs_stopped
        c.created, c.finished, c.campaign
 FROM (SELECT k.id AS campaign, k.name, k.state, k.seed, k.designs_before, k.created, k.finished,
              count(d.id) AS designs, count(nullif(d.state = 3, 0)) AS designs_finished,
-             count(nullif(d.state = 4, 0)) AS designs_stopped, coalesce(sum(d.budget), 0) AS budget,
+             count(nullif(d.state = 4, 0)) AS designs_stopped,
+             coalesce(sum(d.budget), 0) + coalesce(sum(x.budget), 0) AS budget,
              coalesce(sum(d.used), 0) AS used
       FROM campaign AS k LEFT JOIN design AS d ON d.campaign = k.id
+      LEFT JOIN design_extension AS x ON x.design = d.id
       GROUP BY k.id) AS c;
 
 CREATE VIEW v_campaigns AS
@@ -32,7 +41,12 @@ CREATE VIEW v_designs AS
 SELECT id AS design, mission, method, repetition, seed,
        CASE state WHEN 0 THEN 'waiting' WHEN 1 THEN 'racing' WHEN 2 THEN 'testing'
                   WHEN 3 THEN 'finished' WHEN 4 THEN 'stopped' END AS state,
-       budget, used, iteration, best AS best_candidate,
+       budget + coalesce((SELECT x.budget FROM design_extension AS x WHERE x.design = design.id), 0)
+         AS budget,
+       used,
+       max(iteration, coalesce((SELECT max(i.number) FROM iteration AS i WHERE i.design = design.id), 0))
+         AS iteration,
+       best AS best_candidate,
        CASE WHEN best IS NOT NULL AND used > 0 THEN best_mean END AS best_mean, reason, flavour,
        campaign, name
 FROM design;

@@ -48,6 +48,9 @@ LiveStatus fleet() {
   live.leased = 3;
   live.evaluations_per_s = 412;
   live.failed = 3;
+  live.used_per_s = 412;
+  live.campaigns = std::make_shared<const std::vector<CampaignStatus>>(std::vector<CampaignStatus>{
+      {.designs = {{.id = {1}, .used = 26'209, .budget = 50'000}, {.id = {2}, .budget = 50'000}}}});
   return live;
 }
 
@@ -78,24 +81,28 @@ TEST(StatusLine, LeavesOutWhatIsNeededLeast) {
     EXPECT_LE(status_line(models, fleet(), width).size(), width);
 }
 
-/// A step of many candidates, or of slow ones, may take minutes.
 TEST(StatusLine, CountsWithinAStep) {
   EvaluationRow evaluation{.key = {.candidate = candidate_id({1}, 7), .purpose = Purpose::Race}};
   evaluation.iteration = 5;
   EvaluationRow ahead = evaluation;
   ahead.iteration = 0;
-  EXPECT_EQ(model_after({kIteration, kStep, evaluation, evaluation, ahead}).used(),
-            model_after({kIteration, kStep}).used() + 2);
-  EXPECT_EQ(model_after({kIteration, evaluation, kStep}).used(),
-            model_after({kIteration, kStep}).used());
+  std::vector<ProgressModel> models =
+      models_after({kIteration, kStep, evaluation, evaluation, ahead});
+  EXPECT_EQ(models.front().totals().used, model_after({kIteration, kStep}).totals().used);
+  EXPECT_EQ(models.front().totals().in_step, 2);
+  EXPECT_THAT(plain_status(models, fleet()), HasSubstr("  26 211/100 000  "));
+  models.front().drop_open_steps();
+  EXPECT_THAT(plain_status(models, fleet()), HasSubstr("  26 209/100 000  "));
+  EXPECT_EQ(model_after({kIteration, evaluation, kStep}).totals().in_step, 0);
 }
 
-TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
+TEST(StatusLine, NothingIsLeftOfAFinishedDesign) {
   const ProgressModel model = model_after({DesignStateRow{
       .design = {1}, .state = DesignState::Finished, .used = 49'990, .best = {}, .reason = {}}});
-  EXPECT_EQ(model.used(), 50'000);
-  EXPECT_EQ(model.finished(), 1);
-  EXPECT_EQ(model.current()->design.id, DesignId{2});
+  EXPECT_EQ(model.totals().used, 49'990);
+  EXPECT_EQ(model.totals().left, 50'000) << "of the other";
+  EXPECT_EQ(model.totals().finished, 1);
+  EXPECT_EQ(model.current()->id, DesignId{2});
 }
 
 TEST(StatusLine, SaysWhenNobodyWorks) {
@@ -318,18 +325,18 @@ TEST(ProgressModel, CountsAnExtensionOnce) {
       .number = 3, .kind = CommandKind::Extend, .design = {1}, .step = {}, .budget = 500};
   ProgressModel model(kDesigns);
   model.add(extension);
-  EXPECT_EQ(model.budget(), 100'000);
+  EXPECT_EQ(model.totals().budget, 100'000);
   extension.step = 12;
   model.add(extension);
   model.add(extension);
-  EXPECT_EQ(model.budget(), 100'500);
+  EXPECT_EQ(model.totals().budget, 100'500);
 }
 
 TEST(Progress, OfACampaignThatGoesOnBeginsWhereItWas) {
   Printer printer(flags());
   printer.progress().restore(0, kFinished);
   EXPECT_EQ(printer.err(), "");
-  EXPECT_EQ(printer.progress().model().finished(), 1);
+  EXPECT_EQ(printer.progress().model().totals().finished, 1);
 }
 
 }  // namespace

@@ -27,13 +27,13 @@ LiveStatus cluster() {
                      .busy = 0.9});
   }
   status.fleet = std::make_shared<const std::vector<WorkerStatus>>(fleet);
-  CampaignStatus campaign{.name = "thesis", .used = 1000, .budget = 37'000};
+  CampaignStatus campaign{.name = "thesis", .state = "running"};
   for (int i = 0; i < 30; ++i) {
-    campaign.designs.push_back({.id = i + 1,
+    campaign.designs.push_back({.id = {i + 1},
                                 .mission = "aggregation",
                                 .method = "argos3",
                                 .state = i < 20 ? DesignState::Finished : DesignState::Racing,
-                                .used = 1000,
+                                .used = i < 20 ? 990 : 100,
                                 .budget = 1000});
   }
   status.campaigns =
@@ -68,8 +68,9 @@ TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {
   const std::string text = joined(status_lines(cluster(), {200, 100}));
   EXPECT_THAT(text, HasSubstr("last minute  busy 75 %  barrier 20 %  on the way 5 %\n"));
   EXPECT_THAT(text, HasSubstr("[##############################bbbbbbbboo]"));
-  EXPECT_THAT(text, HasSubstr("designs 20/30  experiments 1000/37000 (3 %)"));
-  EXPECT_THAT(text, HasSubstr("ETA 6m00s"));
+  EXPECT_THAT(text,
+              HasSubstr("campaign thesis  running  designs 20/30  experiments 20800/30000 (70 %)"));
+  EXPECT_THAT(text, HasSubstr("ETA 1m30s"));
 }
 
 TEST(StatusText, PromisesNoEndWhenNothingMoves) {

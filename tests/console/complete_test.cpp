@@ -8,7 +8,7 @@
 
 #include "console/options.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using testing::ElementsAre;
@@ -115,4 +115,4 @@ TEST(WriteOffer, LeavesOutWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using testing::AllOf;
@@ -76,4 +76,4 @@ TEST(Fault, WhatTheEnvironmentSaysIsToldAsItIs) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

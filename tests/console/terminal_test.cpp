@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// What a terminal gets of what was written.
@@ -61,4 +61,4 @@ TEST_F(Screens, SayWhenNothingCanBeWritten) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

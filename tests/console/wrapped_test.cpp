@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 TEST(Wrapped, FillsParagraphsAnew) {
@@ -35,4 +35,4 @@ TEST(Wrapped, CountsCharactersAndNotBytes) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -417,6 +417,10 @@ class Parts(Irace):
         again = self.irace("--only-test", "two.txt")
         self.assertEqual(len(self.calls()), 12)
         self.assertIn(table[1], again.stdout)
+        (self.folder / "irace-test.db").unlink()
+        done = self.irace("--only-test", "two.txt", "--json")
+        tests = json.loads(done.stdout.splitlines()[-1])["tests"]
+        self.assertEqual([test["cost"] for test in tests], [float(line.split()[i]) for i in (1, 2) for line in table[1:7]])
 
 
 class Variants(Irace):
@@ -603,8 +607,108 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.assertIn("--ablation-instances", self.irace(
             "--ablation", "--ablation-type", "racing", "--ablation-instances", "2", code=1).stderr)
         self.assertIn("full", self.irace("--ablation", "--ablation-type", "half", code=1).stderr)
+        (self.folder / "irace-ablation.db").unlink()
         self.write_runner("exit 3")
         self.assertIn("exit", self.irace("--ablation", code=1).stderr)
+
+    # As the version before it was a campaign printed it.
+    ABLATION = """\
+# DATE: Starting ablation from 1 to 20
+# Seed: 42
+# Source: --x 90 --slow
+# Target: --x 29 --fast --y 0.0529
+# 5 pairs of instance and seed; columns: number, runs, mean cost, change
+     1     5          3635.4  source
+# Step 0: source
+     2     5            36.4  x: 90 -> 29
+     3     5          3625.4  mode: slow -> fast, y: NA -> 0.0529
+# Step 1: x: 90 -> 29
+     4     5            26.4  mode: slow -> fast, y: NA -> 0.0529
+# Step 2: mode: slow -> fast, y: NA -> 0.0529
+# DATE: Final best configuration (first number is its number in the ablation):
+   x mode      y
+4 29 fast 0.0529
+# Best configurations as commandlines (first number is the configuration ID; same order as above):
+4  --x 29 --fast --y 0.0529
+"""
+    ABLATION_CSV = """\
+configuration,step,on_path,changed,pair,instance,seed,cost
+1,0,1,source,1,3,25277278,3641
+1,0,1,source,2,6,1595559908,3624
+1,0,1,source,3,2,1900644715,3627
+1,0,1,source,4,1,1004693638,3649
+1,0,1,source,5,4,958447822,3636
+2,1,1,x: 90 -> 29,1,3,25277278,42
+"""
+
+    def test_ablation_is_a_campaign_that_goes_on_where_it_was(self):
+        (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+        self.write_scenario(configurationsFile="first.txt")
+        self.irace()
+        before = len(self.calls())
+
+        def ablate(*words, code=0):
+            done = self.irace("--ablation", "--ablation-csv", "ablation.csv", *words, code=code)
+            return re.sub(r"# 20[-0-9]+ [:0-9]+ \w+:", "# DATE:", done.stdout)
+
+        self.assertEqual(ablate(), self.ABLATION)
+        self.assertTrue((self.folder / "ablation.csv").read_text().startswith(self.ABLATION_CSV))
+        self.assert_clean("irace-ablation.db")
+        reference, whole = self.digest("irace-ablation.db"), (self.folder / "ablation.csv").read_text()
+        # It is printed again, without another run.
+        self.assertEqual(ablate(), self.ABLATION)
+        self.assertEqual(len(self.calls()) - before, 20)
+        # Killed where a target hangs: what was over stays, and any number of workers goes on.
+        self.write_runner('[ ! -e hang ] || [ "$(wc -l < calls.txt)" -lt "$(cat hang)" ] || sleep 600\n' + PRINT)
+        (self.folder / "irace-ablation.db").unlink()
+        made = len(self.calls())
+        for more in (4, 11, 18):
+            (self.folder / "hang").write_text(f"{made + more}\n")
+            process = start("irace", "--ablation", "--parallel", "2", cwd=self.folder)
+            deadline = time.monotonic() + 60
+            while len(self.calls()) < made + more:
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.01)
+            send(process.pid, signal.SIGKILL)
+            process.wait()
+        (self.folder / "hang").unlink()
+        self.assertEqual(ablate("--workers", "2", "--parallel", "4"), self.ABLATION)
+        self.assertEqual((self.folder / "ablation.csv").read_text(), whole)
+        self.assertEqual(self.digest("irace-ablation.db"), reference)
+        self.assertLessEqual(len(self.calls()) - made, 20 + 3 * 4, "what was in hand is run again, no more")
+
+    def test_workers_from_elsewhere_can_help_with_an_ablation(self):
+        (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+        self.write_scenario(configurationsFile="first.txt")
+        self.irace()
+        self.irace("--ablation")
+        reference = self.digest("irace-ablation.db")
+        campaign, = self.query("SELECT file FROM v_campaigns", "irace-ablation.db")
+        (self.folder / "ablation.toml").write_text(campaign["file"])
+        (self.folder / "irace-ablation.db").unlink()
+        made = len(self.calls())
+        process = start("serve", "ablation.toml", "--store", "there.db", "--bind", "127.0.0.1:0", "--http", "none",
+                        "--coordinator-file", "there", cwd=self.folder)
+        worker = start("worker", "--coordinator", "there", "--slots", "2", "--allow",
+                       self.folder / "target-runner", cwd=self.folder)
+        for one in (process, worker):
+            self.addCleanup(send, -one.pid, signal.SIGKILL)
+        self.assertEqual(process.wait(timeout=120), 0)
+        worker.wait(timeout=60)
+        self.assertEqual(self.digest("there.db"), reference)
+        self.assertEqual(len(self.calls()) - made, 20)
+
+    def test_an_ablation_of_another_run_is_refused(self):
+        self.irace()
+        self.irace("--ablation")
+        made = len(self.calls())
+        (self.folder / "irace.db").unlink()
+        self.irace("--seed", "7")
+        done = self.irace("--ablation", "--seed", "7", code=1)
+        self.assertIn("irace-ablation.db", done.stderr)
+        self.assertIn("move it away", done.stderr)
+        self.assertNotIn("# Source", done.stdout)
+        self.assertGreater(len(self.calls()), made)
 
     def test_ablation_destroys_nothing_and_loses_nothing(self):
         (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
@@ -628,6 +732,11 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.irace("--ablation", "--ablation-csv", "ablation.csv", code=1)
         rows = (self.folder / "ablation.csv").read_text().splitlines()
         self.assertGreaterEqual(len(rows) - 1, 10)
+        # Mended, it goes on after them.
+        made = len(self.calls())
+        self.write_runner(PRINT)
+        self.irace("--ablation", "--ablation-csv", "ablation.csv")
+        self.assertEqual(len(self.calls()) - made, 20 - (len(rows) - 1))
         self.assertFalse([file for file in self.folder.iterdir() if ".part" in file.name])
 
     def test_import_destroys_nothing(self):

@@ -183,7 +183,7 @@ class Observability(ProgramTest):
         self.assertEqual(live["workers"], 2)
         self.assertGreater(live["done"], 100)
         text = call("status", self.store).stdout
-        self.assertRegex(text, r"campaign survival  designs 0/1  experiments \d+/1000000")
+        self.assertRegex(text, r"campaign survival  running  designs 0/1  experiments \d+/1000000")
         self.assertIn("workers 2  slots 2", text)
         # On a pipe, lines.
         watch = subprocess.Popen([SWARMSMITH, "status", str(self.store), "--watch"],

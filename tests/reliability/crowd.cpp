@@ -44,8 +44,8 @@ bool work(const std::string& address, const std::string& self_test,
   const std::atomic<bool> drain = false;
   const WorkerEnd end = serve({.endpoint = "tcp://" + address, .protocol = {}, .socket = {}},
                               identity, pool, wakeup, drain);
-  if (end.code != ExitCode::Done) std::fprintf(stderr, "crowd: %s\n", end.reason.c_str());
-  return end.code == ExitCode::Done;
+  if (end.code != WorkerExit::Done) std::fprintf(stderr, "crowd: %s\n", end.reason.c_str());
+  return end.code == WorkerExit::Done;
 }
 
 /// A worker has about a dozen descriptors.

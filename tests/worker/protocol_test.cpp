@@ -272,7 +272,7 @@ TEST_F(Protocol, GivesUpAfterTenMinutes) {
   for (int i = 0; i < 700 && !left; ++i)
     pass(seconds(1));
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->code, ExitCode::Unreachable);
+  EXPECT_EQ(left->code, WorkerExit::Unreachable);
 }
 
 TEST_F(Protocol, LeavesWithItsOwnCodeWhenItIsRefused) {
@@ -280,7 +280,7 @@ TEST_F(Protocol, LeavesWithItsOwnCodeWhenItIsRefused) {
   reject.mutable_reject()->set_sentence("another build");
   hear(reject);
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->code, ExitCode::Refused);
+  EXPECT_EQ(left->code, WorkerExit::Refused);
   EXPECT_EQ(left->reason, "another build");
 }
 
@@ -290,7 +290,7 @@ TEST_F(Protocol, LeavesWhenTheCoordinatorSpeaksAnotherVersion) {
   protocol.on_frame(frame, now);
   take();
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->code, ExitCode::Refused);
+  EXPECT_EQ(left->code, WorkerExit::Refused);
 }
 
 TEST_F(Protocol, DrainsByGivingBackAndWaitingForTheDisk) {
@@ -310,7 +310,7 @@ TEST_F(Protocol, DrainsByGivingBackAndWaitingForTheDisk) {
   pass(milliseconds(1));
   EXPECT_TRUE(said_body(pb::ToCoordinator::kGoodbye));
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->code, ExitCode::Done);
+  EXPECT_EQ(left->code, WorkerExit::Done);
 }
 
 TEST_F(Protocol, GivesBackWhatFailedWhileDraining) {
@@ -322,7 +322,7 @@ TEST_F(Protocol, GivesBackWhatFailedWhileDraining) {
   EXPECT_EQ(results_said(), 0);
   EXPECT_TRUE(said_body(pb::ToCoordinator::kReturned));
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->code, ExitCode::Done);
+  EXPECT_EQ(left->code, WorkerExit::Done);
 }
 
 TEST_F(Protocol, DrainsNoLongerThanTheGraceTime) {
@@ -374,7 +374,7 @@ TEST_F(Protocol, SaysGoodbyeThoughItIsNotWelcomeYet) {
   EXPECT_EQ(said[0].body_case(), pb::ToCoordinator::kGoodbye);
   EXPECT_EQ(said[0].incarnation(), 1U);
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->code, ExitCode::Done);
+  EXPECT_EQ(left->code, WorkerExit::Done);
 }
 
 TEST(ManyWorkers, DoNotComeBackInStep) {

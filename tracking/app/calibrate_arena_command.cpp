@@ -15,10 +15,10 @@
 #include "tracking/calibration/solve_place.h"
 #include "tracking/detection/tag_detector.h"
 #include "tracking/rig/lens_reach.h"
+#include "tracking/rig/picture_size.h"
 #include "tracking/rig/rig_file.h"
-#include "tracking/video/other_size.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Pictures that medians are taken over; more bring nothing.
@@ -37,23 +37,18 @@ struct ArenaArguments {
 
 /// The floor tags in some twenty pictures.
 Expected<std::vector<std::vector<TagLook>>> looks_of(const ArenaArguments& arguments,
-                                                     const Rig& rig, const CameraModel& model,
+                                                     const Rig& rig, const CameraSetup& camera,
                                                      Output& output) {
+  const ImageSize calibrated = rig.models.at(camera.model_file).model.size;
   auto detector = TagDetector::of_family(rig.family);
   if (!detector) return Unexpected(detector.error());
   std::vector<std::vector<TagLook>> looks;
   const auto look = [&](const PictureSource& source, const FrameSource& frames) -> Expected<bool> {
-    const ImageSize size = frames.info().size;
-    if (size != model.size) {
-      return Unexpected(
-          error_of(IssueCode::CalibrationSize,
-                   fmt::format("calibration {}x{}, video {}x{}; film at the size that "
-                               "was calibrated",
-                               model.size.width, model.size.height, size.width, size.height) +
-                       why_other_size(frames.info(), model.size),
-                   source.word));
-    }
-    const std::int64_t known = std::min(frames.info().expected_frames, kFrames);
+    const SourceInfo& info = frames.info();
+    const auto fits =
+        check_picture_size(camera.model_file, calibrated, info.size, info.oddities, source.word);
+    if (!fits) return Unexpected(fits.error());
+    const std::int64_t known = std::min(info.expected_frames, kFrames);
     const std::int64_t every = source.is_video ? std::max<std::int64_t>(1, known / kLooks) : 1;
     if (frames.frame().number % every != 0) return true;
     if (looks.empty() && is_mirrored(*detector, frames.frame().gray)) {
@@ -130,7 +125,7 @@ Expected<PlaceQuestion> question_of(const ArenaArguments& arguments, const Rig& 
     }
     return question_again(old->second, std::move(question));
   }
-  const auto looks = looks_of(arguments, rig, question.camera, output);
+  const auto looks = looks_of(arguments, rig, camera, output);
   if (!looks) return Unexpected(looks.error());
   if (auto twice = repeated(*looks, rig.references)) return Unexpected(std::move(*twice));
   question.seen = median_of_looks(*looks, rig.references);
@@ -199,7 +194,7 @@ ExitCode run(const ArenaArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_calibrate_arena(Options& options) {
+CommandRun declare_calibrate_arena(Options& options) {
   auto arguments = std::make_shared<ArenaArguments>();
   options.words("PICTURES FILE", arguments->words,
                 "A video or bag of the arena with its floor tags, or pictures or folders of them");
@@ -215,4 +210,4 @@ Run declare_calibrate_arena(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -14,7 +14,7 @@
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Of a video, about so many pictures are searched for the board, and so many used at most.
@@ -206,7 +206,7 @@ ExitCode run(const CameraArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_calibrate_camera(Options& options) {
+CommandRun declare_calibrate_camera(Options& options) {
   auto arguments = std::make_shared<CameraArguments>();
   options.words("PICTURES FILE", arguments->words,
                 "Pictures of the board, folders of them, or a video or bag of it",
@@ -228,4 +228,4 @@ Run declare_calibrate_camera(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -2,17 +2,17 @@
 #include <memory>
 
 #include "base/output_file.h"
-#include "base/suggestion.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/refusal.h"
+#include "tracking/app/run_checks.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RobotArguments {
@@ -31,10 +31,7 @@ Expected<RobotSetup> robot_of(const Rig& rig, const std::string& name) {
     if (robot.name == name) return robot;
     names.push_back(robot.name);
   }
-  return Unexpected(error_of(IssueCode::Config,
-                             "the arena has no robot \"" + name + "\"" + did_you_mean(name, names) +
-                                 "; it has: " + joined(names),
-                             rig.file));
+  return Unexpected(unknown("robot", name, names, rig.file));
 }
 
 JsonObject offset_json(const OffsetCalibration& calibration, const std::string& file) {
@@ -155,7 +152,7 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_calibrate_robot(Options& options) {
+CommandRun declare_calibrate_robot(Options& options) {
   auto arguments = std::make_shared<RobotArguments>();
   options.text("NAME", arguments->robot, "The robot, as the arena file names it",
                Options::Need::Required);
@@ -171,4 +168,4 @@ Run declare_calibrate_robot(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -8,22 +8,21 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "base/median.h"
 #include "base/suggestion.h"
 #include "base/text/whole_file.h"
 #include "console/counter.h"
+#include "tracking/app/run_checks.h"
 #include "tracking/geometry/tag_pose.h"
 #include "tracking/motion/repeats.h"
 #include "tracking/motion/track_run.h"
 #include "tracking/observing/observe.h"
-#include "tracking/video/other_size.h"
+#include "tracking/rig/picture_size.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
-
-std::string text_of(ImageSize size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
 
 /// The sidecar beside a video or a folder, if there is one.
 Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& source) {
@@ -50,20 +49,18 @@ Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& sourc
 std::optional<Error> wrong_size(const RobotSetup& robot, double camera_height_m,
                                 std::vector<double> scales, Output& output) {
   const TrackLimits limits;
-  const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-  std::nth_element(scales.begin(), middle, scales.end());
-  const double off = std::abs(*middle - 1);
+  const double scale = upper_median(std::move(scales));
+  const double off = std::abs(scale - 1);
   if (off <= limits.scale_warning) return std::nullopt;
   // The plane in which a tag of the declared edge would look like this one.
-  const double height = camera_height_m - (camera_height_m - robot.height_m) / *middle;
+  const double height = camera_height_m - (camera_height_m - robot.height_m) / scale;
   const std::string text = fmt::format(
       "tag {} of \"{}\": its edge measures {:.1f} mm, declared are {:.1f} mm ({:+.1f} %, limit "
       "{:.0f} "
       "%): either its `edge` (the black border) is {:.1f} mm, or its `height` is {:.3f} m and not "
       "{:.3f} m; measure both",
-      robot.tag, robot.name, *middle * robot.edge_m * 1000, robot.edge_m * 1000,
-      100 * (*middle - 1), 100 * limits.scale_tolerance, *middle * robot.edge_m * 1000, height,
-      robot.height_m);
+      robot.tag, robot.name, scale * robot.edge_m * 1000, robot.edge_m * 1000, 100 * (scale - 1),
+      100 * limits.scale_tolerance, scale * robot.edge_m * 1000, height, robot.height_m);
   if (off > limits.scale_tolerance) return error_of(IssueCode::TagSize, text, "");
   print_note(output, "note: " + text);
   return std::nullopt;
@@ -82,10 +79,12 @@ Expected<void> for_each_picture(const std::vector<std::string>& words, const OnP
     const SourceInfo info = (*frames)->info();
     if (!size) size = info.size;
     if (*size != info.size) {
-      return Unexpected(error_of(IssueCode::CalibrationSize,
-                                 "this is " + text_of(info.size) + ", the pictures before are " +
-                                     text_of(*size) + "; one calibration is of one size of picture",
-                                 words[i]));
+      return Unexpected(
+          error_of(IssueCode::CalibrationSize,
+                   fmt::format("this is {}x{}, the pictures before are {}x{}; one "
+                               "calibration is of one size of picture",
+                               info.size.width, info.size.height, size->width, size->height),
+                   words[i]));
     }
     for (std::int64_t done = 1;; ++done) {
       const auto more = (*frames)->next();
@@ -117,17 +116,13 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
   }
   auto frames = FrameSource::open(video);
   if (!frames) return Unexpected(frames.error());
-  const ImageSize size = (*frames)->info().size;
-  if (size != view->camera.size) {
-    return Unexpected(error_of(IssueCode::CalibrationSize,
-                               "calibration " + text_of(view->camera.size) + ", video " +
-                                   text_of(size) + "; film at the size that was calibrated" +
-                                   why_other_size((*frames)->info(), view->camera.size),
-                               video));
-  }
+  const SourceInfo& info = (*frames)->info();
+  const auto fits =
+      check_picture_size(camera.model_file, view->camera.size, info.size, info.oddities, video);
+  if (!fits) return Unexpected(fits.error());
   auto sidecar = sidecar_of(video);
   if (!sidecar) return Unexpected(sidecar.error());
-  auto clock = FrameClock::of((*frames)->info(), std::move(*sidecar));
+  auto clock = FrameClock::of(info, std::move(*sidecar));
   if (!clock) return Unexpected(clock.error());
   ObserveOptions options;
   options.family = rig.family;
@@ -161,16 +156,18 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
   return path;
 }
 
-Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name) {
+Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name,
+                                const std::string& option) {
   std::vector<std::string> names;
   for (const CameraSetup& camera : rig.cameras) {
     if (camera.name == name || (name.empty() && rig.cameras.size() == 1)) return camera;
     names.push_back(camera.name);
   }
-  const std::string what =
-      name.empty() ? "the arena has several cameras; say which one with --camera"
-                   : "the arena has no camera \"" + name + "\"" + did_you_mean(name, names);
-  return Unexpected(error_of(IssueCode::Config, what + "; it has: " + joined(names), rig.file));
+  if (!name.empty()) return Unexpected(unknown("camera", name, names, rig.file));
+  return Unexpected(error_of(
+      IssueCode::Config,
+      "the arena has several cameras; say which one with " + option + "; it has: " + joined(names),
+      rig.file));
 }
 
 std::string beside(const std::string& arena_file, const std::string& file) {
@@ -190,4 +187,4 @@ void print_cautions(Output& output, const std::vector<std::string>& cautions) {
     print_note(output, "note: " + caution);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

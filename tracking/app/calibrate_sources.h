@@ -9,7 +9,7 @@
 #include "tracking/rig/rig.h"
 #include "tracking/video/frame_source.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Pictures of several words, each a picture, a folder of pictures, a video, a bag or a camera.
 struct PictureSource {
@@ -30,7 +30,8 @@ Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& r
                                           Output& output);
 
 /// The camera of a name, or the only one when the name is empty. E_CONFIG lists the known ones.
-Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name);
+Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name,
+                                const std::string& option = "--camera");
 
 /// A file that an arena file names, from where this program runs.
 std::string beside(const std::string& arena_file, const std::string& file);
@@ -41,4 +42,4 @@ std::string utc_now();
 /// Prints what a person should know of a calibration that is fit.
 void print_cautions(Output& output, const std::vector<std::string>& cautions);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -8,7 +8,7 @@
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// What a rig has of one calibration, for people and for scripts.
@@ -183,10 +183,10 @@ ExitCode run(const std::string& file, Output& output) {
 
 }  // namespace
 
-Run declare_track_check(Options& options) {
+CommandRun declare_track_check(Options& options) {
   auto file = std::make_shared<std::string>();
   options.text("ARENA FILE", *file, "Arena file", Options::Need::Required);
   return [file](Output& output) { return run(*file, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,183 +4,165 @@
 #include <array>
 #include <filesystem>
 
-namespace swarmsmith::cli {
+#include "tracking/video/frame_source.h"
+
+namespace swarmsmith {
 namespace {
 
-constexpr std::string_view kPrintTagsDetails =
-    "Example:\n"
-    "  swarmsmith track print tags --ids 1-3,100-105 --edge 0.10 -o tags.pdf\n"
-    "\n"
-    "Print at 100 % (not \"fit to page\"), measure the ruler on each page, and the black edge of "
-    "a\n"
-    "tag: write what you measure into the arena file. An .svg of several pages is one file per "
-    "page.";
-constexpr std::string_view kPrintBoardDetails =
-    "Examples:\n"
-    "  swarmsmith track print board charuco:11x8:0.023:0.017:5x5_100 -o board.pdf\n"
-    "  swarmsmith track print board chessboard:10x7:0.025 --paper A3 -o board.pdf\n"
-    "\n"
-    "A ChArUco board counts its squares, a chessboard its inner corners; edges are in metres.\n"
-    "Glue it on something flat, measure the squares, and give the measured board to\n"
-    "`swarmsmith track calibrate camera`.";
-constexpr std::string_view kTrackReportDetails =
-    "Examples:\n"
-    "  swarmsmith track report r7 --store lab.db -o r7.html\n"
-    "  swarmsmith track report r7 --store lab.db --json\n"
-    "\n"
-    "Verdict and reasons, the run from above, how each robot was measured, cameras, floor tags,\n"
-    "files. --json prints the same numbers as one object (docs/tracking.md lists its keys).";
-constexpr std::string_view kTrackProfileDetails =
-    "Examples:\n"
-    "  swarmsmith track profile r1 r2 r3 --store lab.db -o lab.toml\n"
-    "  swarmsmith track profile run07.toml --arena arena.toml -o lab.toml\n"
-    "\n"
-    "Latency, slip of the treads, missed neighbours and control periods, from the robots' logs "
-    "beside\n"
-    "the film, with 95 % intervals and the spread between robots. What the runs do not tell stays "
-    "as\n"
-    "in the base, and the file says why. INVALID runs are left out. Design with it:\n"
-    "[simulator] profile = \"lab.toml\".";
-constexpr std::string_view kPrintSurveyDetails =
-    "Example:\n"
-    "  swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf\n"
-    "\n"
-    "A form to write down where the floor tags lie, with places to put them and distances of the\n"
-    "arena's corners to check.";
+constexpr std::string_view kPrintTagsDetails = R"(Example:
+  swarmsmith track print tags --ids 1-3,100-105 --edge 0.10 -o tags.pdf
 
-constexpr std::string_view kDetectDetails =
-    "Examples:\n"
-    "  swarmsmith track detect run07.mp4\n"
-    "  swarmsmith track detect pictures/ --csv tags.csv\n"
-    "  swarmsmith track detect run07.bag:/ceiling/image_raw\n"
-    "\n"
-    "Lists the tags: in how many frames, how large (the shortest side) and how clear (the "
-    "detector's\n"
-    "margin) they are, whether bits had to be corrected and whether a tag appears twice. Needs no\n"
-    "arena file and no calibration: use it to try light, tags and camera.";
+Print at 100 % (not "fit to page"), measure the ruler on each page, and the black edge of a
+tag: write what you measure into the arena file. An .svg of several pages is one file per page.)";
+constexpr std::string_view kPrintBoardDetails = R"(Examples:
+  swarmsmith track print board charuco:11x8:0.023:0.017:5x5_100 -o board.pdf
+  swarmsmith track print board chessboard:10x7:0.025 --paper A3 -o board.pdf
 
-constexpr std::string_view kScoreDetails =
-    "Examples:\n"
-    "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
-    "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
-    "      --into demo.db\n"
-    "\n"
-    "Without a store the run is scored and not kept. The same video with the same start is the "
-    "same\n"
-    "run: it is stored once. You may omit `score` if the first word is a file. Exit code 6: the "
-    "run\n"
-    "is INVALID, and is stored as INVALID.";
-constexpr std::string_view kCalibrateCameraDetails =
-    "Examples:\n"
-    "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100 \\\n"
-    "    --arena arena.toml\n"
-    "  swarmsmith track calibrate camera board.mp4 --board chessboard:10x7:0.025\n"
-    "\n"
-    "A ChArUco board counts its squares, a chessboard its inner corners; measure the squares on\n"
-    "paper. Show the flat board in 15 views or more: in all nine thirds of the picture and into\n"
-    "its corners, tilted by up to 40 degrees, filling a sixth to a half of the picture. Lock "
-    "focus\n"
-    "and zoom before, and never touch them again. From a video it picks sharp views that differ.\n"
-    "\n"
-    "Refused with E_CALIB_QUALITY, and no file written: under 10 views, RMS over 1/2000 of the\n"
-    "focal length, corners' hull under 30 % of the frame, fx and fy over 2 % apart, principal "
-    "point over 10 % off the\n"
-    "middle, a lens model that folds.";
-constexpr std::string_view kCalibrateArenaDetails =
-    "Examples:\n"
-    "  swarmsmith track calibrate arena empty.mp4 --arena arena.toml\n"
-    "  swarmsmith track calibrate arena --again --arena arena.toml\n"
-    "\n"
-    "Film the empty arena for some seconds with the floor tags of the arena file on the floor.\n"
-    "--again uses the corners of the last calibration: after you corrected the survey in the "
-    "arena\n"
-    "file, or calibrated the camera again with the same focus.\n"
-    "\n"
-    "Refused, and no file written: E_REF_TAGS (fewer than 4 tags seen, in one line, or over less\n"
-    "than half of the arena that the camera sees); E_EXTRINSICS (RMS over 0.3 px, a tag over 5 mm\n"
-    "off where the others put it, the camera not within `height`).";
-constexpr std::string_view kCalibrateRobotDetails =
-    "Example:\n"
-    "  swarmsmith track calibrate robot rvr1 --spin spin.mp4 --straight straight.mp4 \\\n"
-    "    --arena arena.toml\n"
-    "\n"
-    "Film the robot turning on the spot for two turns or more, in about 8 s, and driving straight\n"
-    "on for half a metre or more (only for headings; scores need the spin alone). The spin shows\n"
-    "the centre of rotation, which becomes the robot's origin: the centre of its tread base.\n"
-    "\n"
-    "Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over\n"
-    "2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.";
+A ChArUco board counts its squares, a chessboard its inner corners; edges are in metres.
+Glue it on something flat, measure the squares, and give the measured board to
+`swarmsmith track calibrate camera`.)";
+constexpr std::string_view kTrackReportDetails = R"(Examples:
+  swarmsmith track report r7 --store lab.db -o r7.html
+  swarmsmith track report r7 --store lab.db --json
 
-constexpr std::string_view kOverlayDetails =
-    "Examples:\n"
-    "  swarmsmith track overlay r7 --store demo.db -o r7.mp4\n"
-    "  swarmsmith track overlay run07.mp4 --arena arena.toml --run run07.toml -o "
-    "run07-overlay.mp4\n"
-    "  swarmsmith track overlay r7 --store demo.db --at 119.5 -o end.png\n"
-    "\n"
-    "Tags are drawn where they were found, robots' bodies at the height of their tags. The white\n"
-    "cross is a robot's centre on the floor, which the score uses. A robot that is not filled was\n"
-    "between measurements. Visited tiles show how long ago.";
-constexpr std::string_view kLiveDetails =
-    "Examples:\n"
-    "  swarmsmith track live --arena arena.toml --camera camera:0 --mission aggregation\n"
-    "  swarmsmith track live --arena arena.toml --camera run07.mp4 --port 8090\n"
-    "\n"
-    "Open the printed address in a browser of this host; from another one through\n"
-    "`ssh -L 8080:127.0.0.1:8080 HOST`. There is no window: a camera's computer often has no\n"
-    "screen. A video file plays at its own speed. Frames that come too fast are dropped from view, "
-    "and\n"
-    "counted; a recording has them all. Ctrl-C ends it.";
+Verdict and reasons, the run from above, how each robot was measured, cameras, floor tags,
+files. --json prints the same numbers as one object (docs/tracking.md lists its keys).)";
+constexpr std::string_view kTrackProfileDetails = R"(Examples:
+  swarmsmith track profile r1 r2 r3 --store lab.db -o lab.toml
+  swarmsmith track profile run07.toml --arena arena.toml -o lab.toml
+
+Latency, slip of the treads, missed neighbours and control periods, from the robots' logs beside
+the film, with 95 % intervals and the spread between robots. What the runs do not tell stays as
+in the base, and the file says why. INVALID runs are left out. Design with it:
+[simulator] profile = "lab.toml".)";
+constexpr std::string_view kPrintSurveyDetails = R"(Example:
+  swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf
+
+A form to write down where the floor tags lie, with places to put them and distances of the
+arena's corners to check.)";
+
+constexpr std::string_view kDetectDetails = R"(Examples:
+  swarmsmith track detect run07.mp4
+  swarmsmith track detect pictures/ --csv tags.csv
+  swarmsmith track detect run07.bag:/ceiling/image_raw
+
+Lists the tags: in how many frames, how large (the shortest side) and how clear (the detector's
+margin) they are, whether bits had to be corrected and whether a tag appears twice. Needs no
+arena file and no calibration: use it to try light, tags and camera.)";
+
+constexpr std::string_view kScoreDetails = R"(Examples:
+  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db
+  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \
+      --into demo.db
+
+Without a store the run is scored and not kept. The same video with the same start is the same
+run: it is stored once. You may omit `score` if the first word is a file. Exit code 6: the run
+is INVALID, and is stored as INVALID.)";
+constexpr std::string_view kCalibrateCameraDetails = R"(Examples:
+  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100 \
+    --arena arena.toml
+  swarmsmith track calibrate camera board.mp4 --board chessboard:10x7:0.025
+
+A ChArUco board counts its squares, a chessboard its inner corners; measure the squares on
+paper. Show the flat board in 15 views or more: in all nine thirds of the picture and into
+its corners, tilted by up to 40 degrees, filling a sixth to a half of the picture. Lock focus
+and zoom before, and never touch them again. From a video it picks sharp views that differ.
+
+Refused with E_CALIB_QUALITY, and no file written: under 10 views, RMS over 1/2000 of the
+focal length, corners' hull under 30 % of the frame, fx and fy over 2 % apart, principal point over 10 % off the
+middle, a lens model that folds.)";
+constexpr std::string_view kCalibrateArenaDetails = R"(Examples:
+  swarmsmith track calibrate arena empty.mp4 --arena arena.toml
+  swarmsmith track calibrate arena --again --arena arena.toml
+
+Film the empty arena for some seconds with the floor tags of the arena file on the floor.
+--again uses the corners of the last calibration: after you corrected the survey in the arena
+file, or calibrated the camera again with the same focus.
+
+Refused, and no file written: E_REF_TAGS (fewer than 4 tags seen, in one line, or over less
+than half of the arena that the camera sees); E_EXTRINSICS (RMS over 0.3 px, a tag over 5 mm
+off where the others put it, the camera not within `height`).)";
+constexpr std::string_view kCalibrateRobotDetails = R"(Example:
+  swarmsmith track calibrate robot rvr1 --spin spin.mp4 --straight straight.mp4 \
+    --arena arena.toml
+
+Film the robot turning on the spot for two turns or more, in about 8 s, and driving straight
+on for half a metre or more (only for headings; scores need the spin alone). The spin shows
+the centre of rotation, which becomes the robot's origin: the centre of its tread base.
+
+Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over
+2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.)";
+
+constexpr std::string_view kOverlayDetails = R"(Examples:
+  swarmsmith track overlay r7 --store demo.db -o r7.mp4
+  swarmsmith track overlay run07.mp4 --arena arena.toml --run run07.toml -o run07-overlay.mp4
+  swarmsmith track overlay r7 --store demo.db --at 119.5 -o end.png
+
+Tags are drawn where they were found, robots' bodies at the height of their tags. The white
+cross is a robot's centre on the floor, which the score uses. A robot that is not filled was
+between measurements. Visited tiles show how long ago.)";
+constexpr std::string_view kLiveDetails = R"(Examples:
+  swarmsmith track live --arena arena.toml --camera camera:0 --mission aggregation
+  swarmsmith track live --arena arena.toml --camera run07.mp4 --port 8090
+
+Open the printed address in a browser of this host; from another one through
+`ssh -L 8080:127.0.0.1:8080 HOST`. There is no window: a camera's computer often has no
+screen. A video file plays at its own speed. Frames that come too fast are dropped from view, and
+counted; a recording has them all. Ctrl-C ends it.)";
 
 constexpr std::array kCommands = {
-    Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
-    Command{"check", "List what an arena has, what is missing and what comes next", "",
-            declare_track_check},
-    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
-            declare_track_score},
-    Command{"rescore", "Score stored runs again, with corrected files", "", declare_track_rescore},
-    Command{"override", "Override a run's verdict", "", declare_track_override},
-    Command{"detect", "List the tags in a video or in pictures", kDetectDetails, declare_detect},
-    Command{"calibrate camera", "Find a camera's lens from pictures of a board",
-            kCalibrateCameraDetails, declare_calibrate_camera},
-    Command{"calibrate arena", "Find where a camera hangs from the floor tags",
-            kCalibrateArenaDetails, declare_calibrate_arena},
-    Command{"calibrate robot", "Find where a robot's tag sits on it from a spin",
-            kCalibrateRobotDetails, declare_calibrate_robot},
-    Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
-            declare_print_tags},
-    Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,
-            declare_print_board},
-    Command{"print survey", "A form to fill in with the places of the floor tags",
-            kPrintSurveyDetails, declare_print_survey},
-    Command{"report", "Write the quality report of a stored run, a page of HTML",
-            kTrackReportDetails, declare_track_report},
-    Command{"profile", "Make a simulator profile of what scored runs tell of your robots",
-            kTrackProfileDetails, declare_track_profile},
-    Command{"record", "Record a camera with the time of each frame",
-            "A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any\n"
-            "other word that OpenCV opens (`opencv:WORD`). FILE.times.csv, beside FILE.mkv, has "
-            "the time\n"
-            "of each frame in seconds from the first one. Ctrl-C ends a recording. Whatever "
-            "happens, the\n"
-            "recording stays readable, except the last half second.\n"
-            "\n"
-            "  swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130",
-            declare_record},
-    Command{"overlay", "Draw the tracking of a run over its video", kOverlayDetails,
-            declare_overlay},
-    Command{"live", "Watch a camera: show robots and tags as it films", kLiveDetails, declare_live},
-    Command{"version", "Print the versions of program and libraries", "", declare_track_version},
+    ProgramCommand{"init", "Write an arena.toml and a run.toml to begin with", "",
+                   declare_track_init},
+    ProgramCommand{"check", "List what an arena has, what is missing and what comes next", "",
+                   declare_track_check},
+    ProgramCommand{"score", "Score a filmed run and keep it in a store", kScoreDetails,
+                   declare_track_score},
+    ProgramCommand{"rescore", "Score stored runs again, with corrected files", "",
+                   declare_track_rescore},
+    ProgramCommand{"override", "Override a run's verdict", "", declare_track_override},
+    ProgramCommand{"detect", "List the tags in a video or in pictures", kDetectDetails,
+                   declare_detect},
+    ProgramCommand{"calibrate camera", "Find a camera's lens from pictures of a board",
+                   kCalibrateCameraDetails, declare_calibrate_camera},
+    ProgramCommand{"calibrate arena", "Find where a camera hangs from the floor tags",
+                   kCalibrateArenaDetails, declare_calibrate_arena},
+    ProgramCommand{"calibrate robot", "Find where a robot's tag sits on it from a spin",
+                   kCalibrateRobotDetails, declare_calibrate_robot},
+    ProgramCommand{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
+                   declare_print_tags},
+    ProgramCommand{"print board", "A board to calibrate a camera with, in true scale",
+                   kPrintBoardDetails, declare_print_board},
+    ProgramCommand{"print survey", "A form to fill in with the places of the floor tags",
+                   kPrintSurveyDetails, declare_print_survey},
+    ProgramCommand{"report", "Write the quality report of a stored run, a page of HTML",
+                   kTrackReportDetails, declare_track_report},
+    ProgramCommand{"profile", "Make a simulator profile of what scored runs tell of your robots",
+                   kTrackProfileDetails, declare_track_profile},
+    ProgramCommand{
+        "record", "Record a camera with the time of each frame",
+        R"(A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any
+other word that OpenCV opens (`opencv:WORD`). FILE.times.csv, beside FILE.mkv, has the time
+of each frame in seconds from the first one. Ctrl-C ends a recording. Whatever happens, the
+recording stays readable, except the last half second.
+
+  swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130)",
+        declare_record},
+    ProgramCommand{"overlay", "Draw the tracking of a run over its video", kOverlayDetails,
+                   declare_overlay},
+    ProgramCommand{"live", "Watch a camera: show robots and tags as it films", kLiveDetails,
+                   declare_live},
+    ProgramCommand{"version", "Print the versions of program and libraries", "",
+                   declare_track_version},
 };
 
 }  // namespace
 
-std::span<const Command> track_commands() {
+std::span<const ProgramCommand> track_commands() {
   return kCommands;
 }
 
 bool means_a_recording(const std::string& word) {
-  const bool is_command = std::ranges::any_of(kCommands, [&](const Command& command) {
+  const bool is_command = std::ranges::any_of(kCommands, [&](const ProgramCommand& command) {
     return command.name == word || command.name.starts_with(word + " ");
   });
   std::error_code trouble;
@@ -193,4 +175,4 @@ ExitCode exit_code_of_tracking(const Error& error) {
                                                                                 : ExitCode::Failed;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

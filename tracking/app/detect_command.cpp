@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/median.h"
 #include "base/text/csv.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
@@ -17,7 +18,7 @@
 #include "tracking/observing/other_family.h"
 #include "tracking/rig/issue.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct DetectWords {
@@ -43,12 +44,6 @@ struct Finds {
   bool is_mirrored = false;
   std::vector<std::string> notes;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// The shortest side: what decides whether it is found.
 double edge_of(const TagCorners& corners) {
@@ -136,8 +131,8 @@ void print(const Finds& finds, Output& output) {
           .add("frames", seen.frames)
           .add("twice", seen.twice)
           .add("corrected", seen.corrected)
-          .add("edge_px", median(seen.edges_px))
-          .add("margin", median(seen.margins));
+          .add("edge_px", upper_median(seen.edges_px))
+          .add("margin", upper_median(seen.margins));
     };
     output.out << JsonObject()
                       .add("frames", finds.frames)
@@ -151,8 +146,8 @@ void print(const Finds& finds, Output& output) {
   output.out << "   tag  frames   of  edge px  margin  bits mended  twice\n";
   for (const auto& [tag, seen] : finds.tags) {
     output.out << fmt::format("{:>6} {:>7} {:>4} {:>8.1f} {:>7.0f} {:>12} {:>6}\n", tag,
-                              seen.frames, finds.frames, median(seen.edges_px),
-                              median(seen.margins), seen.corrected, seen.twice);
+                              seen.frames, finds.frames, upper_median(seen.edges_px),
+                              upper_median(seen.margins), seen.corrected, seen.twice);
   }
   if (finds.tags.empty()) output.out << "  none\n";
   if (finds.is_mirrored) print_note(output, kMirroredAdvice);
@@ -161,7 +156,7 @@ void print(const Finds& finds, Output& output) {
   constexpr double kSmall_px = 24;
   std::string small;
   for (const auto& [tag, seen] : finds.tags) {
-    if (median(seen.edges_px) < kSmall_px)
+    if (upper_median(seen.edges_px) < kSmall_px)
       small += (small.empty() ? "" : ", ") + std::to_string(tag);
   }
   if (small.empty()) return;
@@ -187,7 +182,7 @@ ExitCode run(const DetectWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_detect(Options& options) {
+CommandRun declare_detect(Options& options) {
   auto words = std::make_shared<DetectWords>();
   options.text("SOURCE FILE", words->source, "Video, picture, folder of pictures or bag",
                Options::Need::Required);
@@ -198,4 +193,4 @@ Run declare_detect(Options& options) {
   return [words](Output& output) { return run(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -9,7 +9,7 @@
 #include "embedded/kRunTemplate.h"
 #include "tracking/app/commands.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// A file to begin with.
@@ -51,10 +51,10 @@ ExitCode run(const std::string& folder, Output& output) {
 
 }  // namespace
 
-Run declare_track_init(Options& options) {
+CommandRun declare_track_init(Options& options) {
   auto folder = std::make_shared<std::string>(".");
   options.text("DIR", *folder, "Folder of the new arena.toml and run.toml (default: this one)");
   return [folder](Output& output) { return run(*folder, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

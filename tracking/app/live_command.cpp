@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,24 +7,25 @@
 #include "base/text/json.h"
 #include "console/terminal.h"
 #include "sim/files/mission_file.h"
+#include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/recording.h"
 #include "tracking/app/refusal.h"
 #include "tracking/app/stop_signal.h"
-#include "tracking/calibration/find_board.h"
+#include "tracking/calibration/board_watch.h"
+#include "tracking/live/delays.h"
 #include "tracking/live/live_pages.h"
 #include "tracking/live/live_tracker.h"
 #include "tracking/live/newest_frame.h"
 #include "tracking/rig/rig_file.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t kPort = 8080;
-constexpr std::size_t kDelaysKept = 100;
 constexpr std::chrono::milliseconds kPatience{200};
 
 struct LiveWords {
@@ -37,66 +36,6 @@ struct LiveWords {
   std::optional<std::int64_t> port;
   std::string record;
   std::string board;
-};
-
-/// What the views of a board that is held before the camera cover so far; the same choice of views
-/// as `calibrate camera` makes of a video.
-class BoardWatch {
- public:
-  explicit BoardWatch(Board board) : board_(std::move(board)) {}
-
-  LiveState::BoardProgress look_at(const GrayImage& image, double time_s) {
-    // A board takes longer to find than robots, and nobody moves it faster.
-    constexpr double kEvery_s = 0.5;
-    constexpr std::size_t kMostViews = 200;
-    if (searched_s_ && time_s - *searched_s_ < kEvery_s) return progress_;
-    searched_s_ = time_s;
-    auto sight = find_board(image, board_);
-    progress_.is_seen = sight.has_value();
-    if (!sight) return progress_;
-    const ImageSize size{image.width, image.height};
-    sights_.push_back(std::move(*sight));
-    const std::vector<std::size_t> picked = pick_views(sights_, board_, size, kMostViews);
-    std::vector<BoardSight> kept;
-    std::vector<ImagePoint> corners;
-    for (const std::size_t i : picked) {
-      kept.push_back(sights_[i]);
-      corners.insert(corners.end(), kept.back().view.seen.begin(), kept.back().view.seen.end());
-    }
-    sights_ = std::move(kept);
-    const FrameCoverage coverage = coverage_of(corners, size);
-    progress_.views = static_cast<int>(sights_.size());
-    progress_.ninths = coverage.ninths;
-    progress_.coverage = coverage.share;
-    return progress_;
-  }
-
- private:
-  Board board_;
-  std::vector<BoardSight> sights_;
-  std::optional<double> searched_s_;
-  LiveState::BoardProgress progress_;
-};
-
-/// Delays from having a frame to having its poses.
-class Delays {
- public:
-  void add(double delay_s) {
-    last_.push_back(delay_s);
-    if (last_.size() > kDelaysKept) last_.pop_front();
-    all_.push_back(delay_s);
-  }
-  double most_of_late() const { return *std::max_element(last_.begin(), last_.end()); }
-  /// The one that a share of all is below.
-  double quantile(double share) {
-    if (all_.empty()) return 0;
-    std::sort(all_.begin(), all_.end());
-    return all_[static_cast<std::size_t>(share * static_cast<double>(all_.size() - 1))];
-  }
-
- private:
-  std::deque<double> last_;
-  std::vector<double> all_;
 };
 
 /// One line that is written over on a terminal, else a line now and then.
@@ -122,17 +61,6 @@ class StatusLine {
   Clock::time_point next_ = Clock::now();
   bool shown_ = false;
 };
-
-Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name) {
-  std::string known;
-  for (const CameraSetup& camera : rig.cameras) {
-    if (camera.name == name || (name.empty() && rig.cameras.size() == 1)) return camera;
-    known += (known.empty() ? "" : ", ") + camera.name;
-  }
-  return bad_input(name.empty() ? "which camera of the arena is it? It has " + known
-                                : "the arena has no camera \"" + name + "\"; it has " + known,
-                   "--view");
-}
 
 /// Frames as they come, from their times on.
 class LiveRecording {
@@ -172,7 +100,7 @@ class LiveRecording {
 struct Watched {
   std::int64_t frames = 0;
   std::int64_t dropped = 0;
-  Delays delays;
+  LiveDelays delays;
   std::optional<Error> error;
 };
 
@@ -193,7 +121,7 @@ Watched watch(FrameSource& source, LiveTracker& tracker, BoardWatch* board, Live
     if (board != nullptr) state.board = board->look_at(frame->image(), frame->time_s);
     state.delay_s = std::chrono::duration<double>(Clock::now() - frame->in).count();
     watched.delays.add(state.delay_s);
-    state.most_delay_s = watched.delays.most_of_late();
+    state.most_delay_s = watched.delays.latest_most_s();
     state.dropped = newest.dropped();
     ++watched.frames;
     line.tell(state);
@@ -206,9 +134,9 @@ Watched watch(FrameSource& source, LiveTracker& tracker, BoardWatch* board, Live
 }
 
 ExitCode answer(Watched& watched, Output& output) {
-  const double median_ms = 1000 * watched.delays.quantile(0.5);
-  const double late_ms = 1000 * watched.delays.quantile(0.95);
-  const double most_ms = 1000 * watched.delays.quantile(1);
+  const double median_ms = 1000 * watched.delays.quantile_s(0.5);
+  const double late_ms = 1000 * watched.delays.quantile_s(0.95);
+  const double most_ms = 1000 * watched.delays.quantile_s(1);
   if (output.json) {
     const JsonObject delay =
         JsonObject().add("median", median_ms).add("p95", late_ms).add("most", most_ms);
@@ -232,7 +160,7 @@ ExitCode live(const LiveWords& words, Output& output) {
   };
   auto rig = read_rig(words.arena);
   if (!rig) return fail_all(output, rig.error());
-  const auto camera = camera_of(*rig, words.view);
+  const auto camera = camera_of(*rig, words.view, "--view");
   if (!camera) return failed(camera.error());
   LiveScenery scenery;
   if (!words.mission.empty()) {
@@ -276,7 +204,7 @@ ExitCode live(const LiveWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_live(Options& options) {
+CommandRun declare_live(Options& options) {
   auto words = std::make_shared<LiveWords>();
   options.text("--arena FILE", words->arena, "Arena file", Options::Need::Required);
   options.text("--camera CAMERA|FILE", words->source,
@@ -295,4 +223,4 @@ Run declare_live(Options& options) {
   return [words](Output& output) { return live(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -13,16 +13,14 @@
 #include "console/counter.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
-#include "tracking/app/run_checks.h"
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
 #include "tracking/overlay/draw_overlay.h"
-#include "tracking/scoring/real_run_rows.h"
 #include "tracking/video/picture_bytes.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +30,7 @@ constexpr double kAround_s = 1;
 /// Floor tags are shown where they were within so long.
 constexpr double kReferenceHolds_s = 5;
 
-struct OverlayWords {
+struct OverlayArguments {
   ScoreArguments run;
   std::string video;
   std::string camera;
@@ -42,52 +40,36 @@ struct OverlayWords {
 
 /// A run with all that can be drawn of it.
 struct DrawnRun {
-  Rig rig;
-  RunLog log;
-  Observations observations;
-  RunAnalysis analysis;
+  AnalysedRun run;
   std::vector<fs::path> videos;
   std::size_t camera = 0;
 };
 
-OrRefusal<DrawnRun> run_of_videos(const OverlayWords& words, Output& output) {
+OrRefusal<DrawnRun> run_of_videos(const OverlayArguments& words, Output& output) {
   auto plan = plan_run(words.run);
   if (!plan) return tl::unexpected(std::move(plan.error()));
-  auto observations = watch_run(*plan, output);
-  if (!observations) return tl::unexpected(std::move(observations.error()));
-  auto analysis =
-      analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
-  if (!analysis) return tl::unexpected(std::move(analysis.error()));
-  DrawnRun run{plan->rig, plan->log, std::move(*observations), std::move(*analysis), {}};
+  auto run = watch_run(*plan, output);
+  if (!run) return tl::unexpected(std::move(run.error()));
+  DrawnRun drawn{std::move(*run), {}};
   for (const PlannedVideo& video : plan->videos)
-    run.videos.push_back(video.path);
-  return run;
+    drawn.videos.push_back(video.path);
+  return drawn;
 }
 
-OrRefusal<DrawnRun> run_of_store(const OverlayWords& words) {
-  const std::string store = store_word(words.run.store);
-  if (store.empty())
-    return refused(
-        ExitCode::Usage,
-        {ErrorKind::BadInput, "in which store? Name it, or set SWARMSMITH_STORE", "--store"});
-  auto reader = read_store(store);
-  if (!reader) return tl::unexpected(std::move(reader.error()));
-  const auto rows = find_run(**reader, words.run.videos.front());
-  if (!rows) return tl::unexpected(rows.error());
-  auto stored = stored_run(*rows);
-  if (!stored) return refused(std::move(stored.error()));
-  const Rig rig = rig_of_run(stored->rig, stored->log);
-  auto analysis = analyse(stored->observations, rig, stored->rig, stored->log, rows->score.biased);
-  if (!analysis) return tl::unexpected(std::move(analysis.error()));
-  DrawnRun run{rig, stored->log, std::move(stored->observations), std::move(*analysis), {}};
-  for (const RunVideo& video : run.log.videos)
-    run.videos.emplace_back(video.file);
-  return run;
+OrRefusal<DrawnRun> run_of_store(const OverlayArguments& words) {
+  const auto kept = kept_run(words.run.store, words.run.videos.front());
+  if (!kept) return tl::unexpected(kept.error());
+  auto run = analyse_again(kept->rows);
+  if (!run) return tl::unexpected(std::move(run.error()));
+  DrawnRun drawn{std::move(*run), {}};
+  for (const RunVideo& video : drawn.run.log.videos)
+    drawn.videos.emplace_back(video.file);
+  return drawn;
 }
 
 /// Which camera, and that its video is the one that was scored.
-std::optional<Refusal> settle_video(const OverlayWords& words, DrawnRun& run) {
-  const auto& cameras = run.rig.cameras;
+std::optional<Refusal> settle_video(const OverlayArguments& words, DrawnRun& drawn) {
+  const auto& cameras = drawn.run.rig.cameras;
   if (!words.camera.empty()) {
     const auto found = std::find_if(cameras.begin(), cameras.end(),
                                     [&](const CameraSetup& c) { return c.name == words.camera; });
@@ -96,9 +78,9 @@ std::optional<Refusal> settle_video(const OverlayWords& words, DrawnRun& run) {
                      {ErrorKind::BadInput, "no camera \"" + words.camera + "\" filmed this run",
                       "--camera"})
           .value();
-    run.camera = static_cast<std::size_t>(found - cameras.begin());
+    drawn.camera = static_cast<std::size_t>(found - cameras.begin());
   }
-  fs::path& file = run.videos.at(run.camera);
+  fs::path& file = drawn.videos.at(drawn.camera);
   if (!words.video.empty()) file = words.video;
   const auto sha256 = sha256_of_source(file.string());
   if (!sha256) {
@@ -106,7 +88,7 @@ std::optional<Refusal> settle_video(const OverlayWords& words, DrawnRun& run) {
     error.message += "; name the run's video by --video";
     return refused(std::move(error)).value();
   }
-  if (*sha256 != run.observations.cameras.at(run.camera).sha256)
+  if (*sha256 != drawn.run.observations.cameras.at(drawn.camera).sha256)
     return refused(
                ExitCode::Failed,
                {ErrorKind::Conflict,
@@ -117,11 +99,11 @@ std::optional<Refusal> settle_video(const OverlayWords& words, DrawnRun& run) {
 }
 
 /// Tags of a frame, robots' and strays; `next` goes on through the sightings.
-std::vector<OverlayTag> tags_of(const DrawnRun& run, std::int64_t frame, double time_s,
+std::vector<OverlayTag> tags_of(const DrawnRun& drawn, std::int64_t frame, double time_s,
                                 std::size_t& next) {
-  const std::vector<Sighting>& all = run.observations.sightings;
-  const auto camera = static_cast<int>(run.camera);
-  const std::vector<RobotSetup> robots = each_tag(run.rig.robots);
+  const std::vector<Sighting>& all = drawn.run.observations.sightings;
+  const auto camera = static_cast<int>(drawn.camera);
+  const std::vector<RobotSetup> robots = each_tag(drawn.run.rig.robots);
   std::vector<OverlayTag> tags;
   while (next < all.size() &&
          (all[next].camera < camera || (all[next].camera == camera && all[next].frame < frame)))
@@ -132,9 +114,9 @@ std::vector<OverlayTag> tags_of(const DrawnRun& run, std::int64_t frame, double 
     tags.push_back({all[next].tag, all[next].corners,
                     is_robot ? OverlayTag::Kind::Robot : OverlayTag::Kind::Unknown});
   }
-  for (const ReferenceTag& reference : run.rig.references) {
+  for (const ReferenceTag& reference : drawn.run.rig.references) {
     const ReferenceLook* nearest = nullptr;
-    for (const ReferenceLook& look : run.observations.cameras[run.camera].references) {
+    for (const ReferenceLook& look : drawn.run.observations.cameras[drawn.camera].references) {
       const double away_s = std::abs(look.time_s - time_s);
       if (look.tag == reference.tag && away_s <= kReferenceHolds_s &&
           (nearest == nullptr || away_s < std::abs(nearest->time_s - time_s)))
@@ -191,16 +173,16 @@ class Sink {
   std::unique_ptr<VideoWriter> writer_;
 };
 
-Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s,
-                            const OverlayWords& words, Output& output) {
-  Mission mission = run.log.mission;
-  mission.arena.patches.insert(mission.arena.patches.end(), run.analysis.scored.patches.begin(),
-                               run.analysis.scored.patches.end());
-  const View view = run.rig.view_of(run.rig.cameras[run.camera]).value();
-  const OverlayRun overlay(run.analysis.tracked, run.rig, mission, run.analysis.scored.issues);
-  const std::vector<double>& times = run.observations.cameras[run.camera].frame_times;
-  const double start_s = run.analysis.starts_s[run.camera];
-  auto source = FrameSource::open(run.videos[run.camera].string());
+Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
+                            const OverlayArguments& words, Output& output) {
+  Mission mission = drawn.run.log.mission;
+  mission.arena.patches.insert(mission.arena.patches.end(), drawn.run.scored.patches.begin(),
+                               drawn.run.scored.patches.end());
+  const View view = drawn.run.rig.view_of(drawn.run.rig.cameras[drawn.camera]).value();
+  const OverlayRun overlay(drawn.run.tracked, drawn.run.rig, mission, drawn.run.scored.issues);
+  const std::vector<double>& times = drawn.run.observations.cameras[drawn.camera].frame_times;
+  const double start_s = drawn.run.starts_s[drawn.camera];
+  auto source = FrameSource::open(drawn.videos[drawn.camera].string());
   if (!source) return Unexpected(source.error());
   const double from_s = at_s.value_or(-kAround_s);
   const double until_s = overlay.duration_s() + kAround_s;
@@ -217,7 +199,7 @@ Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s,
     if (time_s > until_s) break;
     ColorImage image = (*source)->color();
     draw_overlay(image, view, mission, overlay.at(time_s),
-                 tags_of(run, static_cast<std::int64_t>(frame), times[frame], next));
+                 tags_of(drawn, static_cast<std::int64_t>(frame), times[frame], next));
     if (auto added = sink.add(image, time_s, (*source)->info().frame_rate); !added)
       return Unexpected(added.error());
     drawing.tell(static_cast<std::int64_t>(frame + 1), static_cast<std::int64_t>(times.size()));
@@ -229,7 +211,7 @@ Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s,
 }
 
 /// `--at` as seconds of the run.
-Expected<std::optional<double>> instant_of(const OverlayWords& words) {
+Expected<std::optional<double>> instant_of(const OverlayArguments& words) {
   if (words.at.empty()) return std::optional<double>();
   double value = 0;
   const char* const end = words.at.data() + words.at.size();
@@ -240,7 +222,7 @@ Expected<std::optional<double>> instant_of(const OverlayWords& words) {
   return std::optional<double>(value);
 }
 
-ExitCode overlay(const OverlayWords& words, Output& output) {
+ExitCode overlay(const OverlayArguments& words, Output& output) {
   const auto at_s = instant_of(words);
   if (!at_s) return fail(output, ExitCode::Usage, at_s.error());
   const bool is_stored =
@@ -262,8 +244,8 @@ ExitCode overlay(const OverlayWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_overlay(Options& options) {
-  auto words = std::make_shared<OverlayWords>();
+CommandRun declare_overlay(Options& options) {
+  auto words = std::make_shared<OverlayArguments>();
   ScoreArguments& run = words->run;
   constexpr Options::Range kTags{0, 65'535};
   options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",
@@ -293,4 +275,4 @@ Run declare_overlay(Options& options) {
   return [words](Output& output) { return overlay(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

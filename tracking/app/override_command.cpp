@@ -2,14 +2,11 @@
 #include <cctype>
 #include <memory>
 
-#include "base/id.h"
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/result_text.h"
 #include "tracking/app/run_store.h"
-#include "tracking/app/score_arguments.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct OverrideArguments {
@@ -32,42 +29,35 @@ ExitCode run(const OverrideArguments& arguments, Output& output) {
                 Error{ErrorKind::BadInput,
                       "an override needs a name and a reason that others can read", option});
   }
-  const std::string path = store_word(arguments.store);
-  if (path.empty()) {
-    return fail(output, ExitCode::Usage,
-                "no store given; name its file with --store, or set SWARMSMITH_STORE");
-  }
-  const auto reader = read_store(path);
-  if (!reader) return fail(output, reader.error());
-  const auto before = find_run(**reader, arguments.run);
-  if (!before) return fail(output, before.error());
+  const auto kept = kept_run(arguments.store, arguments.run);
+  if (!kept) return fail(output, kept.error());
+  const std::string& measured = kept->rows.score.verdict;
   std::string verdict = arguments.verdict;
   std::ranges::transform(verdict, verdict.begin(),
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  const auto store = open_store(path, StoreAtRest::IfMissing::Refuse);
+  const auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
   if (!store) return fail(output, store.error());
-  const RealRunId id = *id_from_text<RealRunTag>(arguments.run);
-  const auto added = (*store)->add_override({id, verdict, arguments.who, arguments.reason});
+  const auto added = (*store)->add_override({kept->id, verdict, arguments.who, arguments.reason});
   if (!added) return fail(output, ExitCode::Store, added.error());
   if (output.json) {
     output.out << JsonObject()
                       .add("run", arguments.run)
                       .add("verdict", verdict)
-                      .add("measured", before->score.verdict)
+                      .add("measured", measured)
                       .add("who", arguments.who)
                       .add("reason", arguments.reason)
                       .text()
                << "\n";
   } else {
-    output.out << arguments.run << ": " << before->score.verdict << " measured, " << verdict
-               << " by " << arguments.who << ": " << arguments.reason << "\n";
+    output.out << arguments.run << ": " << measured << " measured, " << verdict << " by "
+               << arguments.who << ": " << arguments.reason << "\n";
   }
   return ExitCode::Done;
 }
 
 }  // namespace
 
-Run declare_track_override(Options& options) {
+CommandRun declare_track_override(Options& options) {
   auto arguments = std::make_shared<OverrideArguments>();
   options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
   options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},
@@ -79,4 +69,4 @@ Run declare_track_override(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

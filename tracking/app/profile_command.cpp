@@ -10,15 +10,13 @@
 #include "sim/files/profile_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
-#include "tracking/app/run_checks.h"
 #include "tracking/app/run_plan.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/score_arguments.h"
 #include "tracking/app/watch_run.h"
 #include "tracking/profile/lab_profile.h"
-#include "tracking/scoring/real_run_rows.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct ProfileArguments {
@@ -38,49 +36,24 @@ struct Collected {
 /// A run as it is known now.
 struct KnownRun {
   std::string name;
-  std::string verdict;
-  RunAnalysis analysis;
+  Verdict verdict = Verdict::Valid;
+  AnalysedRun run;
 };
 
 bool is_of_store(const std::string& word) {
   return id_from_text<RealRunTag>(word).has_value();
 }
 
-/// What counts: a person's word above that of the program.
-OrRefusal<std::string> verdict_that_counts(StoreReader& store, const std::string& run,
-                                           std::string measured) {
-  const auto end = store.query(
-      "SELECT verdict FROM v_real_overrides WHERE id = " + sql_text(run) + " ORDER BY number", {},
-      [](const std::vector<std::string>&) {},
-      [&](const std::vector<StoreReader::Cell>& cells) { measured = cells[0].text; });
-  if (!end) return refused(ExitCode::Store, end.error());
-  return measured;
-}
-
-/// All is done again from the stored sightings and logs.
+/// All is done again from the stored sightings and logs. What counts: a person's word above that of
+/// the program.
 OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::string& word) {
-  const std::string name = store_word(arguments.store);
-  if (name.empty()) {
-    return refused(ExitCode::Usage, {ErrorKind::BadInput,
-                                     "no store given for run " + word +
-                                         "; name its file with --store, or set "
-                                         "SWARMSMITH_STORE",
-                                     ""});
-  }
-  const auto store = read_store(name);
-  if (!store) return tl::unexpected(store.error());
-  const auto rows = find_run(**store, word);
-  if (!rows) return tl::unexpected(rows.error());
-  auto stored = stored_run(*rows);
-  if (!stored) return refused(std::move(stored.error()));
-  if (auto errors = settle_names(stored->log, stored->rig); !errors.empty())
-    return refused(std::move(errors));
-  auto analysis = analyse(stored->observations, rig_of_run(stored->rig, stored->log), stored->rig,
-                          stored->log, rows->score.biased);
-  if (!analysis) return tl::unexpected(std::move(analysis.error()));
-  auto verdict = verdict_that_counts(**store, word, std::string(name_of(analysis->scored.verdict)));
-  if (!verdict) return tl::unexpected(std::move(verdict.error()));
-  return KnownRun{word + " " + rows->name, std::move(*verdict), std::move(*analysis)};
+  const auto kept = kept_run(arguments.store, word);
+  if (!kept) return tl::unexpected(kept.error());
+  auto run = analyse_again(kept->rows);
+  if (!run) return tl::unexpected(std::move(run.error()));
+  const Verdict verdict =
+      kept->overrides.empty() ? run->scored.verdict : kept->overrides.back().verdict;
+  return KnownRun{word + " " + kept->rows.name, verdict, std::move(*run)};
 }
 
 /// A run log: its film is watched, as `track score` does.
@@ -91,29 +64,23 @@ OrRefusal<KnownRun> run_of_log(const ProfileArguments& arguments, const std::str
   score.arena = arguments.arena;
   auto plan = plan_run(score);
   if (!plan) return tl::unexpected(std::move(plan.error()));
-  const auto observations = watch_run(*plan, output);
-  if (!observations) return tl::unexpected(observations.error());
-  auto analysis =
-      analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
-  if (!analysis) return tl::unexpected(std::move(analysis.error()));
-  std::string verdict(name_of(analysis->scored.verdict));
-  return KnownRun{plan->log.name, std::move(verdict), std::move(*analysis)};
+  auto run = watch_run(*plan, output);
+  if (!run) return tl::unexpected(std::move(run.error()));
+  return KnownRun{run->log.name, run->scored.verdict, std::move(*run)};
 }
 
 void add_run(const KnownRun& run, Collected& collected) {
-  if (run.verdict == name_of(Verdict::Invalid)) {
+  if (run.verdict == Verdict::Invalid) {
     collected.left_out.push_back(run.name + " is INVALID");
     return;
   }
   const std::size_t before = collected.robots.size();
   std::vector<std::string> without;
-  for (std::size_t i = 0; i < run.analysis.tracked.robots.size(); ++i) {
-    const std::string& robot = run.analysis.tracked.robots[i].name;
-    const auto& all = run.analysis.scored.reality;
-    if (i < all.size() && all[i]) {
-      collected.robots.push_back({run.name, robot, *all[i]});
+  for (const RobotFinding& robot : run.run.findings().robots) {
+    if (robot.reality != nullptr) {
+      collected.robots.push_back({run.name, robot.tracked->name, *robot.reality});
     } else {
-      without.push_back(robot);
+      without.push_back(robot.tracked->name);
     }
   }
   if (collected.robots.size() == before) {
@@ -261,7 +228,7 @@ ExitCode run(const ProfileArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_profile(Options& options) {
+CommandRun declare_track_profile(Options& options) {
   auto arguments = std::make_shared<ProfileArguments>();
   options.words("RUN", arguments->runs, "Runs of the store (r7), or run logs (run07.toml)",
                 Options::Need::Required);
@@ -274,4 +241,4 @@ Run declare_track_profile(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -15,7 +15,7 @@
 #include "tracking/video/frame_source.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RecordWords {
@@ -109,7 +109,7 @@ ExitCode record(const RecordWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_record(Options& options) {
+CommandRun declare_record(Options& options) {
   auto words = std::make_shared<RecordWords>();
   options.text("SOURCE FILE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);
@@ -123,4 +123,4 @@ Run declare_record(Options& options) {
   return [words](Output& output) { return record(*words, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

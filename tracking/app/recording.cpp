@@ -14,7 +14,7 @@
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 std::string sidecar_name(const std::string& video) {
@@ -149,4 +149,4 @@ void Recording::tell(Output& output) {
   shown_ = terminal;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

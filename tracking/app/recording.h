@@ -11,7 +11,7 @@
 #include "tracking/video/frame_source.h"
 #include "tracking/video/video_writer.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// BadInput for a name that is no .mkv, and for a file that is there.
 Expected<void> check_recording_name(const std::string& file);
@@ -83,4 +83,4 @@ class Recording {
   double last_s_ = 0;
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,7 +4,7 @@
 
 #include "tracking/app/commands.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 ExitCode exit_code_of_all(const std::vector<Error>& errors) {
   const bool is_usage = std::ranges::any_of(
@@ -36,4 +36,4 @@ ExitCode fail(Output& output, const Refusal& refusal) {
   return refusal.code;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,7 +4,7 @@
 
 #include "console/output.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// What to exit with when all this is wrong: 2 when a file of settings is, else 1.
 ExitCode exit_code_of_all(const std::vector<Error>& errors);
@@ -29,4 +29,4 @@ tl::unexpected<Refusal> refused(ExitCode code, Error error);
 /// Prints all of it.
 ExitCode fail(Output& output, const Refusal& refusal);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

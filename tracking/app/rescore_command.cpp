@@ -4,16 +4,16 @@
 #include "base/id.h"
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/result_text.h"
 #include "tracking/app/robot_files.h"
+#include "tracking/app/run_analysis.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_plan.h"
-#include "tracking/app/run_report.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/score_arguments.h"
+#include "tracking/report/result_text.h"
 #include "tracking/scoring/real_run_rows.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 struct RescoreArguments {
@@ -78,13 +78,11 @@ void read_logs_again(const RunLog& log, const std::string& file,
 
 /// One run, scored again.
 struct Again {
-  RealRunRows before;
+  AnalysedRun run;
   RealRunRows rows;
-  RunLog log;
-  RunAnalysis analysis;
 };
 
-OrRefusal<Again> score_again(const RescoreArguments& arguments, RealRunRows before) {
+OrRefusal<Again> score_again(const RescoreArguments& arguments, const RealRunRows& before) {
   auto stored = stored_run(before);
   if (!stored) return refused(std::move(stored.error()));
   std::string arena_text = before.arena_file;
@@ -113,52 +111,46 @@ OrRefusal<Again> score_again(const RescoreArguments& arguments, RealRunRows befo
   }
   std::vector<Error> errors = settle_names(stored->log, stored->rig);
   if (!errors.empty()) return refused(std::move(errors));
-  const Rig rig = rig_of_run(stored->rig, stored->log);
-  errors = faults_of_rig(rig, stored->log.mission, before.score.biased);
+  errors =
+      faults_of_rig(rig_of_run(stored->rig, stored->log), stored->log.mission, before.score.biased);
   if (!errors.empty()) return refused(std::move(errors));
-  auto analysis = analyse(stored->observations, rig, stored->rig, stored->log, before.score.biased);
-  if (!analysis) return tl::unexpected(std::move(analysis.error()));
-  RealRunRows rows = rows_of(reported_run(rig, stored->log, stored->observations, *analysis),
-                             *analysis, arena_text, candidate);
-  return Again{std::move(before), std::move(rows), std::move(stored->log), std::move(*analysis)};
+  auto run = analyse(std::move(stored->observations), stored->rig, std::move(stored->log),
+                     before.score.biased);
+  if (!run) return tl::unexpected(std::move(run.error()));
+  RealRunRows rows = run->rows(arena_text, candidate);
+  return Again{std::move(*run), std::move(rows)};
 }
 
-void print_again(const std::string& word, const Again& again, bool all_checks, Output& output) {
-  const RealScoreRow& before = again.before.score;
+void print_again(const std::string& word, const RealScoreRow& before, const RunFindings& run,
+                 bool all_checks, Output& output) {
   if (output.json) {
     JsonObject object;
     object.add("run", word)
         .add("before", JsonObject().add("score", before.score).add("verdict", before.verdict));
-    add_result(object, again.log, again.analysis);
+    add_result(object, run);
     output.out << object.text() << "\n";
     return;
   }
   output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"
-             << word << " is now: " << result_text(again.log, again.analysis, all_checks);
+             << word << " is now: " << result_text(run, all_checks);
 }
 
 ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word, Output& output) {
-  const std::string path = store_word(arguments.store);
-  const auto reader = read_store(path);
-  if (!reader) return fail(output, reader.error());
-  auto before = find_run(**reader, word);
-  if (!before) return fail(output, before.error());
-  const auto again = score_again(arguments, std::move(*before));
+  const auto kept = kept_run(arguments.store, word);
+  if (!kept) return fail(output, kept.error());
+  const auto again = score_again(arguments, kept->rows);
   if (!again) return fail(output, again.error());
-  const auto store = open_store(path, StoreAtRest::IfMissing::Refuse);
+  const auto store = open_store(kept->store, StoreAtRest::IfMissing::Refuse);
   if (!store) return fail(output, store.error());
-  const auto written = (*store)->rescore_real_run(*id_from_text<RealRunTag>(word), again->rows);
+  const auto written = (*store)->rescore_real_run(kept->id, again->rows);
   if (!written) return fail(output, ExitCode::Store, written.error());
-  print_again(word, *again, arguments.all_checks, output);
-  return again->analysis.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
+  print_again(word, kept->rows.score, again->run.findings(), arguments.all_checks, output);
+  return again->run.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
 }
 
 /// All of them, whatever becomes of one; the first that is not well decides the exit code.
 ExitCode run(const RescoreArguments& arguments, Output& output) {
-  if (store_word(arguments.store).empty()) {
-    return fail(output, ExitCode::Usage,
-                "no store given; name its file with --store, or set SWARMSMITH_STORE");
-  }
+  if (const auto store = named_store(arguments.store); !store) return fail(output, store.error());
   ExitCode code = ExitCode::Done;
   for (const std::string& word : arguments.runs) {
     const ExitCode one = rescore_one(arguments, word, output);
@@ -169,7 +161,7 @@ ExitCode run(const RescoreArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_rescore(Options& options) {
+CommandRun declare_track_rescore(Options& options) {
   auto arguments = std::make_shared<RescoreArguments>();
   options.words("RUN", arguments->runs, "Runs of the store: r7", Options::Need::Required);
   options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");
@@ -181,4 +173,4 @@ Run declare_track_rescore(Options& options) {
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,7 +4,7 @@
 
 #include "robot/log/log_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& folder,
                             const std::optional<RanMachine>& machine) {
@@ -18,9 +18,7 @@ RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& fold
           {IssueCode::LogUnreadable,
            note.robot + ": its log cannot be read: " + to_string(first) +
                "; copy it from the robot beside the run log, then `rescore` with --run",
-           note.robot,
-           {},
-           {}});
+           note.robot});
       continue;
     }
     RobotLog read{note.robot, note.log, std::move(*record)};
@@ -35,4 +33,4 @@ RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& fold
   return files;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

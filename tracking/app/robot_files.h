@@ -9,7 +9,7 @@
 #include "tracking/rig/run_log.h"
 #include "tracking/robots/robot_logs.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// The robots' logs of a run, as far as they can be read and are of it.
 struct RobotFiles {
@@ -22,4 +22,4 @@ struct RobotFiles {
 RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& folder,
                             const std::optional<RanMachine>& machine);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

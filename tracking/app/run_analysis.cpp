@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/control/treads.h"
+#include "tracking/app/commands.h"
 #include "tracking/app/run_checks.h"
+#include "tracking/motion/track_run.h"
 #include "tracking/observing/sync_event.h"
+#include "tracking/report/quality.h"
 #include "tracking/robots/robot_logs.h"
+#include "tracking/scoring/real_run_rows.h"
 #include "tracking/scoring/score_run.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 constexpr Question kWhole{"film read to its end", "", "a film that was cut, or copied in part"};
@@ -59,15 +64,11 @@ void check_start(const Observations& observations, const RunLog& log, std::vecto
                           "s by tag {} (they may differ by {:g} s); was the video recorded on the "
                           "host that started the robots, and is it that of this run?",
                           *log.start.time_s, *sync, log.start.sync_tag, kSyncTolerance_s)
-            : "`start` could not be checked: " + sync.error().message,
-       {},
-       {},
-       {}});
+            : "`start` could not be checked: " + sync.error().message});
 }
 
 /// Nodes cut commands that are faster than they allow.
 void know_speeds(const std::vector<RobotLog>& logs, TrackLimits& limits) {
-  constexpr double kTreadDistance_m = 0.147;
   double most = 0;
   for (const RobotLog& log : logs)
     most = std::max(most, log.record.head.max_mps);
@@ -88,43 +89,68 @@ void believe_clock(TrackedRun& run) {
 
 }  // namespace
 
-OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
-                               const Rig& whole_rig, const RunLog& log,
+OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, RunLog log,
                                bool takes_tags_for_centres) {
-  RunAnalysis analysis;
   const auto start = start_of(observations, log);
   if (!start) return refused(start.error());
-  for (const RunVideo& video : log.videos)
-    analysis.starts_s.push_back(*start + video.clock_ahead_s);
+  AnalysedRun run{.rig = rig_of_run(whole_rig, log)};
   TrackOptions options;
-  options.span = {analysis.starts_s, log.mission.cycles, {}};
-  for (const RunVideo& video : log.videos)
+  for (const RunVideo& video : log.videos) {
+    run.starts_s.push_back(*start + video.clock_ahead_s);
     options.span.lengths_s.push_back(video.length_s);
+  }
+  options.span.starts_s = run.starts_s;
+  options.span.cycles = log.mission.cycles;
   options.other_tags = other_tags(whole_rig, log);
   options.points = log.points;
   options.body = log.mission.body;
   options.scored_at_the_end = is_scored_at_the_end(log.mission);
   options.takes_tags_for_centres = takes_tags_for_centres;
   know_speeds(observations.logs, options.limits);
-  auto tracked = track_run(observations, rig, log.mission.arena, options);
+  auto tracked = track_run(observations, run.rig, log.mission.arena, options);
   if (!tracked) return refused(tracked.error());
-  analysis.tracked = std::move(*tracked);
-  RobotFindings robots = judge_robots(analysis.tracked, observations.logs, log);
-  analysis.tracked.checks.insert(analysis.tracked.checks.end(), robots.checks.begin(),
-                                 robots.checks.end());
-  if (robots.logs_confirm_clock) believe_clock(analysis.tracked);
+  run.tracked = std::move(*tracked);
+  RobotFindings robots = judge_robots(run.tracked, observations.logs, log);
+  run.tracked.checks.insert(run.tracked.checks.end(), robots.checks.begin(), robots.checks.end());
+  if (robots.logs_confirm_clock) believe_clock(run.tracked);
   std::vector<Issue> before = observations.issues;
   std::vector<Check> asked{answered(kWhole, "", outcome_of(before, 0, IssueCode::VideoTruncated))};
   check_start(observations, log, before, asked);
   before.insert(before.end(), robots.issues.begin(), robots.issues.end());
-  const auto of_logs = checks_of_logs(analysis.tracked, observations, log, robots);
+  const auto of_logs = checks_of_logs(run.tracked, observations, log, robots);
   asked.insert(asked.end(), of_logs.begin(), of_logs.end());
-  auto scored = score_run(analysis.tracked, log.mission, said_patches(log), before, asked);
+  auto scored = score_run(run.tracked, log.mission, said_patches(log), before, asked);
   if (!scored) return refused(scored.error());
-  analysis.scored = std::move(*scored);
-  analysis.scored.latencies = std::move(robots.latencies);
-  analysis.scored.reality = std::move(robots.reality);
-  return analysis;
+  run.scored = std::move(*scored);
+  run.scored.latencies = std::move(robots.latencies);
+  run.scored.reality = std::move(robots.reality);
+  run.log = std::move(log);
+  run.observations = std::move(observations);
+  return run;
 }
 
-}  // namespace swarmsmith::cli
+OrRefusal<AnalysedRun> analyse_again(const RealRunRows& rows) {
+  auto stored = stored_run(rows);
+  if (!stored) return tl::unexpected(Refusal{ExitCode::Store, std::move(stored.error())});
+  if (auto errors = settle_names(stored->log, stored->rig); !errors.empty())
+    return tl::unexpected(Refusal{ExitCode::Store, std::move(errors)});
+  return analyse(std::move(stored->observations), stored->rig, std::move(stored->log),
+                 rows.score.biased);
+}
+
+RunFindings AnalysedRun::findings() const {
+  RunFindings findings = findings_of(rig, log, observations, tracked, scored);
+  findings.program = track_program_name();
+  return findings;
+}
+
+RealRunRows AnalysedRun::rows(const std::string& arena_text, CandidateId candidate) const {
+  const RunFindings run = findings();
+  RealRunRows rows = real_run_rows(run, arena_text, starts_s);
+  rows.candidate = candidate;
+  rows.score.report = quality_json(run);
+  rows.score.program = run.program;
+  return rows;
+}
+
+}  // namespace swarmsmith

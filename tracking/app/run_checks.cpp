@@ -5,7 +5,7 @@
 #include "base/suggestion.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 template <class Setup>
@@ -15,14 +15,6 @@ std::vector<std::string> names_of(const std::vector<Setup>& setups) {
   for (const Setup& setup : setups)
     names.push_back(setup.name);
   return names;
-}
-
-Error unknown(const std::string& what, const std::string& name,
-              const std::vector<std::string>& known, const std::string& file) {
-  return error_of(IssueCode::Config,
-                  "the arena has no " + what + " \"" + name + "\"" + did_you_mean(name, known) +
-                      "; it has: " + joined(known),
-                  file);
 }
 
 void check_camera(const Rig& rig, const CameraSetup& camera, std::vector<Error>& errors) {
@@ -40,6 +32,14 @@ void check_camera(const Rig& rig, const CameraSetup& camera, std::vector<Error>&
 }
 
 }  // namespace
+
+Error unknown(const std::string& what, const std::string& name,
+              const std::vector<std::string>& known, const std::string& file) {
+  return error_of(IssueCode::Config,
+                  "the arena has no " + what + " \"" + name + "\"" + did_you_mean(name, known) +
+                      "; it has: " + joined(known),
+                  file);
+}
 
 std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
   std::vector<Error> errors;
@@ -144,4 +144,4 @@ std::optional<std::vector<Patch>> said_patches(const RunLog& log) {
   return patches;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,12 @@
 #include "tracking/rig/rig.h"
 #include "tracking/rig/run_log.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
+
+/// E_CONFIG for a name that the arena file does not have: "robot", rvr9, those that it has, its
+/// file.
+Error unknown(const std::string& what, const std::string& name,
+              const std::vector<std::string>& known, const std::string& file);
 
 /// Fills in what a log with one camera need not say, and checks its names against the rig: cameras
 /// of videos, robots that took part. Returns everything that is wrong.
@@ -29,4 +34,4 @@ std::vector<int> other_tags(const Rig& rig, const RunLog& log);
 /// The log's patches with the sizes of the mission's places; nothing when it says none.
 std::optional<std::vector<Patch>> said_patches(const RunLog& log);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

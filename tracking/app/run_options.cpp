@@ -6,7 +6,7 @@
 #include "sim/mission/instance_csv.h"
 #include "tracking/rig/rig_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// `--start 12.4`, `--start "12.4 s"`, `--sync-hidden 99`.
@@ -138,4 +138,4 @@ std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log) {
   return errors;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@
 #include "tracking/app/score_arguments.h"
 #include "tracking/rig/run_log.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// E_CONFIG of an option of the command line.
 Error wrong_option(const std::string& text, const std::string& option);
@@ -16,4 +16,4 @@ Error wrong_option(const std::string& text, const std::string& option);
 /// them, and that nobody says when the run begins.
 std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -6,11 +6,11 @@
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
 #include "tracking/app/run_store.h"
+#include "tracking/rig/picture_size.h"
 #include "tracking/rig/rig_file.h"
 #include "tracking/scoring/run_patches.h"
-#include "tracking/video/other_size.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,19 +149,10 @@ OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
                        info.name));
     }
     const CameraSetup& camera = plan.rig.cameras[i];
-    const ImageSize size = plan.rig.models.at(camera.model_file).model.size;
-    if (!(info.size == size)) {
-      const auto text = [](ImageSize of) {
-        return std::to_string(of.width) + "x" + std::to_string(of.height);
-      };
-      return refused(
-          error_of(IssueCode::CalibrationSize,
-                   "calibration " + camera.model_file + " is for " + text(size) +
-                       ", the video has " + text(info.size) +
-                       "; film at the picture size of the calibration, or calibrate again" +
-                       why_other_size(info, size),
-                   files.videos[i].string()));
-    }
+    const auto fits =
+        check_picture_size(camera.model_file, plan.rig.models.at(camera.model_file).model.size,
+                           info.size, info.oddities, files.videos[i].string());
+    if (!fits) return refused(fits.error());
     std::optional<std::vector<double>> times;
     if (!files.times[i].empty()) {
       const auto text = read_file(files.times[i], "frame times");
@@ -234,4 +225,4 @@ OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
   return plan;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

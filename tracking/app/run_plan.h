@@ -15,7 +15,7 @@
 #include "tracking/video/frame_clock.h"
 #include "tracking/video/frame_source.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// A video of the run, opened, with its times.
 struct PlannedVideo {
@@ -47,4 +47,4 @@ struct ArenaFile {
 };
 OrRefusal<ArenaFile> read_arena_file(const std::string& file);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -6,13 +6,20 @@
 #include "base/id.h"
 #include "sim/control/controller.h"
 #include "sim/files/mission_file.h"
+#include "tracking/app/score_arguments.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Other commands hold a store for less than that.
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kPause{100};
+
+OrRefusal<std::unique_ptr<StoreReader>> read_store(const std::string& store) {
+  auto reader = StoreReader::open(store);
+  if (!reader) return refused(ExitCode::Store, reader.error());
+  return std::move(*reader);
+}
 
 /// The first row's cells; nothing when there is no row.
 Expected<std::optional<std::vector<StoreReader::Cell>>> first_row(StoreReader& store,
@@ -68,7 +75,7 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
                         " has no winner yet; name the candidate that ran: --candidate",
                     store});
   }
-  return CandidateId{std::stoll(best.text)};
+  return CandidateId{best.integer()};
 }
 
 /// As robots' logs have it; what is no text of the grammar, as of a program, stays as it is.
@@ -82,12 +89,6 @@ RanMachine printed_machine(const std::string& text, const std::string& flavour_n
 }
 
 }  // namespace
-
-OrRefusal<std::unique_ptr<StoreReader>> read_store(const std::string& store) {
-  auto reader = StoreReader::open(store);
-  if (!reader) return refused(ExitCode::Store, reader.error());
-  return std::move(*reader);
-}
 
 OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
   auto reader = read_store(store);
@@ -129,15 +130,37 @@ OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,
   }
 }
 
-OrRefusal<RealRunRows> find_run(StoreReader& store, const std::string& word) {
+OrRefusal<std::string> named_store(const std::string& option) {
+  if (std::string store = store_word(option); !store.empty()) return store;
+  return refused(ExitCode::Usage,
+                 {ErrorKind::BadInput,
+                  "no store given; name its file with --store, or set SWARMSMITH_STORE",
+                  {}});
+}
+
+OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word) {
+  auto store = named_store(option);
+  if (!store) return tl::unexpected(std::move(store.error()));
+  const auto reader = read_store(*store);
+  if (!reader) return tl::unexpected(reader.error());
   const auto id = id_from_text<RealRunTag>(word);
   if (!id) {
     return refused(ExitCode::Usage,
                    {ErrorKind::BadInput, "\"" + word + "\" is not a run such as r7", {}});
   }
-  auto run = store.real_run(*id);
-  if (!run) return refused(ExitCode::NoSuchId, run.error());
-  return std::move(*run);
+  auto rows = (*reader)->real_run(*id);
+  if (!rows) return refused(ExitCode::NoSuchId, rows.error());
+  KeptRun run{std::move(*store), *id, std::move(*rows), {}};
+  const auto end = (*reader)->query(
+      "SELECT verdict, who, reason FROM v_real_overrides WHERE id = " + sql_text(word) +
+          " ORDER BY number",
+      {}, [](const std::vector<std::string>&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        run.overrides.push_back({verdict_from_name(cells[0].text).value_or(Verdict::Invalid),
+                                 cells[1].text, cells[2].text});
+      });
+  if (!end) return refused(ExitCode::Store, end.error());
+  return run;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

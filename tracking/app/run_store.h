@@ -2,14 +2,16 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "storage/store.h"
 #include "storage/store_at_rest.h"
 #include "tracking/app/refusal.h"
 #include "tracking/rig/run_log.h"
 #include "tracking/robots/robot_logs.h"
+#include "tracking/scoring/run_findings.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// What ran on the robots.
 struct RanControl {
@@ -26,9 +28,18 @@ OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log);
 /// another command may do so, too.
 OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,
                                                    StoreAtRest::IfMissing if_missing);
-OrRefusal<std::unique_ptr<StoreReader>> read_store(const std::string& store);
 
-/// A run by its word, r7; exit code 4 when there is none.
-OrRefusal<RealRunRows> find_run(StoreReader& store, const std::string& word);
+/// A run of a store, and what people said of it.
+struct KeptRun {
+  std::string store;  ///< its file
+  RealRunId id;
+  RealRunRows rows;
+  std::vector<VerdictOverride> overrides;  ///< oldest first
+};
+/// By its word, r7; exit code 4 when there is none. `option` is `--store`, else SWARMSMITH_STORE
+/// names the store.
+OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word);
+/// The same words, checked; exit code 2.
+OrRefusal<std::string> named_store(const std::string& option);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

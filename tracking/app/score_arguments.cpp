@@ -1,6 +1,6 @@
 #include "tracking/app/score_arguments.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 std::string store_word(const std::string& option) {
   return option.empty() ? store_of_environment() : option;
@@ -38,4 +38,4 @@ void ScoreArguments::declare(Options& options) {
   options.text("--report FILE", report, "Write the quality report, a page of HTML");
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,7 +7,7 @@
 
 #include "console/options.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// Which store: `--store`, else SWARMSMITH_STORE, else none (empty).
 std::string store_word(const std::string& option);
@@ -37,4 +37,4 @@ struct ScoreArguments {
   void declare(Options& options);
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,13 +4,13 @@
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/result_text.h"
 #include "tracking/app/run_plan.h"
-#include "tracking/app/run_report.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
+#include "tracking/report/quality.h"
+#include "tracking/report/result_text.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// Opened again only now: a campaign may have run while the video was looked at.
@@ -23,14 +23,13 @@ OrRefusal<RealRunWritten> keep(const RunPlan& plan, const RealRunRows& rows) {
                  written.error());
 }
 
-Expected<void> write_files(const ScoreArguments& arguments, const RunAnalysis& analysis,
-                           const ReportedRun& reported) {
+Expected<void> write_files(const ScoreArguments& arguments, const RunFindings& run) {
   if (!arguments.csv.empty()) {
-    auto written = write_whole_file(arguments.csv, trajectory_csv(analysis.tracked));
+    auto written = write_whole_file(arguments.csv, trajectory_csv(run.tracked));
     if (!written) return written;
   }
   if (arguments.report.empty()) return {};
-  return write_whole_file(arguments.report, quality_html(reported));
+  return write_whole_file(arguments.report, quality_html(run));
 }
 
 /// What a person may want to do now.
@@ -43,17 +42,17 @@ std::string next_step(const std::string& id, const std::string& store, Verdict v
          " --verdict valid --who NAME --reason TEXT`.";
 }
 
-void print_result(const RunPlan& plan, const RunAnalysis& analysis,
+void print_result(const RunPlan& plan, const RunFindings& run,
                   const std::optional<RealRunWritten>& written, bool all_checks, Output& output) {
   const std::string id = written ? to_string(written->id) : "";
   if (output.json) {
     JsonObject object;
-    add_result(object, plan.log, analysis);
+    add_result(object, run);
     if (written) object.add("store", plan.store).add("run", id).add("new", written->is_new);
     output.out << object.text() << "\n";
     return;
   }
-  output.out << result_text(plan.log, analysis, all_checks);
+  output.out << result_text(run, all_checks);
   if (!written) {
     print_note(output, "The run is not stored; --into STORE keeps it.");
     return;
@@ -64,39 +63,36 @@ void print_result(const RunPlan& plan, const RunAnalysis& analysis,
     return;
   }
   output.out << "Stored as " << id << " in " << plan.store << ".\n";
-  print_note(output, next_step(id, plan.store, analysis.scored.verdict));
+  print_note(output, next_step(id, plan.store, run.scored.verdict));
 }
 
-ExitCode run(const ScoreArguments& arguments, Output& output) {
+ExitCode score(const ScoreArguments& arguments, Output& output) {
   auto plan = plan_run(arguments);
   if (!plan) return fail(output, plan.error());
-  const auto observations = watch_run(*plan, output);
-  if (!observations) return fail(output, observations.error());
-  const auto analysis =
-      analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
-  if (!analysis) return fail(output, analysis.error());
-  const ReportedRun reported = reported_run(plan->rig, plan->log, *observations, *analysis);
+  const auto run = watch_run(*plan, output);
+  if (!run) return fail(output, run.error());
   std::optional<RealRunWritten> written;
   if (!plan->store.empty()) {
-    const auto kept = keep(*plan, rows_of(reported, *analysis, plan->arena_text, plan->candidate));
+    const auto kept = keep(*plan, run->rows(plan->arena_text, plan->candidate));
     if (!kept) return fail(output, kept.error());
     written = *kept;
   }
-  print_result(*plan, *analysis, written, arguments.all_checks, output);
-  if (const auto files = write_files(arguments, *analysis, reported); !files) {
+  const RunFindings findings = run->findings();
+  print_result(*plan, findings, written, arguments.all_checks, output);
+  if (const auto files = write_files(arguments, findings); !files) {
     return fail(output, ExitCode::Failed, files.error());
   }
   const bool is_known = written && !written->is_new;
-  const bool is_invalid = analysis->scored.verdict == Verdict::Invalid;
+  const bool is_invalid = run->scored.verdict == Verdict::Invalid;
   return is_invalid && !is_known ? ExitCode::InvalidRun : ExitCode::Done;
 }
 
 }  // namespace
 
-Run declare_track_score(Options& options) {
+CommandRun declare_track_score(Options& options) {
   auto arguments = std::make_shared<ScoreArguments>();
   arguments->declare(options);
-  return [arguments](Output& output) { return run(*arguments, output); };
+  return [arguments](Output& output) { return score(*arguments, output); };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 /// A handler runs in whatever thread the signal finds.
@@ -27,4 +27,4 @@ bool stop_was_asked_for() {
   return asked;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

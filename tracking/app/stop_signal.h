@@ -1,10 +1,10 @@
 #pragma once
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// From now on Ctrl-C and SIGTERM ask for an end instead of being one.
 void catch_stop_signals();
 /// Whether one of them came.
 bool stop_was_asked_for();
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

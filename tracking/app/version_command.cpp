@@ -7,14 +7,14 @@ extern "C" {
 #include <libavformat/version.h>
 }
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 std::string track_program_name() {
   return "swarmsmith-track " SWARMSMITH_VERSION ", OpenCV " CV_VERSION
          ", apriltag " SWARMSMITH_APRILTAG ", libavformat " AV_STRINGIFY(LIBAVFORMAT_VERSION);
 }
 
-Run declare_track_version(Options&) {
+CommandRun declare_track_version(Options&) {
   return [](Output& output) {
     if (output.json) {
       output.out << JsonObject()
@@ -32,4 +32,4 @@ Run declare_track_version(Options&) {
   };
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -1,6 +1,7 @@
 #include "tracking/app/watch_run.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text/sha256.h"
 #include "console/counter.h"
@@ -9,7 +10,7 @@
 #include "tracking/scoring/measured_layout.h"
 #include "tracking/scoring/run_patches.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 ObserveOptions observe_options(const RunPlan& plan) {
@@ -85,7 +86,7 @@ Expected<std::string> sha256_of_source(const std::string& word) {
   return sha256_of(*sha256 + "  " + word.substr(file.size()) + "\n");
 }
 
-OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
+OrRefusal<AnalysedRun> watch_run(RunPlan& plan, Output& output) {
   const ObserveOptions options = observe_options(plan);
   std::vector<CameraObservations> cameras;
   std::vector<FloorPicture> pictures;
@@ -116,7 +117,7 @@ OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
   observations.logs = plan.robots.logs;
   observations.issues.insert(observations.issues.end(), plan.robots.issues.begin(),
                              plan.robots.issues.end());
-  return observations;
+  return analyse(std::move(observations), plan.whole_rig, plan.log, plan.takes_tags_for_centres);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -7,6 +7,9 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <utility>
+
+#include "base/median.h"
 
 namespace swarmsmith {
 namespace {
@@ -138,8 +141,7 @@ std::optional<std::size_t> outlier_of(const std::vector<SolvedView>& views,
   all.reserve(used.size());
   for (const std::size_t i : used)
     all.push_back(views[i].rms_px);
-  std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
-  const double median = all[all.size() / 2];
+  const double median = upper_median(std::move(all));
   const std::size_t worst =
       *std::ranges::max_element(used, {}, [&](std::size_t i) { return views[i].rms_px; });
   const double limit = std::max(kOutlier * median, kGoodView_px);

@@ -7,6 +7,7 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "base/median.h"
 #include "sim/mission/polygon.h"
 
 namespace swarmsmith {
@@ -14,13 +15,6 @@ namespace {
 
 /// Tags are in one line when they spread across it by less than this part of how they spread along.
 constexpr double kThin = 0.1;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
 
 std::string list_of_ids(const std::vector<int>& ids) {
   return ids.empty() ? std::string("none") : fmt::format("{}", fmt::join(ids, ", "));
@@ -147,7 +141,7 @@ std::vector<SeenTag> median_of_looks(const std::vector<std::vector<TagLook>>& lo
     if (values[0].empty() || 4 * values[0].size() < looks.size()) continue;
     SeenTag seen{tag, {}};
     for (std::size_t k = 0; k < 4; ++k)
-      seen.corners[k] = {median(values[2 * k]), median(values[2 * k + 1])};
+      seen.corners[k] = {median_of(values[2 * k]), median_of(values[2 * k + 1])};
     medians.push_back(seen);
   }
   std::ranges::sort(medians, {}, [](const SeenTag& seen) { return seen.tag.tag; });

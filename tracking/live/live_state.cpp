@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json board_json(const std::optional<LiveState::BoardProgress>& board) {
+Json board_json(const std::optional<BoardProgress>& board) {
   if (!board) return {};
   return {{"seen", board->is_seen},
           {"views", board->views},

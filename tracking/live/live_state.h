@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/mission/pose.h"
+#include "tracking/calibration/board_watch.h"
 #include "tracking/overlay/draw_overlay.h"
 
 namespace swarmsmith {
@@ -33,14 +33,7 @@ struct LiveState {
   /// How far the floor tags are from where the calibration of the camera's place saw them: the
   /// median over those seen in the last second.
   std::optional<double> camera_shift_px;
-  /// While a board is shown to the camera: what the views so far cover.
-  struct BoardProgress {
-    bool is_seen = false;  ///< in the last picture that was searched
-    int views = 0;         ///< that differ
-    std::array<int, 9> ninths{};
-    double coverage = 0;
-  };
-  std::optional<BoardProgress> board;
+  std::optional<BoardProgress> board;  ///< while a board is shown to the camera
   int references_seen = 0;
   int references = 0;
   std::vector<LiveRobot> robots;

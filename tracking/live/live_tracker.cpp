@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/median.h"
 #include "tracking/observing/observe.h"
 
 namespace swarmsmith {
@@ -83,9 +84,7 @@ std::optional<double> LiveTracker::camera_shift(double time_s) {
     shifts.push_back(std::hypot(mean.u - was.u, mean.v - was.v));
   }
   if (shifts.empty()) return std::nullopt;
-  const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
-  std::ranges::nth_element(shifts, middle);
-  return *middle;
+  return upper_median(std::move(shifts));
 }
 
 LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, double time_s) {

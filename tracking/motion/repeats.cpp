@@ -1,7 +1,9 @@
 #include "tracking/motion/repeats.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/median.h"
 #include "tracking/motion/internal/tag_ways.h"
 
 namespace swarmsmith {
@@ -166,13 +168,7 @@ class Search {
       }
     }
     if (before.size() < kEnoughBefore || after.size() < kEnoughAfter) return std::nullopt;
-    return Noise{median(before), median(after)};
-  }
-
-  static double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+    return Noise{upper_median(std::move(before)), upper_median(std::move(after))};
   }
 
   /// What became of robots that stand from a frame to the film's end. A camera's noise moves the

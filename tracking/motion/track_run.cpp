@@ -16,6 +16,7 @@
 #include "tracking/motion/repeats.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/lens_reach.h"
+#include "tracking/rig/picture_size.h"
 
 namespace swarmsmith {
 namespace {
@@ -26,16 +27,6 @@ constexpr double kFirstLook_s = 2;
 constexpr Question kOffset{"fit of the tag's offset", "mm",
                            "a tag beside its robot's centre: scores look better than they are"};
 constexpr Question kUnknown{"undeclared tags", "", "a robot with another number"};
-
-std::string size_text(const ImageSize& size) {
-  return fmt::format("{}x{}", size.width, size.height);
-}
-
-const CameraSetup* setup_of(const Rig& rig, const CameraRecord& record) {
-  if (record.camera.empty() && rig.cameras.size() == 1) return &rig.cameras.front();
-  const auto found = std::ranges::find(rig.cameras, record.camera, &CameraSetup::name);
-  return found == rig.cameras.end() ? nullptr : &*found;
-}
 
 /// One sigma on the floor from the calibration: half of what the worst tag is off by when it is
 /// left out, which is about the two sigma bound of a point between the tags.
@@ -57,7 +48,7 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
   std::vector<TrackedCamera> cameras;
   for (std::size_t i = 0; i < observations.cameras.size(); ++i) {
     const CameraRecord& record = observations.cameras[i];
-    const CameraSetup* setup = setup_of(rig, record);
+    const CameraSetup* setup = rig.setup_of(record.camera);
     if (setup == nullptr) {
       return Unexpected(error_of(IssueCode::Config,
                                  "there is no camera `" + record.camera + "` in the arena file",
@@ -72,12 +63,9 @@ Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations
                       setup->name, setup->model_file, setup->place_file),
           rig.file));
     }
-    if (view->camera.size != record.size) {
-      return Unexpected(error_of(IssueCode::CalibrationSize,
-                                 fmt::format("calibration {}, video {}",
-                                             size_text(view->camera.size), size_text(record.size)),
-                                 record.file.empty() ? setup->model_file : record.file));
-    }
+    const auto fits = check_picture_size(setup->model_file, view->camera.size, record.size, {},
+                                         record.file.empty() ? setup->model_file : record.file);
+    if (!fits) return Unexpected(fits.error());
     const auto& lens = rig.models.at(setup->model_file);
     cameras.push_back({setup->name, *view, span.starts_s[i], place_error(rig, *setup),
                        lens.rms_px / lens.model.fx, setup->time_error_s});
@@ -112,9 +100,7 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, con
   run.checks.push_back(answered(kOffset, setup.name, Check::Outcome::Warned));
   run.issues.push_back({IssueCode::TagAsCentre,
                         reason + "; its tag was used as its centre and the score is biased",
-                        setup.name,
-                        {},
-                        {}});
+                        setup.name});
   return TaggedRobot{setup, {}};
 }
 
@@ -180,7 +166,7 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
   run.checks.push_back(answered(
       kUnknown, "", count == 0 ? Check::Outcome::Passed : Check::Outcome::Warned, count, 0));
   if (list.empty()) return;
-  run.issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list, {}, {}, {}});
+  run.issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list});
 }
 
 /// What was noticed that may be the cause: of the film, and tags that are there twice.
@@ -313,11 +299,9 @@ void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
     const auto share = share_beyond_reach(rig.models.at(camera.model_file), view->place, arena);
     Check check{.name = "reach of the lens calibration",
                 .subject = camera.name,
-                .value = {},
                 .limit = 100 * kMostBeyondReach,
                 .unit = "%",
-                .catches = "a lens that is a guess where robots drive",
-                .reason = {}};
+                .catches = "a lens that is a guess where robots drive"};
     if (!share) {
       check.outcome = Check::Outcome::NotRun;
       check.reason = "its file does not say where the board was; `calibrate camera` again";
@@ -332,10 +316,7 @@ void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
            fmt::format(
                "{:.0f} % of the arena lies where the board never was in the picture of camera "
                "{} (limit {:.0f} %), where its lens is a guess; calibrate it there, too",
-               100 * *share, camera.name, 100 * kMostBeyondReach),
-           {},
-           {},
-           {}});
+               100 * *share, camera.name, 100 * kMostBeyondReach)});
     }
     run.checks.push_back(std::move(check));
   }

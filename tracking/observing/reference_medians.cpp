@@ -1,20 +1,14 @@
 #include "tracking/observing/reference_medians.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "base/median.h"
 
 namespace swarmsmith {
 namespace {
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
-
-TagCorners median_of(const std::vector<TagCorners>& looks) {
+TagCorners medians_of(const std::vector<TagCorners>& looks) {
   TagCorners result;
   std::vector<double> u(looks.size());
   std::vector<double> v(looks.size());
@@ -43,7 +37,7 @@ void ReferenceMedians::close_span(double until_s) {
   const double from_s = *first_s_ + static_cast<double>(span_) * span_s_;
   const double middle_s = (from_s + until_s) / 2;
   for (const auto& [tag, looks] : seen_)
-    looks_.push_back({middle_s, tag, median_of(looks), static_cast<int>(looks.size())});
+    looks_.push_back({middle_s, tag, medians_of(looks), static_cast<int>(looks.size())});
   seen_.clear();
 }
 

@@ -7,11 +7,9 @@
 #include "analysis/arena/arena_picture.h"
 #include "analysis/report/html.h"
 #include "sim/control/reference_model.h"
-#include "tracking/report/internal/findings.h"
 #include "tracking/report/internal/reality_table.h"
 #include "tracking/report/quality.h"
 #include "tracking/report/timeline.h"
-#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
 namespace {
@@ -54,8 +52,8 @@ std::string span_text(const Issue& issue) {
   return fmt::format("{:.1f} to {:.1f}", *issue.from, *issue.to);
 }
 
-void write_verdict(HtmlPage& page, const ReportedRun& run) {
-  page.heading(2, fmt::format("Verdict: {}", name_of(counting_verdict(run))));
+void write_verdict(HtmlPage& page, const RunFindings& run) {
+  page.heading(2, fmt::format("Verdict: {}", name_of(run.verdict())));
   if (!run.overrides.empty()) {
     const VerdictOverride& last = run.overrides.back();
     page.paragraph(fmt::format("{} has set the verdict to {}: {}. As measured it was {}.", last.who,
@@ -84,17 +82,18 @@ void write_verdict(HtmlPage& page, const ReportedRun& run) {
   page.facts("The run", facts);
 }
 
-void write_pictures(HtmlPage& page, const ReportedRun& run) {
+void write_pictures(HtmlPage& page, const RunFindings& run) {
   page.heading(2, "What the camera saw");
   ArenaPicture picture{.title = run.log.name,
                        .details = {run.log.mission.name, "score " + score_text(run.scored),
-                                   std::string(name_of(counting_verdict(run)))},
+                                   std::string(name_of(run.verdict()))},
                        .arena = run.log.mission.arena,
                        .body = run.log.mission.body,
                        .width_mm = kPictureWidth_mm};
   const int cycles = run.tracked.trajectory.instants();
   picture.cycles_a_mark = cycles <= 300 ? 50 : cycles <= 600 ? 100 : 300;
-  picture.arena.patches.insert(picture.arena.patches.end(), run.patches.begin(), run.patches.end());
+  picture.arena.patches.insert(picture.arena.patches.end(), run.scored.patches.begin(),
+                               run.scored.patches.end());
   const std::size_t robots = run.tracked.robots.size();
   for (std::size_t i = 0; i < robots; ++i) {
     PicturedRobot robot{.label = run.tracked.robots[i].name};
@@ -111,23 +110,20 @@ void write_pictures(HtmlPage& page, const ReportedRun& run) {
                "How each robot's pose was obtained, and when something was wrong.");
 }
 
-std::string border_text(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.scored.borders.size() || !run.scored.borders[robot]) return "";
-  const BorderDistance& border = *run.scored.borders[robot];
+std::string border_text(const BorderDistance& border) {
   return fmt::format("{:+.1f}, {}{}", 1000 * border.signed_m, border.border,
                      border.too_close ? ": TOO CLOSE TO CALL" : "");
 }
 
-std::string offset_text(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.rig.robots.size()) return "none";
-  const auto found = run.rig.offsets.find(run.rig.robots[robot].offset_file);
-  if (found == run.rig.offsets.end()) return "none: tag used as centre";
-  const OffsetCalibration& made = found->second;
+std::string offset_text(const RobotFinding& robot) {
+  if (robot.setup == nullptr) return "none";
+  if (robot.offset == nullptr) return "none: tag used as centre";
+  const OffsetCalibration& made = *robot.offset;
   return fmt::format("{}, {} ({})", in_mm(made.offset.x_m), in_mm(made.offset.y_m),
                      date_text(made.made));
 }
 
-void write_robots(HtmlPage& page, const ReportedRun& run) {
+void write_robots(HtmlPage& page, const RunFindings& run) {
   page.heading(2, "Robots");
   HtmlTable cycles{.caption =
                        "Control cycles of 0.1 s, and samples (one a frame in which the tag "
@@ -141,8 +137,7 @@ void write_robots(HtmlPage& page, const ReportedRun& run) {
                                {"Longest gap (s)", true},
                                {"from (s)", true},
                                {"Samples", true},
-                               {"Dropped", true}},
-                   .rows = {}};
+                               {"Dropped", true}}};
   HtmlTable quality{.caption =
                         "How well tags fit: measured over declared edge (1 to within 5 %), "
                         "corners about a rigid square (up to 1.5 mm), estimated noise of "
@@ -152,41 +147,38 @@ void write_robots(HtmlPage& page, const ReportedRun& run) {
                                 {"Residual (mm)", true},
                                 {"Sigma x, y (mm)", true},
                                 {"Sigma heading (deg)", true},
-                                {"Tag's offset x, y (mm) and date"}},
-                    .rows = {}};
+                                {"Tag's offset x, y (mm) and date"}}};
   HtmlTable borders{.caption = "Distance to the nearest border at the end (mm), positive inside",
-                    .columns = {{"Robot"}, {"Distance and border"}},
-                    .rows = {}};
-  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
-    const TrackedRobot& robot = run.tracked.robots[i];
-    const CycleCounts counts = cycle_counts(robot);
-    const std::int64_t all = counts.all();
-    const std::int64_t used = sample_counts(robot)[Sample::Use::Used];
-    cycles.rows.push_back({robot.name, std::to_string(robot.tag), percent(counts.measured, all),
-                           percent(counts.interpolated, all), percent(counts.degraded, all),
-                           percent(counts.missing, all), fmt::format("{:.2f}", robot.longest_gap_s),
-                           fmt::format("{:.1f}", robot.longest_gap_from_s), std::to_string(used),
-                           std::to_string(static_cast<std::int64_t>(robot.samples.size()) - used)});
-    quality.rows.push_back({robot.name, fmt::format("{:.4f}", robot.mean_scale),
-                            in_mm(robot.mean_residual_m, 2), in_mm(robot.sigma.sigma_m, 2),
-                            fmt::format("{:.2f}", degrees(robot.sigma.sigma_rad)),
-                            offset_text(run, i)});
-    if (const std::string border = border_text(run, i); !border.empty())
-      borders.rows.push_back({robot.name, border});
+                    .columns = {{"Robot"}, {"Distance and border"}}};
+  for (const RobotFinding& robot : run.robots) {
+    const TrackedRobot& tracked = *robot.tracked;
+    const auto part = [&](CycleKind kind) {
+      return percent(robot.cycles(kind), static_cast<std::int64_t>(tracked.cycles.size()));
+    };
+    const std::int64_t used = robot.samples(Sample::Use::Used);
+    cycles.rows.push_back(
+        {tracked.name, std::to_string(tracked.tag), part(CycleKind::Measured),
+         part(CycleKind::Interpolated), part(CycleKind::Degraded), part(CycleKind::Missing),
+         fmt::format("{:.2f}", tracked.longest_gap_s),
+         fmt::format("{:.1f}", tracked.longest_gap_from_s), std::to_string(used),
+         std::to_string(static_cast<std::int64_t>(tracked.samples.size()) - used)});
+    quality.rows.push_back({tracked.name, fmt::format("{:.4f}", tracked.mean_scale),
+                            in_mm(tracked.mean_residual_m, 2), in_mm(tracked.sigma.sigma_m, 2),
+                            fmt::format("{:.2f}", degrees(tracked.sigma.sigma_rad)),
+                            offset_text(robot)});
+    if (robot.border != nullptr) borders.rows.push_back({tracked.name, border_text(*robot.border)});
   }
   page.table(cycles);
   page.table(quality);
   page.table(borders);
 }
 
-std::string latency_text(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.scored.latencies.size() || !run.scored.latencies[robot]) return "-";
-  const Latency& latency = *run.scored.latencies[robot];
+std::string latency_text(const Latency& latency) {
   if (!latency.seconds) return "cannot be told: " + latency.reason;
   return fmt::format("{:.0f} +- {:.1f}", 1000 * *latency.seconds, 1000 * latency.error_s);
 }
 
-void write_logs(HtmlPage& page, const ReportedRun& run) {
+void write_logs(HtmlPage& page, const RunFindings& run) {
   HtmlTable logs{.caption =
                      "What the robots wrote down themselves: control cycles, and how late they "
                      "began; the latency is the time by which the motion that the camera saw is "
@@ -199,21 +191,19 @@ void write_logs(HtmlPage& page, const ReportedRun& run) {
                              {"Late, median, most (ms)", true},
                              {"Clock offset (ms)", true},
                              {"Latency (ms)"},
-                             {"Scheduling"}},
-                 .rows = {}};
-  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
-    const RobotLog* log = log_of(run, i);
-    if (log == nullptr) continue;
-    const LogHead& head = log->record.head;
-    const LogCounts counts = log_counts(log->record);
+                             {"Scheduling"}}};
+  for (const RobotFinding& robot : run.robots) {
+    if (robot.log == nullptr) continue;
+    const LogHead& head = robot.log->record.head;
+    const LogCounts& counts = robot.logged;
     logs.rows.push_back(
-        {run.tracked.robots[i].name,
+        {robot.tracked->name,
          head.end ? std::string(name_of(head.end->verdict)) : "none: it was killed",
          std::to_string(counts.stepped), std::to_string(counts.held),
          std::to_string(counts.skipped),
          fmt::format("{:.1f}, {:.1f}", counts.late_median_ms, counts.late_most_ms),
          head.clock_offset_s ? fmt::format("{:+.1f}", 1000 * *head.clock_offset_s) : "-",
-         latency_text(run, i), head.scheduling});
+         robot.latency == nullptr ? "-" : latency_text(*robot.latency), head.scheduling});
   }
   if (logs.rows.empty()) return;
   page.heading(2, "Robots' logs");
@@ -221,7 +211,7 @@ void write_logs(HtmlPage& page, const ReportedRun& run) {
   if (const HtmlTable table = reality_table(run); !table.rows.empty()) page.table(table);
 }
 
-void write_frames(HtmlPage& page, const ReportedRun& run) {
+void write_frames(HtmlPage& page, const RunFindings& run) {
   const TrackedRun& tracked = run.tracked;
   page.heading(2, "Frames");
   page.facts("All cameras together",
@@ -235,22 +225,22 @@ void write_frames(HtmlPage& page, const ReportedRun& run) {
                                               tracked.frame_rate_most)}});
 }
 
-void write_camera(HtmlPage& page, const ReportedRun& run, const CameraRecord& record) {
-  const CameraFinding finding = camera_finding(run, record);
+void write_camera(HtmlPage& page, const CameraFinding& camera) {
+  const CameraRecord& record = *camera.record;
   Facts facts = {{"Video", record.file},
                  {"Size", fmt::format("{} x {}", record.size.width, record.size.height)},
                  {"Frames", fmt::format("{}, damaged {}", record.frames, record.damaged_frames)},
                  {"Times from", std::string(name_of(record.time_source))}};
-  if (finding.calibration != nullptr) {
-    const CameraCalibration& made = *finding.calibration;
+  if (camera.calibration != nullptr) {
+    const CameraCalibration& made = *camera.calibration;
     facts.emplace_back("Lens calibrated",
                        fmt::format("{}: {:.3f} px RMS, worst view {:.3f} px, {} views, {:.0f} % of "
                                    "the frame",
                                    date_text(made.made), made.rms_px, made.worst_view_px,
                                    made.views, 100 * made.coverage));
   }
-  if (finding.place != nullptr) {
-    const PlaceCalibration& made = *finding.place;
+  if (camera.place != nullptr) {
+    const PlaceCalibration& made = *camera.place;
     facts.emplace_back(
         "Place calibrated",
         fmt::format(
@@ -258,21 +248,20 @@ void write_camera(HtmlPage& page, const ReportedRun& run, const CameraRecord& re
             "arena",
             date_text(made.made), made.rms_px, made.worst_tag, in_mm(made.worst_left_out_m),
             100 * made.coverage));
-    facts.emplace_back("Height", fmt::format("{:.3f} m above the floor", *finding.height_m));
+    facts.emplace_back("Height", fmt::format("{:.3f} m above the floor", *camera.height_m));
   }
   facts.emplace_back("Camera moved",
                      fmt::format("at most {:.2f} px (at {:.1f} s of its clock; limit 1 px)",
-                                 finding.worst_shift_px, finding.worst_shift_at_s));
+                                 camera.worst_shift_px, camera.worst_shift_at_s));
   page.facts("Camera " + record.camera, facts);
   HtmlTable tags{.caption = "Floor tags of camera " + record.camera,
                  .columns = {{"Tag"},
                              {"Seen", true},
                              {"Reprojection (px)", true},
                              {"Floor error when left out (mm)", true},
-                             {"Shift in this run (px)", true}},
-                 .rows = {}};
-  for (const ReferenceFinding& tag : finding.references) {
-    tags.rows.push_back({std::to_string(tag.tag), fmt::format("{} of {}", tag.looks, finding.looks),
+                             {"Shift in this run (px)", true}}};
+  for (const ReferenceFinding& tag : camera.references) {
+    tags.rows.push_back({std::to_string(tag.tag), fmt::format("{} of {}", tag.looks, camera.looks),
                          fmt::format("{:.3f}", tag.rms_px),
                          tag.left_out_m ? in_mm(*tag.left_out_m) : "-",
                          fmt::format("{:.2f}", tag.worst_shift_px)});
@@ -280,14 +269,13 @@ void write_camera(HtmlPage& page, const ReportedRun& run, const CameraRecord& re
   page.table(tags);
 }
 
-void write_issues(HtmlPage& page, const ReportedRun& run) {
+void write_issues(HtmlPage& page, const RunFindings& run) {
   page.heading(2, "Issues");
   if (run.scored.issues.empty()) page.paragraph("None.");
   HtmlTable issues{.caption =
                        "What docs/tracking.md says of each code: E_ makes a run invalid or "
                        "stops it, W_ is to be known",
-                   .columns = {{"Code"}, {"Robot"}, {"Time (s)"}, {"What"}},
-                   .rows = {}};
+                   .columns = {{"Code"}, {"Robot"}, {"Time (s)"}, {"What"}}};
   for (const Issue& issue : run.scored.issues) {
     issues.rows.push_back(
         {std::string(name_of(issue.code)), issue.robot, span_text(issue), issue.text});
@@ -296,7 +284,7 @@ void write_issues(HtmlPage& page, const ReportedRun& run) {
 }
 
 /// Those that did not pass first.
-void write_checks(HtmlPage& page, const ReportedRun& run) {
+void write_checks(HtmlPage& page, const RunFindings& run) {
   page.heading(2, "Checks");
   const auto& checks = run.scored.checks;
   const auto count = [&](Check::Outcome outcome) {
@@ -314,10 +302,8 @@ void write_checks(HtmlPage& page, const ReportedRun& run) {
                               {"Of"},
                               {"Number"},  // with words, which may wrap
                               {"Limit"},
-                              {"What it catches; why it could not run"}},
-                  .rows = {}};
-  for (const auto outcome : {Check::Outcome::Failed, Check::Outcome::Warned, Check::Outcome::NotRun,
-                             Check::Outcome::Passed}) {
+                              {"What it catches; why it could not run"}}};
+  for (const auto outcome : kWorstFirst) {
     for (const Check& check : checks) {
       if (check.outcome != outcome) continue;
       table.rows.push_back(
@@ -329,12 +315,11 @@ void write_checks(HtmlPage& page, const ReportedRun& run) {
   page.table(table);
 }
 
-void write_origin(HtmlPage& page, const ReportedRun& run) {
+void write_origin(HtmlPage& page, const RunFindings& run) {
   page.heading(2, "Where it comes from");
   page.paragraph("Scored by " + run.program + ".");
   HtmlTable files{.caption = "SHA-256 of the files, first digits",
-                  .columns = {{"File"}, {"SHA-256"}, {"Made"}},
-                  .rows = {}};
+                  .columns = {{"File"}, {"SHA-256"}, {"Made"}}};
   for (const CameraRecord& record : run.observations.cameras)
     files.rows.push_back({record.file, record.sha256.substr(0, kShownHash), ""});
   for (const auto& [name, file] : run.rig.files)
@@ -343,12 +328,12 @@ void write_origin(HtmlPage& page, const ReportedRun& run) {
   constexpr std::string_view kSources[] = {"none", "the run log", "measured from the image"};
   page.facts("Colour patches",
              {{"From", std::string(kSources[static_cast<std::size_t>(run.log.layout.source)])},
-              {"Patches of this run", std::to_string(run.patches.size())}});
+              {"Patches of this run", std::to_string(run.scored.patches.size())}});
 }
 
 }  // namespace
 
-std::string quality_html(const ReportedRun& run) {
+std::string quality_html(const RunFindings& run) {
   HtmlPage page;
   write_verdict(page, run);
   write_pictures(page, run);
@@ -358,10 +343,10 @@ std::string quality_html(const ReportedRun& run) {
   write_checks(page, run);
   write_frames(page, run);
   page.heading(2, "Cameras and floor tags");
-  for (const CameraRecord& record : run.observations.cameras)
-    write_camera(page, run, record);
+  for (const CameraFinding& camera : run.cameras)
+    write_camera(page, camera);
   write_origin(page, run);
-  return page.finish(fmt::format("{}: {}", run.log.name, name_of(counting_verdict(run))),
+  return page.finish(fmt::format("{}: {}", run.log.name, name_of(run.verdict())),
                      fmt::format("{}{}, score {}{}", run.log.mission.name,
                                  run.log.recorded.empty() ? "" : " of " + run.log.recorded,
                                  score_text(run.scored), run.scored.biased ? " (BIASED)" : ""));

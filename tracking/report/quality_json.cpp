@@ -1,10 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/control/reference_model.h"
-#include "tracking/report/internal/findings.h"
 #include "tracking/report/quality.h"
 #include "tracking/robots/reality_text.h"
-#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
 namespace {
@@ -17,16 +15,11 @@ Json or_null(const std::optional<Number>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::string sha256_of_file(const Rig& rig, const std::string& file) {
-  const auto found = rig.files.find(file);
-  return found == rig.files.end() ? "" : found->second.sha256;
-}
-
-Json calibration_json(const ReportedRun& run, const CameraFinding& finding) {
-  if (finding.calibration == nullptr) return nullptr;
-  const CameraCalibration& made = *finding.calibration;
-  return {{"file", finding.setup->model_file},
-          {"sha256", sha256_of_file(run.rig, finding.setup->model_file)},
+Json calibration_json(const CameraFinding& camera) {
+  if (camera.calibration == nullptr) return nullptr;
+  const CameraCalibration& made = *camera.calibration;
+  return {{"file", camera.setup->model_file},
+          {"sha256", camera.calibration_sha256},
           {"made", made.made},
           {"rms_px", made.rms_px},
           {"worst_view_px", made.worst_view_px},
@@ -36,26 +29,26 @@ Json calibration_json(const ReportedRun& run, const CameraFinding& finding) {
           {"board", made.board}};
 }
 
-Json place_json(const ReportedRun& run, const CameraFinding& finding) {
-  if (finding.place == nullptr) return nullptr;
-  const PlaceCalibration& made = *finding.place;
-  return {{"file", finding.setup->place_file},
-          {"sha256", sha256_of_file(run.rig, finding.setup->place_file)},
+Json place_json(const CameraFinding& camera) {
+  if (camera.place == nullptr) return nullptr;
+  const PlaceCalibration& made = *camera.place;
+  return {{"file", camera.setup->place_file},
+          {"sha256", camera.place_sha256},
           {"made", made.made},
           {"rms_px", made.rms_px},
           {"worst_left_out_m", made.worst_left_out_m},
           {"worst_tag", made.worst_tag},
           {"coverage", made.coverage},
-          {"camera_height_m", or_null(finding.height_m)}};
+          {"camera_height_m", or_null(camera.height_m)}};
 }
 
-Json camera_json(const ReportedRun& run, const CameraRecord& record) {
-  const CameraFinding finding = camera_finding(run, record);
+Json camera_json(const CameraFinding& camera) {
+  const CameraRecord& record = *camera.record;
   Json tags = Json::array();
-  for (const ReferenceFinding& tag : finding.references) {
+  for (const ReferenceFinding& tag : camera.references) {
     tags.push_back({{"tag", tag.tag},
                     {"seen", tag.looks},
-                    {"of", finding.looks},
+                    {"of", camera.looks},
                     {"rms_px", tag.rms_px},
                     {"left_out_m", or_null(tag.left_out_m)},
                     {"shift_px", tag.worst_shift_px}});
@@ -68,21 +61,18 @@ Json camera_json(const ReportedRun& run, const CameraRecord& record) {
           {"frames", record.frames},
           {"damaged_frames", record.damaged_frames},
           {"times", name_of(record.time_source)},
-          {"calibration", calibration_json(run, finding)},
-          {"place", place_json(run, finding)},
-          {"shift_px", finding.worst_shift_px},
-          {"shift_at_s", finding.worst_shift_at_s},
+          {"calibration", calibration_json(camera)},
+          {"place", place_json(camera)},
+          {"shift_px", camera.worst_shift_px},
+          {"shift_at_s", camera.worst_shift_at_s},
           {"reference_tags", std::move(tags)}};
 }
 
-Json offset_json(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.rig.robots.size()) return nullptr;
-  const std::string& file = run.rig.robots[robot].offset_file;
-  const auto found = run.rig.offsets.find(file);
-  if (found == run.rig.offsets.end()) return nullptr;
-  const OffsetCalibration& made = found->second;
-  return {{"file", file},
-          {"sha256", sha256_of_file(run.rig, file)},
+Json offset_json(const RobotFinding& robot) {
+  if (robot.offset == nullptr) return nullptr;
+  const OffsetCalibration& made = *robot.offset;
+  return {{"file", robot.setup->offset_file},
+          {"sha256", robot.offset_sha256},
           {"made", made.made},
           {"x_m", made.offset.x_m},
           {"y_m", made.offset.y_m},
@@ -91,30 +81,27 @@ Json offset_json(const ReportedRun& run, std::size_t robot) {
           {"rms_m", made.rms_m}};
 }
 
-Json border_json(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.scored.borders.size() || !run.scored.borders[robot]) return nullptr;
-  const BorderDistance& border = *run.scored.borders[robot];
-  return {{"border", border.border},
-          {"signed_m", border.signed_m},
-          {"sigma_m", border.sigma_m},
-          {"too_close", border.too_close}};
+Json border_json(const RobotFinding& robot) {
+  if (robot.border == nullptr) return nullptr;
+  return {{"border", robot.border->border},
+          {"signed_m", robot.border->signed_m},
+          {"sigma_m", robot.border->sigma_m},
+          {"too_close", robot.border->too_close}};
 }
 
-/// What the robot's own log says; null when it has none.
-Json log_json(const ReportedRun& run, std::size_t robot) {
-  const RobotLog* log = log_of(run, robot);
-  if (log == nullptr) return nullptr;
-  const LogHead& head = log->record.head;
-  const LogCounts counts = log_counts(log->record);
-  return {{"file", log->file},
+/// What the robot's own log says.
+Json log_json(const RobotFinding& robot) {
+  if (robot.log == nullptr) return nullptr;
+  const LogHead& head = robot.log->record.head;
+  return {{"file", robot.log->file},
           {"state", head.end ? Json(head.end->state) : Json(nullptr)},
           {"verdict", head.end ? Json(name_of(head.end->verdict)) : Json(nullptr)},
           {"reasons", head.end ? head.end->reasons : std::vector<std::string>()},
-          {"stepped", counts.stepped},
-          {"held", counts.held},
-          {"skipped", counts.skipped},
-          {"late_median_ms", counts.late_median_ms},
-          {"late_most_ms", counts.late_most_ms},
+          {"stepped", robot.logged.stepped},
+          {"held", robot.logged.held},
+          {"skipped", robot.logged.skipped},
+          {"late_median_ms", robot.logged.late_median_ms},
+          {"late_most_ms", robot.logged.late_most_ms},
           {"clock_offset_s", or_null(head.clock_offset_s)},
           {"machine_digest", head.machine_digest},
           {"host", head.host},
@@ -122,52 +109,46 @@ Json log_json(const ReportedRun& run, std::size_t robot) {
           {"program", head.program}};
 }
 
-Json latency_json(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.scored.latencies.size() || !run.scored.latencies[robot]) return nullptr;
-  const Latency& latency = *run.scored.latencies[robot];
+Json latency_json(const RobotFinding& robot) {
+  if (robot.latency == nullptr) return nullptr;
+  const Latency& latency = *robot.latency;
   return {{"seconds", or_null(latency.seconds)},
           {"error_s", latency.seconds ? Json(latency.error_s) : Json(nullptr)},
           {"agreement", or_null(latency.agreement)},
           {"reason", latency.reason}};
 }
 
-Json reality_of(const ReportedRun& run, std::size_t robot) {
-  if (robot >= run.scored.reality.size() || !run.scored.reality[robot]) return nullptr;
-  return Json::parse(reality_json(*run.scored.reality[robot]).text());
-}
-
-Json robot_json(const ReportedRun& run, std::size_t number) {
-  const TrackedRobot& robot = run.tracked.robots[number];
-  const CycleCounts cycles = cycle_counts(robot);
-  auto samples = sample_counts(robot);
-  return {{"robot", robot.name},
-          {"tag", robot.tag},
+Json robot_json(const RobotFinding& robot) {
+  const TrackedRobot& tracked = *robot.tracked;
+  return {{"robot", tracked.name},
+          {"tag", tracked.tag},
           {"cycles",
-           {{"measured", cycles.measured},
-            {"interpolated", cycles.interpolated},
-            {"degraded", cycles.degraded},
-            {"missing", cycles.missing}}},
-          {"longest_gap_s", robot.longest_gap_s},
-          {"longest_gap_from_s", robot.longest_gap_from_s},
+           {{"measured", robot.cycles(CycleKind::Measured)},
+            {"interpolated", robot.cycles(CycleKind::Interpolated)},
+            {"degraded", robot.cycles(CycleKind::Degraded)},
+            {"missing", robot.cycles(CycleKind::Missing)}}},
+          {"longest_gap_s", tracked.longest_gap_s},
+          {"longest_gap_from_s", tracked.longest_gap_from_s},
           {"samples",
-           {{"used", samples[Sample::Use::Used]},
-            {"outliers", samples[Sample::Use::Outlier]},
-            {"duplicates", samples[Sample::Use::Duplicate]},
-            {"bad_fits", samples[Sample::Use::BadFit]},
-            {"outside", samples[Sample::Use::Outside]}}},
-          {"outliers", robot.outliers},
-          {"scale", robot.mean_scale},
-          {"residual_m", robot.mean_residual_m},
-          {"sigma_m", robot.sigma.sigma_m},
-          {"sigma_rad", robot.sigma.sigma_rad},
-          {"offset", offset_json(run, number)},
-          {"border", border_json(run, number)},
-          {"log", log_json(run, number)},
-          {"latency", latency_json(run, number)},
-          {"reality", reality_of(run, number)}};
+           {{"used", robot.samples(Sample::Use::Used)},
+            {"outliers", robot.samples(Sample::Use::Outlier)},
+            {"duplicates", robot.samples(Sample::Use::Duplicate)},
+            {"bad_fits", robot.samples(Sample::Use::BadFit)},
+            {"outside", robot.samples(Sample::Use::Outside)}}},
+          {"outliers", tracked.outliers},
+          {"scale", tracked.mean_scale},
+          {"residual_m", tracked.mean_residual_m},
+          {"sigma_m", tracked.sigma.sigma_m},
+          {"sigma_rad", tracked.sigma.sigma_rad},
+          {"offset", offset_json(robot)},
+          {"border", border_json(robot)},
+          {"log", log_json(robot)},
+          {"latency", latency_json(robot)},
+          {"reality", robot.reality == nullptr ? Json(nullptr)
+                                               : Json::parse(reality_json(*robot.reality).text())}};
 }
 
-Json issues_json(const ReportedRun& run) {
+Json issues_json(const RunFindings& run) {
   Json issues = Json::array();
   for (const Issue& issue : run.scored.issues) {
     issues.push_back({{"code", name_of(issue.code)},
@@ -179,7 +160,7 @@ Json issues_json(const ReportedRun& run) {
   return issues;
 }
 
-Json checks_json(const ReportedRun& run) {
+Json checks_json(const RunFindings& run) {
   Json checks = Json::array();
   for (const Check& check : run.scored.checks) {
     checks.push_back({{"name", check.name},
@@ -194,7 +175,7 @@ Json checks_json(const ReportedRun& run) {
   return checks;
 }
 
-Json overrides_json(const ReportedRun& run) {
+Json overrides_json(const RunFindings& run) {
   Json overrides = Json::array();
   for (const VerdictOverride& each : run.overrides) {
     overrides.push_back(
@@ -205,14 +186,14 @@ Json overrides_json(const ReportedRun& run) {
 
 }  // namespace
 
-std::string quality_json(const ReportedRun& run) {
+std::string quality_json(const RunFindings& run) {
   const TrackedRun& tracked = run.tracked;
   Json cameras = Json::array();
-  for (const CameraRecord& record : run.observations.cameras)
-    cameras.push_back(camera_json(run, record));
+  for (const CameraFinding& camera : run.cameras)
+    cameras.push_back(camera_json(camera));
   Json robots = Json::array();
-  for (std::size_t i = 0; i < tracked.robots.size(); ++i)
-    robots.push_back(robot_json(run, i));
+  for (const RobotFinding& robot : run.robots)
+    robots.push_back(robot_json(robot));
   const Json report = {{"format", 1},
                        {"run",
                         {{"name", run.log.name},
@@ -222,7 +203,7 @@ std::string quality_json(const ReportedRun& run) {
                          {"design", run.log.design},
                          {"candidate", run.log.candidate},
                          {"duration_s", tracked.trajectory.instants() * kControlPeriod_s}}},
-                       {"verdict", name_of(counting_verdict(run))},
+                       {"verdict", name_of(run.verdict())},
                        {"measured_verdict", name_of(run.scored.verdict)},
                        {"reasons", run.scored.reasons},
                        {"overrides", overrides_json(run)},
@@ -241,7 +222,7 @@ std::string quality_json(const ReportedRun& run) {
                        {"issues", issues_json(run)},
                        {"not_checked", unasked(run.scored.checks)},
                        {"checks", checks_json(run)},
-                       {"patches", run.patches.size()},
+                       {"patches", run.scored.patches.size()},
                        {"program", run.program}};
   return report.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -29,8 +29,7 @@ Check answered(const Question& question, std::string subject, Check::Outcome out
           .value = value,
           .limit = limit,
           .unit = std::string(question.unit),
-          .catches = std::string(question.catches),
-          .reason = {}};
+          .catches = std::string(question.catches)};
 }
 
 Check not_asked(const Question& question, std::string subject, std::string reason) {

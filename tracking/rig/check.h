@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -29,6 +30,9 @@ struct Check {
   friend bool operator==(const Check&, const Check&) = default;
 };
 
+/// In the order in which people look at them.
+inline constexpr std::array kWorstFirst{Check::Outcome::Failed, Check::Outcome::Warned,
+                                        Check::Outcome::NotRun, Check::Outcome::Passed};
 std::string_view name_of(Check::Outcome outcome);  ///< "passed", "warned", "failed", "not run"
 
 /// What all answers to a question share.

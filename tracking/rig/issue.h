@@ -78,9 +78,9 @@ bool is_error(IssueCode code);
 struct Issue {
   IssueCode code = IssueCode::Config;
   std::string text;
-  std::string robot;           ///< its name; empty when none is concerned
-  std::optional<double> from;  ///< seconds of the run
-  std::optional<double> to;
+  std::string robot = {};           ///< its name; empty when none is concerned
+  std::optional<double> from = {};  ///< seconds of the run
+  std::optional<double> to = {};
 
   friend bool operator==(const Issue&, const Issue&) = default;
 };

@@ -110,19 +110,13 @@ std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera) {
          fmt::format("the place of camera {} is not the one that {} was made with: "
                      "its floor tags are {:.2f} px RMS off, and {:.2f} px were found; "
                      "was the file edited? {}",
-                     camera.name, camera.place_file, rms_px, place->second.rms_px, kAgain),
-         {},
-         {},
-         {}});
+                     camera.name, camera.place_file, rms_px, place->second.rms_px, kAgain)});
   }
   if (const std::string list = moved_tags(rig, place->second); !list.empty()) {
     doubts.push_back({IssueCode::SurveyChanged,
                       fmt::format("{} has floor tags elsewhere than when the place of camera {} "
                                   "was found: {}; {}",
-                                  rig.file, camera.name, list, kAgain),
-                      {},
-                      {},
-                      {}});
+                                  rig.file, camera.name, list, kAgain)});
   }
   return doubts;
 }

@@ -27,6 +27,12 @@ double squares_off(const View& view, const ReferenceTag& tag, const TagCorners& 
   return squares;
 }
 
+const CameraSetup* Rig::setup_of(const std::string& camera) const {
+  if (camera.empty() && cameras.size() == 1) return &cameras.front();
+  const auto found = std::ranges::find(cameras, camera, &CameraSetup::name);
+  return found == cameras.end() ? nullptr : &*found;
+}
+
 std::optional<View> Rig::view_of(const CameraSetup& camera) const {
   const auto model = models.find(camera.model_file);
   const auto place = places.find(camera.place_file);

@@ -144,6 +144,8 @@ struct Rig {
   std::map<std::string, PlaceCalibration> places;
   std::map<std::string, OffsetCalibration> offsets;
 
+  /// The camera of that name; empty: the only one. Null when there is none.
+  const CameraSetup* setup_of(const std::string& camera) const;
   /// Nothing when a calibration is missing.
   std::optional<View> view_of(const CameraSetup& camera) const;
   /// Of one of `each_tag`.

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "base/math.h"
+#include "sim/control/treads.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr double kTreadDistance_m = 0.147;
 /// Of the simulator: the RVR's drive, 1.5 Nm on 0.0273 kg m^2, and half of its step.
 constexpr double kSpinRate_radps2 = 55.0;
 constexpr double kHalfStep_s = 0.005;

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "base/math.h"
+#include "sim/control/treads.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr double kTreadDistance_m = 0.147;
 constexpr double kPeriod_s = 0.1;
 constexpr double kTable_s = 0.02;
 constexpr double kLongestGap_s = 0.25;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "sim/control/treads.h"
 #include "tracking/robots/intervals.h"
 
 namespace swarmsmith {
@@ -38,7 +39,6 @@ constexpr double kLeastDoubt = 2;
 /// What is commanded below this over a whole run is standing: metres and radians.
 constexpr double kLeastWay_m = 0.05;
 constexpr double kLeastTurn_rad = 0.5;
-constexpr double kTreadDistance_m = 0.147;
 /// Sums of squares of a motion without noise are not less.
 constexpr double kLeastSquares = 1e-12;
 

@@ -68,10 +68,7 @@ class Judge {
              fmt::format("the film plays {:.3g} times as fast as robots move by their own logs, "
                          "and is {:.1f} s off at the end of the run (limit {:.1f} s); give the "
                          "camera's times as a sidecar, or mend the rate of the file",
-                         *found.rate, found.off_s, kTolerance_s),
-             {},
-             {},
-             {}});
+                         *found.rate, found.off_s, kTolerance_s)});
       }
     }
     findings_.checks.push_back(std::move(check));
@@ -202,9 +199,7 @@ Issue foreign_issue(const RobotLog& log, const std::string& what) {
       fmt::format("{}: its log {} {}; it was left out: name the right file in the run log, then "
                   "`rescore` with --run",
                   log.robot, log.file, what),
-      log.robot,
-      {},
-      {}};
+      log.robot};
 }
 
 }  // namespace

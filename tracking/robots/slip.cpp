@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/math.h"
+#include "sim/control/treads.h"
 #include "tracking/robots/intervals.h"
 
 namespace swarmsmith {
@@ -30,7 +31,6 @@ constexpr double kBlock_s = 2;
 constexpr double kLeastSeconds = 2;
 constexpr std::size_t kLeastBlocks = 4;
 constexpr double kLargestError = 0.05;
-constexpr double kTreadDistance_m = 0.147;
 
 /// Commands that hold from one time to another.
 class Steady {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/median.h"
 #include "sim/files/color_text.h"
 #include "sim/mission/polygon.h"
 #include "tracking/rig/issue.h"
@@ -30,16 +32,14 @@ std::string ratio_text(const std::array<double, 3>& ratio) {
 }
 
 /// Channel by channel, over the pictures.
-std::array<double, 3> median_of(const std::vector<std::array<double, 3>>& ratios) {
+std::array<double, 3> median_ratio(const std::vector<std::array<double, 3>>& ratios) {
   std::array<double, 3> medians{};
   for (std::size_t channel = 0; channel < medians.size(); ++channel) {
     std::vector<double> values;
     values.reserve(ratios.size());
     for (const auto& ratio : ratios)
       values.push_back(ratio.at(channel));
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    medians.at(channel) = *middle;
+    medians.at(channel) = upper_median(std::move(values));
   }
   return medians;
 }
@@ -70,7 +70,7 @@ Expected<MeasuredPatch> measured_patch(const Rectangle& place,
                    mission);
   }
   MeasuredPatch patch{
-      .place = place, .ratio = median_of(ratios), .pictures = static_cast<int>(ratios.size())};
+      .place = place, .ratio = median_ratio(ratios), .pictures = static_cast<int>(ratios.size())};
   const ColorMatch match = nearest_color(patch.ratio, candidates_of(mission), mission.arena.floor);
   patch.color = match.best;
   patch.confidence = match.confidence;

@@ -13,7 +13,6 @@
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
 #include "tracking/motion/resampling.h"
-#include "tracking/robots/robot_logs.h"
 
 namespace swarmsmith {
 namespace {
@@ -28,18 +27,13 @@ std::array<double, 8> flat(const TagCorners& corners) {
 }
 
 /// The same run has the same key, whatever it is scored with.
-std::string key_of(const RunToStore& run) {
+std::string key_of(const RunFindings& run, const std::vector<double>& starts_s) {
   std::string text;
   for (std::size_t i = 0; i < run.observations.cameras.size(); ++i) {
     // To the millisecond: what is nearer is the same begin.
-    text += fmt::format("{} {:.3f}\n", run.observations.cameras[i].sha256, run.starts_s[i]);
+    text += fmt::format("{} {:.3f}\n", run.observations.cameras[i].sha256, starts_s[i]);
   }
   return sha256_of(text);
-}
-
-std::string sha256_of(const Rig& rig, const std::string& file) {
-  const auto found = rig.files.find(file);
-  return found == rig.files.end() ? std::string() : found->second.sha256;
 }
 
 void add_calibration(const Rig& rig, const std::string& file, CalibrationKind kind,
@@ -77,67 +71,56 @@ void add_calibrations(const Rig& rig, RealRunRows& rows) {
   }
 }
 
-void add_videos(const RunToStore& run, RealRunRows& rows) {
-  for (std::size_t i = 0; i < run.observations.cameras.size(); ++i) {
-    const CameraRecord& record = run.observations.cameras[i];
-    RealVideoRow row{.number = static_cast<std::int64_t>(i),
-                     .camera = record.camera,
-                     .file = record.file,
-                     .sha256 = record.sha256,
-                     .time_source = std::string(name_of(record.time_source)),
-                     .width = record.size.width,
-                     .height = record.size.height,
-                     .frames = record.frames,
-                     .damaged_frames = record.damaged_frames};
-    for (const CameraSetup& camera : run.rig.cameras) {
-      if (camera.name != record.camera && run.rig.cameras.size() > 1) continue;
-      row.camera_calibration = sha256_of(run.rig, camera.model_file);
-      row.place_calibration = sha256_of(run.rig, camera.place_file);
-    }
-    row.frame_times = record.frame_times;
-    rows.videos.push_back(std::move(row));
-    for (const ReferenceLook& look : record.references) {
-      rows.references.push_back(
-          {static_cast<std::int64_t>(i), look.time_s, look.tag, flat(look.corners), look.frames});
-    }
+void add_videos(const RunFindings& run, RealRunRows& rows) {
+  for (const CameraFinding& camera : run.cameras) {
+    const CameraRecord& record = *camera.record;
+    const auto number = static_cast<std::int64_t>(rows.videos.size());
+    rows.videos.push_back({.number = number,
+                           .camera = record.camera,
+                           .file = record.file,
+                           .sha256 = record.sha256,
+                           .time_source = std::string(name_of(record.time_source)),
+                           .width = record.size.width,
+                           .height = record.size.height,
+                           .frames = record.frames,
+                           .damaged_frames = record.damaged_frames,
+                           .camera_calibration = camera.calibration_sha256,
+                           .place_calibration = camera.place_sha256,
+                           .frame_times = record.frame_times});
+    for (const ReferenceLook& look : record.references)
+      rows.references.push_back({number, look.time_s, look.tag, flat(look.corners), look.frames});
   }
 }
 
-void add_robots(const RunToStore& run, RealRunRows& rows) {
-  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
-    const TrackedRobot& robot = run.tracked.robots[i];
-    const auto of = [&](CycleKind kind) {
-      return static_cast<std::int64_t>(std::ranges::count(robot.cycles, kind));
-    };
-    RealRobotRow row{.robot = static_cast<std::int64_t>(i),
-                     .name = robot.name,
-                     .tag = robot.tag,
-                     .measured = of(CycleKind::Measured),
-                     .interpolated = of(CycleKind::Interpolated),
-                     .degraded = of(CycleKind::Degraded),
-                     .missing = of(CycleKind::Missing),
-                     .longest_gap_s = robot.longest_gap_s,
-                     .outliers = robot.outliers,
-                     .scale = robot.mean_scale,
-                     .residual_m = robot.mean_residual_m,
-                     .sigma_m = robot.sigma.sigma_m,
-                     .sigma_rad = robot.sigma.sigma_rad};
-    const auto setup = std::ranges::find(run.rig.robots, robot.name, &RobotSetup::name);
+void add_robots(const RunFindings& run, RealRunRows& rows) {
+  for (const RobotFinding& robot : run.robots) {
+    const TrackedRobot& tracked = *robot.tracked;
+    RealRobotRow row{.robot = static_cast<std::int64_t>(rows.robots.size()),
+                     .name = tracked.name,
+                     .tag = tracked.tag,
+                     .measured = robot.cycles(CycleKind::Measured),
+                     .interpolated = robot.cycles(CycleKind::Interpolated),
+                     .degraded = robot.cycles(CycleKind::Degraded),
+                     .missing = robot.cycles(CycleKind::Missing),
+                     .longest_gap_s = tracked.longest_gap_s,
+                     .outliers = tracked.outliers,
+                     .scale = tracked.mean_scale,
+                     .residual_m = tracked.mean_residual_m,
+                     .sigma_m = tracked.sigma.sigma_m,
+                     .sigma_rad = tracked.sigma.sigma_rad};
     const bool is_centre = std::ranges::any_of(run.tracked.issues, [&](const Issue& issue) {
-      return issue.code == IssueCode::TagAsCentre && issue.robot == robot.name;
+      return issue.code == IssueCode::TagAsCentre && issue.robot == tracked.name;
     });
-    if (setup != run.rig.robots.end() && !is_centre) {
-      row.offset_calibration = sha256_of(run.rig, setup->offset_file);
-    }
-    if (i < run.scored.borders.size() && run.scored.borders[i]) {
-      row.border_m = run.scored.borders[i]->signed_m;
-      row.too_close = run.scored.borders[i]->too_close;
+    if (!is_centre) row.offset_calibration = robot.offset_sha256;
+    if (robot.border != nullptr) {
+      row.border_m = robot.border->signed_m;
+      row.too_close = robot.border->too_close;
     }
     rows.robots.push_back(std::move(row));
   }
 }
 
-void add_samples(const RunToStore& run, RealRunRows& rows) {
+void add_samples(const RunFindings& run, RealRunRows& rows) {
   for (const Sighting& seen : run.observations.sightings) {
     rows.samples.push_back({.video = seen.camera,
                             .frame = seen.frame,
@@ -198,44 +181,39 @@ std::string json_of(const std::vector<std::string>& sentences) {
   return nlohmann::json(sentences).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-RealLogRow log_row(const RobotLog& log, std::int64_t robot) {
-  const LogHead& head = log.record.head;
-  RealLogRow row{.robot = robot,
-                 .file = log.file,
+RealLogRow log_row(const RobotFinding& robot, std::int64_t number) {
+  const LogHead& head = robot.log->record.head;
+  RealLogRow row{.robot = number,
+                 .file = robot.log->file,
                  .machine_digest = head.machine_digest,
                  .host = head.host,
                  .program = head.program,
                  .scheduling = head.scheduling,
                  .clock_offset_s = head.clock_offset_s,
+                 .stepped = robot.logged.stepped,
+                 .held = robot.logged.held,
+                 .skipped = robot.logged.skipped,
                  .head = log_head_text(head)};
   if (head.end) {
     row.state = head.end->state;
     row.verdict = name_of(head.end->verdict);
     row.reasons = json_of(head.end->reasons);
   }
-  const LogCounts counts = log_counts(log.record);
-  row.stepped = counts.stepped;
-  row.held = counts.held;
-  row.skipped = counts.skipped;
+  if (robot.latency != nullptr) {
+    row.latency_s = robot.latency->seconds;
+    if (row.latency_s) row.latency_error_s = robot.latency->error_s;
+    row.agreement = robot.latency->agreement;
+    row.latency_reason = robot.latency->reason;
+  }
   return row;
 }
 
-void add_logs(const RunToStore& run, RealRunRows& rows) {
-  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
+void add_logs(const RunFindings& run, RealRunRows& rows) {
+  for (std::size_t i = 0; i < run.robots.size(); ++i) {
+    if (run.robots[i].log == nullptr) continue;
     const auto robot = static_cast<std::int64_t>(i);
-    const auto log =
-        std::ranges::find(run.observations.logs, run.tracked.robots[i].name, &RobotLog::robot);
-    if (log == run.observations.logs.end()) continue;
-    RealLogRow row = log_row(*log, robot);
-    if (i < run.scored.latencies.size() && run.scored.latencies[i]) {
-      const Latency& latency = *run.scored.latencies[i];
-      row.latency_s = latency.seconds;
-      if (latency.seconds) row.latency_error_s = latency.error_s;
-      row.agreement = latency.agreement;
-      row.latency_reason = latency.reason;
-    }
-    rows.logs.push_back(std::move(row));
-    for (const LogRow& cycle : log->record.rows) {
+    rows.logs.push_back(log_row(run.robots[i], robot));
+    for (const LogRow& cycle : run.robots[i].log->record.rows) {
       rows.log_cycles.push_back({.cycle = cycle.cycle,
                                  .robot = robot,
                                  .time_s = cycle.sensed.time_s,
@@ -253,7 +231,7 @@ void add_logs(const RunToStore& run, RealRunRows& rows) {
   std::ranges::stable_sort(rows.log_cycles, {}, &RealLogCycleRow::cycle);
 }
 
-void add_issues(const RunToStore& run, RealRunRows& rows) {
+void add_issues(const RunFindings& run, RealRunRows& rows) {
   const std::vector<Issue>& observed = run.observations.issues;
   for (const Issue& issue : run.scored.issues) {
     const bool of_observing = std::ranges::find(observed, issue) != observed.end();
@@ -264,13 +242,14 @@ void add_issues(const RunToStore& run, RealRunRows& rows) {
 
 }  // namespace
 
-RealRunRows real_run_rows(const RunToStore& run) {
-  RealRunRows rows{.key = key_of(run),
+RealRunRows real_run_rows(const RunFindings& run, const std::string& arena_text,
+                          const std::vector<double>& starts_s) {
+  RealRunRows rows{.key = key_of(run, starts_s),
                    .name = run.log.name,
                    .recorded = run.log.recorded,
                    .source = run.log.source,
                    .mission = run.log.mission.name,
-                   .arena_file = run.arena_text,
+                   .arena_file = arena_text,
                    .log = run_log_text(run.log),
                    .mission_file = mission_text({.mission = run.log.mission}),
                    .duration_s = instant_s(run.log.mission.cycles)};
@@ -278,7 +257,7 @@ RealRunRows real_run_rows(const RunToStore& run) {
   add_videos(run, rows);
   add_robots(run, rows);
   add_samples(run, rows);
-  for (const Patch& patch : run.patches)
+  for (const Patch& patch : run.scored.patches)
     rows.patches.push_back(patch_row(patch));
   add_cycles(run.tracked, rows);
   add_logs(run, rows);

@@ -68,9 +68,7 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
                      "sigma): it counts {:g} and may count {:g}; look at the last frame",
                      robot.name, 1000 * nearest->distance_m, nearest->name,
                      1000 * kSigmas * sigma_m, nearest->here, nearest->beyond),
-         robot.name,
-         {},
-         {}});
+         robot.name});
   }
 }
 

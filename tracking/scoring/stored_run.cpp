@@ -85,7 +85,7 @@ OrComplaints<std::vector<RobotLog>> logs_of(const RealRunRows& rows) {
       kept.cycle = cycle.cycle;
       kept.clock_s = cycle.clock_s;
       kept.late_ms = cycle.late_ms;
-      kept.act = act_from(cycle.act).value_or(Act::Step);
+      kept.act = named<Act>(cycle.act).value_or(Act::Step);
       kept.state = static_cast<int>(cycle.state);
       kept.command.left_mps = cycle.left_mps;
       kept.command.right_mps = cycle.right_mps;

@@ -93,21 +93,27 @@ export function Quiet({ act, label, children, title = label, ...rest }: { act: (
   return <button class="quiet" aria-label={label} title={title} onClick={act} {...rest}>{children as JSX.Element}</button>;
 }
 
+/// Experiments of a design or campaign; `left`: what its races may still use.
+export interface Spent { used: number; budget: number; left: number }
+
+/// From 0 to 1; one that is over has done its part, whatever it used.
+export function part_of({ budget, left }: Spent): number { return budget > 0 ? clamp(1 - left / budget, 0, 1) : 0; }
+
 /// Names and what they stand for, with a word on it for the pointer. What is false is left out.
 export function pairs(kind: string, list: ([name: Children, value: Children, title?: string] | false | null | "")[]) {
   return <dl class={kind}>{list.map((one) => one && <div title={one[2]}><dt>{one[0] as JSX.Element}</dt><dd>{one[1] as JSX.Element}</dd></div>)}</dl>;
 }
 
-export function Bar({ value, of, name }: { value: number; of: number; name: string }) {
-  const part = of > 0 ? clamp(value / of, 0, 1) : 0;
+export function Bar({ of, name }: { of: Spent; name: string }) {
+  const part = part_of(of);
   return <div class="bar" role="progressbar" aria-label={name} aria-valuemin={0} aria-valuemax={100}
-    aria-valuenow={Math.round(100 * part)} aria-valuetext={`${whole(value)} of ${whole(of)}, ${percent(part)}`}>
+    aria-valuenow={Math.round(100 * part)} aria-valuetext={`${whole(of.used)} of ${whole(of.budget)}, ${percent(part)}`}>
     <div style={{ width: `${100 * part}%` }} /></div>;
 }
 
 /// "1 200 of 3 000, 40 %" of a budget.
-export function used_of({ used, budget }: { used: number; budget: number }): Children {
-  return [whole(used), " ", <small>of {whole(budget)}, {percent(budget > 0 ? used / budget : 0)}</small>];
+export function used_of(of: Spent): Children {
+  return [whole(of.used), " ", <small>of {whole(of.budget)}, {percent(part_of(of))}</small>];
 }
 
 interface ChoiceProps {

@@ -1,6 +1,6 @@
 import { Component, h } from "preact";
 import { feed, is_snapshot } from "./api";
-import { announce, Bar, Empty, is_typing, pairs, Quiet, state_word, Waiting } from "./components";
+import { announce, Bar, Empty, is_typing, pairs, part_of, Quiet, state_word, Waiting } from "./components";
 import { clock, count, duration, number, percent, shell_word, whole } from "./format";
 import { Page } from "./page";
 import { current_route, filled, go, href, match } from "./route";
@@ -58,15 +58,15 @@ function Head({ live }: { live: Live | null }) {
     <Quiet label="keys" title="keys (?)" act={help}>?</Quiet>];
   if (!live) return <header class="head"><a class="brand" href="#/">Swarmsmith</a>{toggles}</header>;
   const { status, campaigns, running, looks } = live;
-  const sum = (what: "used" | "budget") => campaigns.reduce((total, one) => total + one[what], 0);
-  const used = sum("used"), budget = sum("budget");
+  const sum = (what: "used" | "budget" | "left") => campaigns.reduce((total, one) => total + one[what], 0);
+  const spent = { used: sum("used"), budget: sum("budget"), left: sum("left") };
   const state = is_snapshot ? "a file" : running ? "running" : campaigns.every((one) => one.state === "finished") ? "finished" : "at rest";
   return <header class="head">
     <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map((one) => one.name).join(", ") || "Swarmsmith"}</a>
     <span class="faint" title={campaigns.map((one) => one.store).join("\n")}>{live.host && `${live.user}@${live.host}`}</span>
     {state_word({ state })}
-    <span class="progress" title={`${whole(used)} of ${whole(budget)} experiments`}>
-      <Bar value={used} of={budget} name="experiments used" /> {percent(budget > 0 ? used / budget : 0)}</span>
+    <span class="progress" title={`${whole(spent.used)} of ${whole(spent.budget)} experiments`}>
+      <Bar of={spent} name="experiments used" /> {percent(part_of(spent))}</span>
     {status && running && [<span><b>{number(status.evaluations_per_s, 3)}</b> evaluations/s</span>,
       <span>ETA <b>{eta_of(live, status.eta_s)}</b></span>]}
     {looks.length > 0 && <details class="looks"><summary>{count(looks.length, "thing needs", "things need")} a look</summary>{look_list(looks, 12)}</details>}

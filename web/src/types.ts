@@ -9,6 +9,8 @@ export interface Design {
   state: "waiting" | "racing" | "testing" | "finished" | "stopped" | "interrupted";
   used: number;
   budget: number;
+  /// What its race may still use: nothing once it is over.
+  left: number;
   iteration: number;
   alive: number | null;
   best: string | null;
@@ -30,6 +32,7 @@ export interface Campaign {
   state: string;
   used: number;
   budget: number;
+  left: number;
   eta_s: number | null;
   /// Why its store cannot be written; empty when well.
   trouble: string;

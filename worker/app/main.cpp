@@ -43,7 +43,7 @@ std::atomic<bool> g_out_of_time{false};
 Wakeup* g_wakeup = nullptr;
 
 void on_signal(int) {
-  if (g_drain.exchange(true)) std::_Exit(static_cast<int>(ExitCode::Interrupted));
+  if (g_drain.exchange(true)) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
   if (g_wakeup != nullptr) g_wakeup->notify();
 }
 
@@ -67,7 +67,7 @@ void handle_signals(Wakeup& wakeup) {
 /// The parent may have died before the wish was known: then it is another one by now.
 void die_with_parent(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (parent > 0 && getppid() != parent) std::_Exit(static_cast<int>(ExitCode::Interrupted));
+  if (parent > 0 && getppid() != parent) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
 }
 
 struct Arguments {
@@ -115,7 +115,7 @@ Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
 
 int fail(const Error& error) {
   log_event(LogLevel::Error, "worker", "failed", {{"reason", to_string(error)}});
-  return static_cast<int>(ExitCode::Usage);
+  return static_cast<int>(WorkerExit::Usage);
 }
 
 /// What the socket and the simulator need, and each slot.
@@ -188,7 +188,7 @@ int run(const Arguments& arguments) {
             {{"coordinator", arguments.connect.empty() ? arguments.coordinator : arguments.connect},
              {"slots", std::to_string(slots)}});
   const WorkerEnd end = serve(*options, identity, pool, wakeup, g_drain);
-  const LogLevel level = end.code == ExitCode::Done ? LogLevel::Debug : LogLevel::Error;
+  const LogLevel level = end.code == WorkerExit::Done ? LogLevel::Debug : LogLevel::Error;
   log_event(level, "worker", "ended", {{"reason", end.reason}});
   if (g_out_of_time) {
     log_event(LogLevel::Error, "worker", "stopped",
@@ -202,7 +202,7 @@ int run(const Arguments& arguments) {
 /// For scripts, as swarmsmith itself answers them (console/program.h); false: no such words.
 bool answer_scripts(const CLI::App& app, std::span<const std::string> words) {
   if (words.empty()) return false;
-  const std::vector<cli::DeclaredOption> options = cli::declared_options(app);
+  const std::vector<DeclaredOption> options = declared_options(app);
   if (words.front() == "--declared") {
     const auto alone = [&](const CLI::App*) {
       return JsonObject()
@@ -210,7 +210,7 @@ bool answer_scripts(const CLI::App& app, std::span<const std::string> words) {
           .add("summary", "")
           .add("details", "")
           .add("another_program", false)
-          .add("options", cli::declared_json(options));
+          .add("options", declared_json(options));
     };
     std::cout << JsonObject()
                      .add("program", app.get_name())
@@ -222,10 +222,10 @@ bool answer_scripts(const CLI::App& app, std::span<const std::string> words) {
     return true;
   }
   if (words.front() != "--complete") return false;
-  std::vector<std::string> typed = cli::typed_words(words.subspan(1));
+  std::vector<std::string> typed = typed_words(words.subspan(1));
   const std::string begin = typed.back();
   typed.pop_back();
-  cli::write_offer(std::cout, cli::offer_next(options, typed, begin, nullptr), begin);
+  write_offer(std::cout, offer_next(options, typed, begin, nullptr), begin);
   return true;
 }
 
@@ -282,7 +282,7 @@ int run_command_line(int argc, char** argv) {
     const int code = app.exit(error, out, errors);
     std::cout << out.str();
     std::cerr << as_shown(errors.str());  // with the words that it was given
-    return code == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+    return code == 0 ? 0 : static_cast<int>(WorkerExit::Usage);
   }
   if (!arguments.connect.empty()) {
     const auto endpoint = endpoint_of(arguments.connect, true);

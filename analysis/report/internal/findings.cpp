@@ -59,9 +59,9 @@ std::vector<Best> best_of_each_mission(ReportDraft& draft) {
       "ORDER BY mission",
       {}, [](const std::vector<std::string>&) {},
       [&](const std::vector<StoreReader::Cell>& cells) {
-        best.push_back({.design = {std::stoll(cells[0].text)},
+        best.push_back({.design = {cells[0].integer()},
                         .mission = cells[1].text,
-                        .candidate = {std::stoll(cells[2].text)}});
+                        .candidate = {cells[2].integer()}});
       }));
   return best;
 }

@@ -12,12 +12,6 @@ namespace {
 
 using Cell = StoreReader::Cell;
 
-double real(const Cell& cell) {
-  double value = 0;
-  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-  return value;
-}
-
 std::string shown(const Cell& cell, Show show) {
   if (cell.type == Cell::Type::Null) return "-";
   switch (show) {
@@ -27,9 +21,9 @@ std::string shown(const Cell& cell, Show show) {
     case Show::Count:
       return cell.text;
     case Show::Number:
-      return cell.type == Cell::Type::Text ? cell.text : shown_number(real(cell));
+      return cell.type == Cell::Type::Text ? cell.text : shown_number(cell.real());
     case Show::Percent:
-      return fmt::format("{:.0f} %", 100 * real(cell));
+      return fmt::format("{:.0f} %", 100 * cell.real());
     case Show::Design:
       return "d" + cell.text;
     case Show::Candidate:

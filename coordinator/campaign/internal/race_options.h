@@ -82,5 +82,6 @@ inline const std::vector<std::string> kTestTypes = {"F-test", "t-test", "t-test-
                                                     "t-test-holm"};
 inline const std::vector<std::string> kCappingTypes = {"median", "mean", "worst", "best"};
 inline const std::vector<std::string> kBoundTypes = {"candidate", "instance"};
+inline const std::vector<std::string> kAblationTypes = {"full", "racing"};
 
 }  // namespace swarmsmith

@@ -140,6 +140,12 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
   if (campaign.only_test && !campaign.target) {
     race->complain("only_test", "`only_test` needs [simulator] with kind = \"command\"");
   }
+  campaign.race.ablation = read_choice<AblationType>(*race, "ablation", kAblationTypes);
+  campaign.race.ablation_pairs = race->integer("ablation_pairs", {1, kLargestBudget}).value_or(1);
+  if (campaign.race.ablation && !campaign.target)
+    race->complain("ablation", "`ablation` needs [simulator] with kind = \"command\"");
+  if (race->has("ablation_pairs") && !campaign.race.ablation)
+    race->complain("ablation_pairs", "`ablation_pairs` is for campaigns with `ablation`");
   if (const auto repair = race->text("repair_configuration"); repair && !repair->empty()) {
     campaign.repair = program_path(*repair, folder);
   }

@@ -112,6 +112,10 @@ Section race_section(const Campaign& campaign) {
   section.lines.push_back({"test_nb_elites", std::to_string(campaign.test_nb_elites)});
   section.lines.push_back({"test_iteration_elites", flag_text(campaign.test_iteration_elites)});
   if (campaign.only_test) section.lines.push_back({"only_test", flag_text(true)});
+  if (race.ablation) {
+    section.lines.push_back(choice_line("ablation", kAblationTypes, *race.ablation));
+    section.lines.push_back({"ablation_pairs", std::to_string(race.ablation_pairs)});
+  }
   if (!campaign.repair.empty()) {
     section.lines.push_back({"repair_configuration", quoted_text(campaign.repair)});
   }

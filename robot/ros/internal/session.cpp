@@ -21,10 +21,6 @@ namespace {
 /// How long a connection may take that the master knows of.
 constexpr std::chrono::seconds kLookEvery{1};
 
-tl::unexpected<RosError> failed(RosError::Kind kind, std::string message, std::string where = {}) {
-  return tl::unexpected<RosError>({kind, std::move(message), std::move(where)});
-}
-
 /// ROS keeps one node a process, and none after it has ended.
 bool first_session() {
   static std::mutex mutex;
@@ -84,20 +80,19 @@ bool wait_for_master(Duration patience) {
   return true;
 }
 
-RosExpected<ros::M_string> remappings_of(const std::string& name_space, const RosOptions& options) {
+Expected<ros::M_string> remappings_of(const std::string& name_space, const RosOptions& options) {
   // roscpp puts a slash in front.
   ros::M_string remappings{{"__ns", name_space == "/" ? name_space : name_space.substr(1)}};
   for (const std::string& text : options.remappings) {
     const std::size_t middle = text.find(":=");
     std::string reason;
     if (middle == 0 || middle == std::string::npos || middle + 2 == text.size()) {
-      return failed(RosError::Kind::BadInput,
-                    "write it as OURS:=THEIRS, such as ranges:=/teraranger/ranges", text);
+      return bad_input("write it as OURS:=THEIRS, such as ranges:=/teraranger/ranges", text);
     }
     const std::string from = text.substr(0, middle);
     const std::string to = text.substr(middle + 2);
     if (!ros::names::validate(from, reason) || !ros::names::validate(to, reason)) {
-      return failed(RosError::Kind::BadInput, "ROS does not take this name: " + reason, text);
+      return bad_input("ROS does not take this name: " + reason, text);
     }
     remappings[from] = to;
   }
@@ -106,9 +101,8 @@ RosExpected<ros::M_string> remappings_of(const std::string& name_space, const Ro
   std::string host;
   std::string port;
   if (!split_uri(master, host, port)) {
-    return failed(RosError::Kind::BadInput,
-                  "`" + master + "` is not the address of a master; write http://HOST:11311",
-                  "ROS_MASTER_URI");
+    return bad_input("`" + master + "` is not the address of a master; write http://HOST:11311",
+                     "ROS_MASTER_URI");
   }
   remappings["__master"] = master;
   return remappings;
@@ -148,14 +142,13 @@ bool ask_system_state(SystemState& state) {
   return true;
 }
 
-RosExpected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
-                                                    const std::string& node, bool unique_name,
-                                                    const RosOptions& options,
-                                                    OnTrouble on_trouble) {
+Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
+                                                 const std::string& node, bool unique_name,
+                                                 const RosOptions& options, OnTrouble on_trouble) {
   const auto remappings = remappings_of(name_space, options);
   if (!remappings) return tl::unexpected(remappings.error());
   if (!first_session()) {
-    return failed(RosError::Kind::Conflict, "this process has a ROS node, and can have one only");
+    return unexpected(ErrorKind::Conflict, "this process has a ROS node, and can have one only");
   }
   std::uint32_t how = ros::init_options::NoSigintHandler | ros::init_options::NoRosout;
   if (unique_name) how |= ros::init_options::AnonymousName;
@@ -164,10 +157,10 @@ RosExpected<std::unique_ptr<Session>> Session::join(const std::string& name_spac
   if (ros::console::set_logger_level("ros", ros::console::levels::Fatal))
     ros::console::notifyLoggerLevelsChanged();
   if (!wait_for_master(options.master_patience)) {
-    return failed(RosError::Kind::Unavailable,
-                  "no ROS master answers; start one there (rosmaster --core, or roscore), or "
-                  "set ROS_MASTER_URI to where it is",
-                  ros::master::getURI());
+    return unexpected(ErrorKind::Unavailable,
+                      "no ROS master answers; start one there (rosmaster --core, or roscore), or "
+                      "set ROS_MASTER_URI to where it is",
+                      ros::master::getURI());
   }
   // Else a master that dies while a node joins keeps it for ever.
   ros::master::setRetryTimeout(ros::WallDuration(5));

@@ -26,10 +26,9 @@ class Session {
   using OnTrouble = std::function<void(std::string text, bool ended)>;
 
   /// `names_space` is "/rvr1" or "/", `node` without it.
-  static RosExpected<std::unique_ptr<Session>> join(const std::string& name_space,
-                                                    const std::string& node, bool unique_name,
-                                                    const RosOptions& options,
-                                                    OnTrouble on_trouble);
+  static Expected<std::unique_ptr<Session>> join(const std::string& name_space,
+                                                 const std::string& node, bool unique_name,
+                                                 const RosOptions& options, OnTrouble on_trouble);
   ~Session();
 
   /// A handle whose relative names are in the name space; callbacks come one at a time.

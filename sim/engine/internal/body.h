@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/control/reference_model.h"
+#include "sim/control/treads.h"
 #include "sim/engine/internal/two.h"
 #include "sim/mission/mission.h"
 #include "sim/mission/pose.h"
@@ -14,7 +15,6 @@ inline constexpr double kHalfSide_m = kBodySide_m / 2;
 inline constexpr double kCornerRadius_m = kHalfSide_m * 1.4142135623730951;
 inline constexpr double kMass_kg = 2.0;
 inline constexpr double kInertia_kg_m2 = kMass_kg * 2 * kBodySide_m * kBodySide_m / 12;
-inline constexpr double kWheelSeparation_m = 0.147;
 /// The drive tracks its set-point with at most this force and torque.
 inline constexpr double kMaxForce_N = 1.5;
 inline constexpr double kMaxTorque_Nm = 1.5;
@@ -87,7 +87,7 @@ inline SetPoint set_point_of(const Command& command, const Body& body) {
   const double speed = (command.left_mps + command.right_mps) / 2;
   return {.vx = speed * body.cos,
           .vy = speed * body.sin,
-          .spin = (command.right_mps - command.left_mps) / kWheelSeparation_m};
+          .spin = (command.right_mps - command.left_mps) / kTreadDistance_m};
 }
 
 }  // namespace swarmsmith

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "analysis/records/csv.h"
 #include "tests/storage/fixture.h"
 
 namespace swarmsmith {

@@ -7,7 +7,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 void write(const std::filesystem::path& path, const std::string& bytes) {
@@ -49,4 +49,4 @@ TEST(Sha256, SaysWhatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -14,40 +14,31 @@ TEST(RaceTable, HasTheLinesOfIrace) {
             "KenW|  Qvar|\n"
             "+-+-----------+-----------+-----------+----------------+-----------+--------+-----+"
             "----+------+\n");
-  EXPECT_EQ(race_line({.marker = 'x',
-                       .pair = 1,
-                       .alive = 8,
-                       .best = 8,
-                       .mean_best = 14.5,
-                       .used = 8,
-                       .wall_s = 0.3},
-                      false),
+  EXPECT_EQ(race_line({.pair = 1, .marker = 'x', .alive_after = 8, .best = {8}, .mean_best = -14.5},
+                      8, 0.3, false),
             "|x|          1|          8|          8|     14.50000000|          8|00:00:00|   NA|"
             "  NA|    NA|\n");
-  EXPECT_EQ(race_line({.marker = '-',
-                       .pair = 5,
-                       .alive = 3,
-                       .best = 10,
-                       .mean_best = 25.04,
-                       .used = 70,
-                       .wall_s = 3725,
-                       .spearman_rho = -0.2,
+  EXPECT_EQ(race_line({.pair = 5,
+                       .marker = '-',
+                       .alive_after = 3,
+                       .best = {10},
+                       .mean_best = -25.04,
                        .kendall_w = 0.04,
+                       .spearman_rho = -0.2,
                        .qvar = 0.8298},
-                      false),
+                      70, 3725, false),
             "|-|          5|          3|         10|     25.04000000|         70|01:02:05|-0.20|"
             "0.04|0.8298|\n");
 }
 
 TEST(RaceTable, HasAColumnForBounds) {
-  EXPECT_EQ(race_line({.marker = 'c',
-                       .pair = 2,
-                       .bound = 0.29,
-                       .alive = 13,
-                       .best = 4,
-                       .mean_best = 0.8,
-                       .used = 27},
-                      true),
+  EXPECT_EQ(race_line({.pair = 2,
+                       .marker = 'c',
+                       .alive_after = 13,
+                       .best = {4},
+                       .mean_best = -0.8,
+                       .bound = 0.29},
+                      27, std::nullopt, true),
             "|c|          2|    0.29|         13|          4|    0.8000000000|         27|      NA|"
             "   NA|  NA|    NA|\n");
   EXPECT_EQ(race_rule(true),

@@ -55,6 +55,32 @@ TEST(TargetCampaign, KeepsInstancesParametersAndPrograms) {
   expect_kept(campaign);
 }
 
+TEST(TargetCampaign, KeepsAnAblation) {
+  const auto text = [](const std::string& race) {
+    return FileText{.mission = "name = \"tuning\"\n",
+                    .method =
+                        "name = \"all\"\nparameters_text = \"a \\\"--a \\\" r (0, 10)\"\n"
+                        "configurations_text = \"a\\n1\\n2\\n\"\n",
+                    .race = race,
+                    .rest = kSimulator}
+        .text();
+  };
+  const std::string race = "max_experiments = 400\nablation = \"racing\"\nablation_pairs = 7\n";
+  const Campaign campaign = parsed(text(race));
+  EXPECT_EQ(campaign.race.ablation, AblationType::Racing);
+  EXPECT_EQ(campaign.race.ablation_pairs, 7);
+  EXPECT_EQ(design_rows(campaign).front().seed, static_cast<std::int64_t>(campaign.seed));
+  expect_kept(campaign);
+  EXPECT_THAT(complaints(text("max_experiments = 13\nablation = \"full\"\nablation_pairs = 7\n")),
+              testing::ElementsAre(HasSubstr("at least 14")));
+  EXPECT_THAT(complaints(with_parameters("max_experiments = 400\nablation = \"full\"\n")),
+              testing::ElementsAre(HasSubstr("two given configurations")));
+  EXPECT_THAT(complaints(text("max_experiments = 400\nablation_pairs = 7\n")),
+              testing::ElementsAre(HasSubstr("is for campaigns with `ablation`")));
+  EXPECT_THAT(complaints(FileText{.race = race}.text()),
+              testing::Contains(HasSubstr("`ablation` needs [simulator]")));
+}
+
 /// Of a method with parameters that every search takes.
 std::string searched_by(const std::string& search) {
   return FileText{

@@ -248,6 +248,29 @@ TEST(TargetDesign, TheRaceAfterTheLastIsMarkedAndResumable) {
   expect_resumable(campaign);
 }
 
+/// The way between two configurations of the campaign's parameters.
+Campaign ablation_with(AblationType type, const std::string& simulator = "") {
+  Campaign campaign = campaign_with("max_experiments = 300", simulator);
+  campaign.methods.front().configurations = "a b c d\n0.5 10 x 0.1\n1.5 20 z 0.9\n";
+  campaign.race.ablation = type;
+  campaign.race.ablation_pairs = 12;
+  return campaign;
+}
+
+TEST(TargetDesign, AnAblationIsADesignThatGoesOnFromAStore) {
+  for (const auto type : {AblationType::Full, AblationType::Racing}) {
+    const Campaign campaign = ablation_with(type);
+    const Ran ran = undisturbed(campaign);
+    const auto last = ran.memory.only<DesignStateRow>().back();
+    EXPECT_EQ(last.state, DesignState::Finished);
+    EXPECT_EQ(last.iteration, 5) << "the source, three steps, the target";
+    EXPECT_LE(last.used, 132);
+    expect_resumable(campaign);
+    expect_resumable(ablation_with(type, "evaluator = \"./e\"\n"), judged);
+    expect_resumable(campaign, [](const Task& task) { return random_target(task, false, 0.05); });
+  }
+}
+
 TEST(TargetDesign, AProgramRepairsWhatIsSampled) {
   const TemporaryFolder folder;
   const std::filesystem::path program = folder / "repair.awk";

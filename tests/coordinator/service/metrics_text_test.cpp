@@ -69,7 +69,7 @@ LiveStatus busy_status() {
   status.refused = {{"unlisted key", 5}};
   CampaignStatus campaign;
   campaign.name = "a \"b\"\\\n";
-  campaign.designs = {{.id = 1, .state = DesignState::Racing, .used = 10, .budget = 100}};
+  campaign.designs = {{.id = {1}, .state = DesignState::Racing, .used = 10, .budget = 100}};
   campaign.meters.timed_out = 4;
   campaign.meters.evaluation.observe(0.002);
   campaign.meters.evaluation.observe(5000.0);

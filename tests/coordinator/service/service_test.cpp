@@ -134,7 +134,7 @@ TEST_F(Services, RunACampaignToItsEndAndSendWorkersHome) {
   EXPECT_EQ(end.how, ServiceEnd::How::Finished);
   EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
   EXPECT_EQ(campaign->complaint(), "");
-  EXPECT_EQ(last_end.code, ExitCode::Done);
+  EXPECT_EQ(last_end.code, WorkerExit::Done);
 }
 
 TEST_F(Services, KeepHonestWorkersUnaffectedByBadPeers) {
@@ -175,7 +175,7 @@ TEST_F(Services, RefuseAWorkerOfAnotherBuild) {
   open();
   std::jthread loop = run();
   { const std::jthread one = worker("other", 99); }
-  EXPECT_EQ(last_end.code, ExitCode::Refused);
+  EXPECT_EQ(last_end.code, WorkerExit::Refused);
   EXPECT_NE(last_end.reason.find("version 99"), std::string::npos);
   loop.request_stop();
   ASSERT_TRUE(eventually([&] { return ended.load(); }));

@@ -28,17 +28,18 @@ class Telemetries : public ::testing::Test {
   Telemetry telemetry{campaigns(), now};
 };
 
-TEST_F(Telemetries, BudgetsOfDesignsThatAreOverAreWhatTheyUsed) {
-  const CampaignStatus one = status().campaigns->front();
-  EXPECT_EQ(one.used, 90);
-  EXPECT_EQ(one.budget, 190);
+TEST_F(Telemetries, NothingIsLeftOfDesignsThatAreOver) {
+  const CampaignTotals totals = status().campaigns->front().totals();
+  EXPECT_EQ(totals.used, 90);
+  EXPECT_EQ(totals.budget, 200);
+  EXPECT_EQ(totals.left, 100);
 }
 
 TEST_F(Telemetries, AnExtensionCountsFromTheStepAfterWhichItActs) {
   CommandRow extension{
       .number = 1, .kind = CommandKind::Extend, .design = {1}, .step = std::nullopt, .budget = 50};
   telemetry.on_rows(0, std::vector<Row>{extension}, now);
-  EXPECT_EQ(status().campaigns->front().budget, 190) << "it is asked for, and waits";
+  EXPECT_EQ(status().campaigns->front().totals().budget, 200) << "it is asked for, and waits";
   extension.step = 9;
   telemetry.on_rows(
       0,
@@ -47,7 +48,8 @@ TEST_F(Telemetries, AnExtensionCountsFromTheStepAfterWhichItActs) {
       now);
   const CampaignStatus one = status().campaigns->front();
   EXPECT_EQ(one.designs.front().budget, 150);
-  EXPECT_EQ(one.budget, 250);
+  EXPECT_EQ(one.totals().budget, 250);
+  EXPECT_EQ(one.totals().left, 160);
 }
 
 TEST_F(Telemetries, BeginWithTheCommandsOfTheStore) {
@@ -104,7 +106,7 @@ TEST_F(Telemetries, AStatusComesBackFromItsJson) {
   sent.slot_times.idle[static_cast<std::size_t>(IdleCause::Network)] = 2;
   sent.fleet = std::make_shared<const std::vector<WorkerStatus>>(
       std::vector<WorkerStatus>{{.number = 4, .host = "node\xff"}});
-  const auto got = live_status_of(to_json(sent));
+  const auto got = live_status_of(to_json(sent).text());
   ASSERT_TRUE(got) << got.error().message;
   EXPECT_EQ(got->bytes_in, 17);
   EXPECT_EQ(got->malformed_by.at("header"), 3U);

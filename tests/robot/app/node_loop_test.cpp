@@ -18,7 +18,7 @@
 #include "sim/files/profile_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using std::chrono::milliseconds;
@@ -337,4 +337,4 @@ TEST(NodeLoop, InLockStepEndsWhenTheWorldIsGone) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -5,7 +5,7 @@
 #include "robot/app/machine_word.h"
 #include "robot/app/robot_names.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 using testing::ElementsAre;
@@ -34,15 +34,15 @@ TEST(RosWords, AreOptionsOfOurs) {
 }
 
 TEST(MachineWord, NeedsAFlavour) {
-  const auto without = robot_machine("--nstates 1 --s0 1", "", "");
+  const auto without = robot_machine("--nstates 1 --s0 1", "", {});
   ASSERT_FALSE(without);
   EXPECT_THAT(without.error().message, HasSubstr("give --flavour"));
-  const auto with = robot_machine("--nstates 1 --s0 1", "watermelon", "seconds");
+  const auto with = robot_machine("--nstates 1 --s0 1", "watermelon", TurnClock::Seconds);
   ASSERT_TRUE(with);
   EXPECT_EQ(with->flavour.exploration.turn_clock, TurnClock::Seconds);
-  EXPECT_FALSE(robot_machine("--nstates 9 --s0 1", "watermelon", ""));
-  EXPECT_FALSE(robot_machine("/no/such/file.fsm", "watermelon", ""));
+  EXPECT_FALSE(robot_machine("--nstates 9 --s0 1", "watermelon", {}));
+  EXPECT_FALSE(robot_machine("/no/such/file.fsm", "watermelon", {}));
 }
 
 }  // namespace
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

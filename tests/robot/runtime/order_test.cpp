@@ -26,6 +26,11 @@ Order start_order() {
 
 TEST(Orders, ReadBackFromTheirText) {
   const Order start = start_order();
+  EXPECT_EQ(order_text(start),
+            R"({"order":"start","id":"a1-7","run":"run07","robots":["rvr1","rvr2"],)"
+            R"("sent_unix_s":1795000000.123456,"valid_s":1,"at_unix_s":1795000002.123456,)"
+            R"("seconds":120,"seed":77,"clock_offsets_s":{"rvr1":-0.0031,"rvr2":0.25}})");
+  EXPECT_EQ(order_text({}), R"({"order":"echo","id":"","run":"","sent_unix_s":0,"valid_s":1})");
   EXPECT_EQ(parse_order(order_text(start)).value(), start);
   for (const Order::Kind kind :
        {Order::Kind::Stop, Order::Kind::Kill, Order::Kind::Alive, Order::Kind::Echo}) {
@@ -45,7 +50,7 @@ TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
         R"({"order":"start","id":"a","run":"x","seconds":1e300})",
         R"({"order":"start","id":"a","run":"x","seconds":3,"seed":"1"})",
         R"({"order":"stop","id":"a","robots":"rvr1"})", R"({"order":"stop","id":"a","robots":[1]})",
-        "\xff\xfe"}) {
+        R"({"order":"stop","id":"a","robots":null})", "\xff\xfe"}) {
     const auto order = parse_order(text);
     ASSERT_FALSE(order) << text;
     EXPECT_FALSE(order.error().message.empty());
@@ -123,11 +128,24 @@ TEST(NodeStates, ReadBackFromTheirText) {
                   .start_unix_s = 1795000000.5,
                   .clock_s = 123.456,
                   .unix_s = 1795000000.123456};
+  EXPECT_EQ(
+      state_text(state),
+      R"({"robot":"rvr2","state":"running","run":"run07","cycle":55,"machine":"ab",)"
+      R"("flavour":"watermelon","turn_clock":"seconds","seed":3,"robot_index":1,"version":"v",)"
+      R"("scheduling":"SCHED_FIFO 20","age_ms":{"proximity":12.5,"ground":-1,"light":3},"held":2,)"
+      R"("skipped":1,"battery":0.9,"verdict":"DEGRADED","reasons":["a \"quoted\" reason"],)"
+      R"("not_ready":["x","y"],"log_trouble":"full","log_open":true,"order":"o","refused":"r",)"
+      R"("start_unix_s":1795000000.5,"clock_s":123.456,"unix_s":1795000000.123456})");
   EXPECT_EQ(parse_state(state_text(state)).value(), state);
   EXPECT_EQ(parse_state(state_text({})).value(), NodeState{});
   EXPECT_FALSE(parse_state("{}"));
   EXPECT_FALSE(parse_state("nonsense"));
   EXPECT_FALSE(parse_state(R"({"state":"dancing"})"));
+  // Of another version: a field of another type, or one too many, is as if it were not there.
+  const auto other = parse_state(R"({"state":"idle","verdict":"GOOD","age_ms":3,"reasons":["a",3],)"
+                                 R"("cycle":1.5,"new":1})");
+  ASSERT_TRUE(other);
+  EXPECT_EQ(*other, (NodeState{.verdict = RunVerdict::Invalid, .reasons = {"a"}}));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ TEST(InProcessSwarm, CarriesReadingsCommandsAndOrders) {
   EXPECT_EQ(std::get<RangesMessage>(*ranges).ranges_m, (std::vector<double>{0.1, 0.2}));
   EXPECT_GT(std::get<RangesMessage>(*ranges).arrival.at.time_since_epoch().count(), 0);
 
-  swarm.robot(1).send(WheelsMessage{{}, 0.3, 0.1, -1, {}});
+  swarm.robot(1).send(WheelsMessage{{}, 0.3, 0.1, {}, {}});
   const auto wheels = swarm.world().receive(now());
   ASSERT_TRUE(wheels.has_value());
   EXPECT_EQ(wheels->robot, 1U);
@@ -57,8 +57,8 @@ TEST(InProcessSwarm, KeepsTheNewestReadingAndEveryOrder) {
 TEST(InProcessSwarm, KeepsTheNewestCommandOfEachSender) {
   InProcessSwarm swarm({"rvr1"}, Keep::Newest);
   for (const double speed : {0.1, 0.2}) {
-    swarm.robot(0).send(WheelsMessage{{}, speed, 0, -1, "one"});
-    swarm.robot(0).send(WheelsMessage{{}, speed, 0, -1, "another"});
+    swarm.robot(0).send(WheelsMessage{{}, speed, 0, {}, "one"});
+    swarm.robot(0).send(WheelsMessage{{}, speed, 0, {}, "another"});
   }
   for (const char* sender : {"one", "another"}) {
     const auto wheels = std::get<WheelsMessage>(swarm.world().receive(now())->message);

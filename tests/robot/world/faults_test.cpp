@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math.h"
+
 namespace swarmsmith {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 TEST(Faults, AreReadFromWords) {
   const auto silent = parse_fault("rvr1:ranges:silent:10-10.3");
   ASSERT_TRUE(silent.has_value());
   EXPECT_EQ(*silent, (Fault{.robot = "rvr1",
-                            .sensor = Fault::Sensor::Ranges,
+                            .sensor = "ranges",
                             .kind = Fault::Kind::Silent,
                             .from_s = 10,
                             .to_s = 10.3}));
@@ -49,8 +49,11 @@ TEST(Faults, HitOneSensorOfOneRobotForTheirTime) {
   EXPECT_FALSE(first.pass(ranges, 1.99).has_value());
   EXPECT_TRUE(first.pass(ranges, 2).has_value());
   EXPECT_TRUE(second.pass(ranges, 1.5).has_value());
-  EXPECT_TRUE(std::isnan(first.pass(GroundColorMessage{{}, 1, 2, 3}, 1.5)->g));
-  EXPECT_EQ(second.pass(GroundColorMessage{{}, 1, 2, 3}, 1.5)->g, 2);
+  const auto green = [](const FaultySensors& sensors) {
+    return std::get<GroundColorMessage>(*sensors.pass(GroundColorMessage{{}, 1, 2, 3}, 1.5)).g;
+  };
+  EXPECT_TRUE(std::isnan(green(first)));
+  EXPECT_EQ(green(second), 2);
 }
 
 TEST(Faults, AScanOfAnotherLengthOrTurnSaysTheSameByItsAngles) {
@@ -68,13 +71,16 @@ TEST(Faults, AScanOfAnotherLengthOrTurnSaysTheSameByItsAngles) {
     }
     return -99.0;
   };
-  const auto shorter = FaultySensors({*parse_fault("r:scan:360:0-")}, "r").pass(scan, 0);
-  EXPECT_EQ(shorter->ranges_m.size(), 360U);
-  EXPECT_NEAR(where(*shorter), kPi / 4, 0.02);
-  const auto turned = FaultySensors({*parse_fault("r:scan:turned:0-")}, "r").pass(scan, 0);
-  EXPECT_NE(turned->ranges_m, scan.ranges_m);
-  EXPECT_NEAR(turned->angle_min_rad, -kPi, 0.01);
-  EXPECT_NEAR(where(*turned), kPi / 4, 1e-9);
+  const auto passed = [&scan](const char* fault) {
+    return std::get<ScanMessage>(*FaultySensors({*parse_fault(fault)}, "r").pass(scan, 0));
+  };
+  const ScanMessage shorter = passed("r:scan:360:0-");
+  EXPECT_EQ(shorter.ranges_m.size(), 360U);
+  EXPECT_NEAR(where(shorter), kPi / 4, 0.02);
+  const ScanMessage turned = passed("r:scan:turned:0-");
+  EXPECT_NE(turned.ranges_m, scan.ranges_m);
+  EXPECT_NEAR(turned.angle_min_rad, -kPi, 0.01);
+  EXPECT_NEAR(where(turned), kPi / 4, 1e-9);
 }
 
 }  // namespace

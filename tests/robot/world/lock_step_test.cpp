@@ -36,7 +36,7 @@ Controller busy_machine() {
 /// Robots' nodes, as `swarmsmith-robot run` has them, a thread each.
 class Nodes {
  public:
-  Nodes(InProcessSwarm& swarm, const Controller& controller, const Flavour& flavour, cli::Pace pace,
+  Nodes(InProcessSwarm& swarm, const Controller& controller, const Flavour& flavour, Pace pace,
         std::int64_t seed, int index_offset = 0) {
     for (int i = 0; i < kRobots; ++i) {
       const auto robot = static_cast<std::size_t>(i);
@@ -46,15 +46,15 @@ class Nodes {
       settings.seed = seed;
       settings.max_mps = kMaxWheelSpeed_mps;
       nodes_.push_back(std::make_unique<RobotNode>(settings, controller, flavour));
-      loops_.push_back(std::make_unique<cli::NodeLoop>(
-          *nodes_.back(), swarm.robot(robot),
-          cli::LoopOptions{.pace = pace,
-                           .logs = {},
-                           .patience = std::chrono::minutes(2),
-                           .ends = [this]() -> std::optional<std::string> {
-                             if (end_) return "by the test";
-                             return std::nullopt;
-                           }}));
+      loops_.push_back(
+          std::make_unique<NodeLoop>(*nodes_.back(), swarm.robot(robot),
+                                     LoopOptions{.pace = pace,
+                                                 .logs = {},
+                                                 .patience = std::chrono::minutes(2),
+                                                 .ends = [this]() -> std::optional<std::string> {
+                                                   if (end_) return "by the test";
+                                                   return std::nullopt;
+                                                 }}));
       threads_.emplace_back([loop = loops_.back().get()] { loop->run(); });
     }
   }
@@ -67,7 +67,7 @@ class Nodes {
  private:
   std::atomic<bool> end_{false};
   std::vector<std::unique_ptr<RobotNode>> nodes_;
-  std::vector<std::unique_ptr<cli::NodeLoop>> loops_;
+  std::vector<std::unique_ptr<NodeLoop>> loops_;
   std::vector<std::thread> threads_;
 };
 
@@ -109,7 +109,7 @@ TEST(LockStep, ByNumberHasTheBitsOfARunWithoutNodes) {
   for (const char* profile : {"argos3", "rvr", "pseudo-reality"}) {
     const Scene scene(profile);
     InProcessSwarm swarm(names());
-    const Nodes nodes(swarm, scene.controller, watermelon(), cli::Pace::Senses, 1);
+    const Nodes nodes(swarm, scene.controller, watermelon(), Pace::Senses, 1);
     const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
     ASSERT_TRUE(result.has_value()) << to_string(result.error());
     EXPECT_EQ(result->state_digest, scene.alone().state_digest) << profile;
@@ -121,7 +121,7 @@ TEST(LockStep, ByNumberHasTheBitsOfARunWithoutNodes) {
 TEST(LockStep, OneNodeRunsSeedAfterSeed) {
   InProcessSwarm swarm(names());
   const Controller controller = busy_machine();
-  const Nodes nodes(swarm, controller, watermelon(), cli::Pace::Senses, 1);
+  const Nodes nodes(swarm, controller, watermelon(), Pace::Senses, 1);
   for (const std::int64_t seed : {3, 4, 3}) {
     const Scene scene("rvr", seed);
     const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
@@ -133,7 +133,7 @@ TEST(LockStep, OneNodeRunsSeedAfterSeed) {
 TEST(LockStep, ByCountingHasTheSameBits) {
   const Scene scene("rvr");
   InProcessSwarm swarm(names());
-  const Nodes nodes(swarm, scene.controller, watermelon(), cli::Pace::CountedTopics, scene.seed);
+  const Nodes nodes(swarm, scene.controller, watermelon(), Pace::CountedTopics, scene.seed);
   const auto result = run_in_lock_step(swarm.world(), world_topics(), scene.run(), {});
   ASSERT_TRUE(result.has_value()) << to_string(result.error());
   EXPECT_EQ(result->state_digest, scene.alone().state_digest);
@@ -142,7 +142,7 @@ TEST(LockStep, ByCountingHasTheSameBits) {
 TEST(LockStep, AnotherRandomStreamIsAnotherRun) {
   const Scene scene("rvr");
   InProcessSwarm swarm(names());
-  const Nodes nodes(swarm, scene.controller, watermelon(), cli::Pace::Senses, 1, 1);
+  const Nodes nodes(swarm, scene.controller, watermelon(), Pace::Senses, 1, 1);
   const auto result = run_in_lock_step(swarm.world(), by_number(), scene.run(), {});
   ASSERT_TRUE(result.has_value());
   EXPECT_NE(result->state_digest, scene.alone().state_digest);

@@ -43,7 +43,7 @@ TEST(RealTime, ARobotWhoseCommandsEndStandsStill) {
       const auto message =
           swarm.robot(0).receive(SystemClock().now() + std::chrono::milliseconds(5));
       if (!message || !std::holds_alternative<RangesMessage>(*message) || ++heard > 3) continue;
-      swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, -1, {}});
+      swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, {}, {}});
     }
   });
   std::vector<double> x;
@@ -91,7 +91,7 @@ TEST(RealTime, TheRobotsWaitInTheirPlacesForTheStart) {
 TEST(RealTime, ARobotThatDrivesBeforeTheStartIsRefused) {
   const Scene scene(3);
   InProcessSwarm swarm({"rvr1"}, Keep::Newest);
-  swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, -1, {}});
+  swarm.robot(0).send(WheelsMessage{{}, 0.3, 0.3, {}, {}});
   RealTimeOptions options;
   options.start_of = [](const StateMessage&) { return std::nullopt; };
   const auto result = run_in_real_time(swarm.world(), world_topics(), scene.run(), options);

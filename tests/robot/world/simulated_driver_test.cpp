@@ -16,7 +16,7 @@ TimePoint at(int ms) {
 }
 
 WheelsMessage command(int ms, double speed, const std::string& sender = "/rvr1/control") {
-  return {{at(ms), 0}, speed, speed, -1, sender};
+  return {{at(ms), 0}, speed, speed, {}, sender};
 }
 
 /// Left tread after `act`, or the one before when nothing is new.

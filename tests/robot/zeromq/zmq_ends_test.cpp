@@ -61,7 +61,7 @@ TEST(ZmqEnds, CarryReadingsCommandsStatesAndOrders) {
   ASSERT_TRUE(ranges.has_value());
   EXPECT_EQ(ranges->ranges_m.front(), 0.1 + 0.2);
 
-  node->end->send(WheelsMessage{{}, 0.3, 0.1, -1, {}});
+  node->end->send(WheelsMessage{{}, 0.3, 0.1, {}, {}});
   const auto wheels = next_of<WheelsMessage>(**world);
   ASSERT_TRUE(wheels.has_value());
   EXPECT_EQ(wheels->left_mps, 0.3);
@@ -157,6 +157,7 @@ TEST(ZmqEnds, WhatADriverSaysAfterAnotherHelloIsNotBelieved) {
   ASSERT_TRUE(said.has_value());
   EXPECT_THAT(said->text, HasSubstr("drives no more: it said `hello operator`"));
   EXPECT_FALSE(node->end->connected());
+  client.send("odom 0 1 2 3 4 5 6");  // of older drivers: no trouble
   client.send("driven 0 0.3 0.3");
   EXPECT_THAT(next<TroubleMessage>(*node->end)->text, HasSubstr("it is not believed"));
 }

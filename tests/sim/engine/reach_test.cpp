@@ -27,7 +27,7 @@ struct Scene {
     for (const Mover& a : robots) {
       speed_limit =
           std::max({speed_limit, hypot(a.body.vx, a.body.vy), hypot(a.set_point.vx, a.set_point.vy),
-                    std::fabs(a.set_point.spin) * kWheelSeparation_m / 2});
+                    std::fabs(a.set_point.spin) * kTreadDistance_m / 2});
       radius = std::max(radius, a.form().radius_m);
     }
     Places places(robots.size());

@@ -18,11 +18,6 @@ def setUpModule():
     LAB = FilmedLab()
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 def write_gray_png(path, width, height, level):
     """An even picture, by hand: the standard library writes none."""
     def chunk(kind, data):

@@ -18,11 +18,6 @@ def setUpModule():
     LAB = FilmedLab()
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 class Bag(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -32,13 +32,15 @@ def must(program, *words):
 
 
 class FilmedLab:
-    """Folder `lab` with arena.toml and its calibrations; clips are filmed when first asked for."""
+    """Folder `lab` with arena.toml and its calibrations; clips are filmed when first asked for. Made in setUpModule, and
+    gone with the module's tests."""
     WISHES = ()  # of `film lab`
 
     def __init__(self):
         if not (TRACK.exists() and FILM.exists()):
             raise unittest.SkipTest("skipped: swarmsmith-track or film is not built")
         self.temporary = tempfile.TemporaryDirectory(prefix="track-")
+        unittest.addModuleCleanup(self.temporary.cleanup)
         self.folder = pathlib.Path(self.temporary.name)
         self.lab = self.folder / "lab"
         shutil.copytree(self.kept(), self.lab)

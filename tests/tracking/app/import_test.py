@@ -18,11 +18,6 @@ def setUpModule():
     LAB.film("run")
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 def words_for(store):
     return ["score", "--run", str(LAB.film("run")), "--arena", str(LAB.lab / "arena.toml"),
             "--into", str(store)]

@@ -22,9 +22,6 @@ def setUpModule():
 
 
 def tearDownModule():
-    if LAB is None:
-        return
-    LAB.close()
     print(f"\n{'film':34} {'verdict':9} {'score off':>9}  codes")
     for name, verdict, off, codes in TABLE:
         print(f"{name:34} {verdict:9} {off:>9}  {' '.join(sorted(codes))}")

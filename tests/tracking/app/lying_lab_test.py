@@ -15,11 +15,6 @@ def setUpModule():
     LAB = FilmedLab()
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 def turned(text, degrees):
     """What the offset file said before the tag was put back turned about its middle."""
     number = lambda key: float(re.search(rf"^{key} = (\S+)", text, re.M).group(1))

@@ -20,11 +20,6 @@ def setUpModule():
     LAB = FilmedLab()
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 X264 = ("-c:v", "libx264", "-crf", "12", "-preset", "veryfast")
 X265_10 = ("-c:v", "libx265", "-crf", "12", "-preset", "ultrafast", "-pix_fmt", "yuv420p10le", "-x265-params",
            "log-level=none", "-tag:v", "hvc1")

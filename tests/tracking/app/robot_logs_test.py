@@ -20,11 +20,6 @@ def setUpModule():
     LAB.film("run", "--robot-logs", "--latency-ms", round(1000 * LATENCY_S), seconds=12)
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 class RobotLogs(unittest.TestCase):
     def setUp(self):
         """A copy of the run's texts, to be changed; the film is read where it is."""

@@ -19,11 +19,6 @@ def setUpModule():
     LAB = TwoTagLab()
 
 
-def tearDownModule():
-    if LAB is not None:
-        LAB.close()
-
-
 class SeveralTags(unittest.TestCase):
     def score(self, name, *wishes, arena=None, more=()):
         """Its answer, and what is true."""

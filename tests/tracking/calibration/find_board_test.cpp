@@ -1,4 +1,4 @@
-#include "tracking/calibration/find_board.h"
+#include "tracking/calibration/board_watch.h"
 
 #include <gmock/gmock.h>
 
@@ -210,6 +210,28 @@ TEST(PickViewsTest, TakesViewsThatDifferAndOfThoseAlikeTheSharpest) {
   const auto few = pick_views(sights, board, camera.size, 5);
   EXPECT_EQ(few.size(), 5U);
   EXPECT_TRUE(std::ranges::is_sorted(few));
+}
+
+TEST(BoardWatchTest, CountsViewsThatDifferAndLooksTwiceASecond) {
+  const Board board = *parse_board("charuco:7x5:0.045:0.034:4x4_50");
+  const Shot left = shot_of(board, {250, 250}, 0.6, 0.3);
+  const Shot right = shot_of(board, {700, 300}, 0.6, -0.3);
+  const std::vector<std::uint8_t> nothing(left.gray.size(), 128);
+  BoardWatch watch(board);
+  const auto look = [&](const std::vector<std::uint8_t>& gray, double time_s) {
+    return watch.look_at(film::as_gray_image(gray, half_camera().size), time_s);
+  };
+  const BoardProgress first = look(left.gray, 7);
+  EXPECT_TRUE(first.is_seen);
+  EXPECT_EQ(first.views, 1);
+  EXPECT_GT(first.coverage, 0.02);
+  EXPECT_TRUE(look(nothing, 7.4).is_seen) << "too soon to look again";
+  EXPECT_FALSE(look(nothing, 7.6).is_seen);
+  EXPECT_EQ(look(left.gray, 8.2).views, 1);
+  const BoardProgress both = look(right.gray, 8.8);
+  EXPECT_EQ(both.views, 2);
+  EXPECT_GT(both.coverage, first.coverage);
+  EXPECT_GT(std::ranges::count_if(both.ninths, [](int n) { return n > 0; }), 2);
 }
 
 }  // namespace

@@ -134,13 +134,6 @@ std::vector<std::string> errors_of(const TrackedRun& run) {
   return names;
 }
 
-const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject) {
-  const auto found = std::ranges::find_if(run.checks, [&](const Check& check) {
-    return check.name == name && check.subject == subject;
-  });
-  return found == run.checks.end() ? nullptr : &*found;
-}
-
 /// As if the tag of a robot had been put back turned, about its own middle.
 void turn_tag(SeenRun& seen, int robot, double turned_rad) {
   RobotSetup& setup = seen.rig.robots.at(static_cast<std::size_t>(robot));
@@ -151,18 +144,6 @@ void turn_tag(SeenRun& seen, int robot, double turned_rad) {
   const TagOffset is = file.offset;
   file.offset = {c * is.x_m - s * is.y_m, s * is.x_m + c * is.y_m,
                  wrap_angle(is.yaw_rad - turned_rad)};
-}
-
-double worst_error(const TrackedRun& run, const Truth& truth) {
-  double worst = 0;
-  for (int i = 0; i < run.trajectory.instants(); ++i) {
-    for (int robot = 0; robot < run.trajectory.robots; ++robot) {
-      const Pose& found = run.trajectory.at(i)[static_cast<std::size_t>(robot)];
-      const Pose is = truth(robot, instant_s(i + 1));
-      worst = std::max(worst, std::hypot(found.x - is.x, found.y - is.y));
-    }
-  }
-  return worst;
 }
 
 TEST(TravelTest, RobotsThatMoveAsRobotsDoAreNotBothered) {

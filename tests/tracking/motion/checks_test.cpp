@@ -10,13 +10,6 @@ namespace {
 using Outcome = Check::Outcome;
 using testing::IsEmpty;
 
-const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject) {
-  const auto found = std::ranges::find_if(run.checks, [&](const Check& check) {
-    return check.name == name && check.subject == subject;
-  });
-  return found == run.checks.end() ? nullptr : &*found;
-}
-
 std::vector<std::string> of(const TrackedRun& run, Outcome outcome) {
   std::vector<std::string> names;
   for (const Check& check : run.checks)

@@ -152,4 +152,38 @@ const Issue* find_issue(const TrackedRun& run, IssueCode code) {
   return found == run.issues.end() ? nullptr : &*found;
 }
 
+namespace {
+
+std::vector<double> errors_of(const TrackedRun& run, const Truth& truth) {
+  std::vector<double> errors;
+  for (int i = 0; i < run.trajectory.instants(); ++i) {
+    for (int robot = 0; robot < run.trajectory.robots; ++robot) {
+      const Pose& found = run.trajectory.at(i)[static_cast<std::size_t>(robot)];
+      const Pose is = truth(robot, instant_s(i + 1));
+      errors.push_back(std::hypot(found.x - is.x, found.y - is.y));
+    }
+  }
+  return errors;
+}
+
+}  // namespace
+
+double worst_error(const TrackedRun& run, const Truth& truth) {
+  return std::ranges::max(errors_of(run, truth));
+}
+
+double rms_error(const TrackedRun& run, const Truth& truth) {
+  double squares = 0;
+  for (const double error : errors_of(run, truth))
+    squares += error * error;
+  return std::sqrt(squares / static_cast<double>(run.trajectory.poses.size()));
+}
+
+const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject) {
+  const auto found = std::ranges::find_if(run.checks, [&](const Check& check) {
+    return check.name == name && check.subject == subject;
+  });
+  return found == run.checks.end() ? nullptr : &*found;
+}
+
 }  // namespace swarmsmith

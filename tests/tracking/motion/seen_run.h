@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include "tests/support/overhead_camera.h"
 #include "tracking/motion/track_run.h"
@@ -47,7 +48,12 @@ void add_camera(SeenRun& run, const Truth& truth, const Seeing& seeing, const Po
 /// Robots on circles of 0.5 m, 0.3 m/s, heading along them.
 Pose on_circle(int robot, double time_s);
 
-/// The first issue of a kind, or nothing.
+/// Distances of robots' cycles from where they were: the largest, and the root of the mean square.
+double worst_error(const TrackedRun& run, const Truth& truth);
+double rms_error(const TrackedRun& run, const Truth& truth = on_circle);
+
+/// The first of a kind, or nothing.
 const Issue* find_issue(const TrackedRun& run, IssueCode code);
+const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject);
 
 }  // namespace swarmsmith

@@ -21,18 +21,6 @@ SeenRun two_cameras(const Seeing& first = kFirst, const Seeing& second = kSecond
   return seen;
 }
 
-double rms_error(const TrackedRun& run) {
-  double squares = 0;
-  for (int i = 0; i < run.trajectory.instants(); ++i) {
-    for (int robot = 0; robot < run.trajectory.robots; ++robot) {
-      const Pose& found = run.trajectory.at(i)[static_cast<std::size_t>(robot)];
-      const Pose is = on_circle(robot, instant_s(i + 1));
-      squares += (found.x - is.x) * (found.x - is.x) + (found.y - is.y) * (found.y - is.y);
-    }
-  }
-  return std::sqrt(squares / static_cast<double>(run.trajectory.poses.size()));
-}
-
 TEST(SeveralCamerasTest, TogetherAreBetterThanTheBetterOne) {
   const double alone = rms_error(seen_run(on_circle, kFirst).track().value());
   const TrackedRun both = two_cameras().track().value();

@@ -13,6 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
+constexpr std::string_view kAgreement = "tags of one robot agree";
 constexpr Seeing kFirst{.cycles = 300, .noise_px = 0.2, .seed = 1};
 /// Lower, smaller, behind, and turned.
 constexpr Seeing kSecond{.cycles = 300,
@@ -59,25 +60,6 @@ SeenRun two_tags(const Mounted& mounted = [](double) { return kSecond.offset; })
   return run;
 }
 
-double rms_error(const TrackedRun& run) {
-  double squares = 0;
-  for (int i = 0; i < run.trajectory.instants(); ++i) {
-    for (int robot = 0; robot < run.trajectory.robots; ++robot) {
-      const Pose& found = run.trajectory.at(i)[static_cast<std::size_t>(robot)];
-      const Pose is = on_circle(robot, instant_s(i + 1));
-      squares += (found.x - is.x) * (found.x - is.x) + (found.y - is.y) * (found.y - is.y);
-    }
-  }
-  return std::sqrt(squares / static_cast<double>(run.trajectory.poses.size()));
-}
-
-const Check* agreement_of(const TrackedRun& run, const std::string& robot) {
-  const auto found = std::ranges::find_if(run.checks, [&](const Check& check) {
-    return check.name == "tags of one robot agree" && check.subject == robot;
-  });
-  return found == run.checks.end() ? nullptr : &*found;
-}
-
 TEST(SeveralTagsTest, TogetherAreBetterThanOne) {
   const double alone = rms_error(seen_run(on_circle, kFirst).track().value());
   SeenRun seen = two_tags();
@@ -87,9 +69,9 @@ TEST(SeveralTagsTest, TogetherAreBetterThanOne) {
   EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
   EXPECT_LT(rms_error(run), alone);
   EXPECT_LT(rms_error(run), 0.8 * rms_error(seen.track().value()));
-  ASSERT_NE(agreement_of(run, "rvr3"), nullptr);
-  EXPECT_EQ(agreement_of(run, "rvr3")->outcome, Check::Outcome::Passed);
-  EXPECT_EQ(agreement_of(seen_run(on_circle, kFirst).track().value(), "rvr3"), nullptr);
+  ASSERT_NE(find_check(run, kAgreement, "rvr3"), nullptr);
+  EXPECT_EQ(find_check(run, kAgreement, "rvr3")->outcome, Check::Outcome::Passed);
+  EXPECT_EQ(find_check(seen_run(on_circle, kFirst).track().value(), kAgreement, "rvr3"), nullptr);
 }
 
 TEST(SeveralTagsTest, HiddenTagLosesNothing) {
@@ -116,7 +98,7 @@ TEST(SeveralTagsTest, OneThatIsNeverSeenTakesNothingAndIsSaid) {
   ASSERT_EQ(run.issues.size(), 3U);
   EXPECT_EQ(run.issues.front().code, IssueCode::FilmOdd);
   EXPECT_THAT(run.issues.front().text, HasSubstr("rvr1 carries tag 21, too, which was never seen"));
-  EXPECT_EQ(agreement_of(run, "rvr1")->outcome, Check::Outcome::NotRun);
+  EXPECT_EQ(find_check(run, kAgreement, "rvr1")->outcome, Check::Outcome::NotRun);
 }
 
 TEST(SeveralTagsTest, LooseTagIsNamed) {
@@ -135,7 +117,7 @@ TEST(SeveralTagsTest, LooseTagIsNamed) {
     EXPECT_THAT(issue->text, HasSubstr("rvr1 has tags 1 and 21"));
     EXPECT_NEAR(issue->from.value(), 10, 0.6);
     EXPECT_NEAR(issue->to.value(), 30.5, 0.5);
-    EXPECT_EQ(agreement_of(run, "rvr1")->outcome, Check::Outcome::Failed);
+    EXPECT_EQ(find_check(run, kAgreement, "rvr1")->outcome, Check::Outcome::Failed);
   }
   EXPECT_EQ(find_issue(two_tags(slips(0.002)).track().value(), IssueCode::TagsDisagree), nullptr);
 }

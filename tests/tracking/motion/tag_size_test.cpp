@@ -18,13 +18,6 @@ Seeing usual() {
   return {.cycles = 200, .frame_rate = 15, .noise_px = 0.1};
 }
 
-const Check* find_check(const TrackedRun& run, std::string_view name, std::string_view subject) {
-  const auto found = std::ranges::find_if(run.checks, [&](const Check& check) {
-    return check.name == name && check.subject == subject;
-  });
-  return found == run.checks.end() ? nullptr : &*found;
-}
-
 void lower_heights(SeenRun& seen, double by_m) {
   for (RobotSetup& robot : seen.rig.robots)
     robot.height_m -= by_m;

@@ -18,19 +18,6 @@ Seeing short_run() {
   return {.cycles = 200};
 }
 
-/// The largest distance of a robot's cycles from the truth.
-double worst_error(const TrackedRun& run, const Truth& truth) {
-  double worst = 0;
-  for (int i = 0; i < run.trajectory.instants(); ++i) {
-    for (int robot = 0; robot < run.trajectory.robots; ++robot) {
-      const Pose& found = run.trajectory.at(i)[static_cast<std::size_t>(robot)];
-      const Pose is = truth(robot, instant_s(i + 1));
-      worst = std::max(worst, std::hypot(found.x - is.x, found.y - is.y));
-    }
-  }
-  return worst;
-}
-
 int count_of(const TrackedRobot& robot, Sample::Use use) {
   return static_cast<int>(std::ranges::count(robot.samples, use, &Sample::use));
 }
@@ -149,8 +136,10 @@ TEST(TrackRunTest, RefusesAnOffsetOfAnotherTag) {
 TEST(TrackRunTest, RefusesCalibrationsOfAnotherSizeOrNone) {
   SeenRun seen = seen_run(on_circle, short_run());
   seen.rig.models.at("camera0.camera.toml").model.size = {1280, 720};
-  EXPECT_THAT(seen.track().error().message,
-              HasSubstr("E_CALIB_SIZE: calibration 1280x720, video 1920x1080"));
+  EXPECT_THAT(
+      seen.track().error().message,
+      HasSubstr(
+          "E_CALIB_SIZE: calibration 1280x720, video 1920x1080; film at the picture size of"));
   seen.rig.models.clear();
   EXPECT_THAT(seen.track().error().message, HasSubstr("`camera0.camera.toml`"));
 }

@@ -47,7 +47,7 @@ TEST(BoardSheetTest, OpencvReadsThePrintInTrueScale) {
     const Board board = *parse_board(word);
     const auto sheet = board_sheet(board, *paper_from_name("A4"));
     ASSERT_TRUE(sheet) << to_string(sheet.error());
-    const auto pdf = cli::pdf_of_svg(*sheet);
+    const auto pdf = pdf_of_svg(*sheet);
     if (!pdf) GTEST_SKIP() << "skipped: " << to_string(pdf.error());
     const auto sizes = page_sizes(*pdf);
     if (!sizes) GTEST_SKIP() << "skipped: " << to_string(sizes.error());

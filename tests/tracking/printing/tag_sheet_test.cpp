@@ -148,7 +148,7 @@ TEST(TagSheetTest, ThePrintIsReadByTheLibraryInTrueScale) {
   constexpr double kPixel = 25.4 / kDpi;
   const std::vector<int> ids = {0, 3, 100, 101, 586};
   const auto sheets = tag_sheets(options_for(ids, 0.1, "A4"));
-  const auto pdf = cli::pdf_of_svgs(*sheets);
+  const auto pdf = pdf_of_svgs(*sheets);
   if (!pdf) GTEST_SKIP() << "skipped: " << to_string(pdf.error());
   const auto sizes = page_sizes(*pdf);
   if (!sizes) GTEST_SKIP() << "skipped: " << to_string(sizes.error());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tracking/report/quality.h"
+#include "tracking/scoring/run_findings.h"
 
 namespace swarmsmith {
 
@@ -15,8 +15,11 @@ struct MadeUpRun {
   std::vector<VerdictOverride> overrides;
 
   MadeUpRun();
-  ReportedRun reported() const {
-    return {rig, log, observations, tracked, scored, {}, overrides, "swarmsmith-track 0.1.0"};
+  RunFindings reported() const {
+    RunFindings findings = findings_of(rig, log, observations, tracked, scored);
+    findings.overrides = overrides;
+    findings.program = "swarmsmith-track 0.1.0";
+    return findings;
   }
 };
 

@@ -104,9 +104,11 @@ class RealRunRowsTest : public testing::Test {
     scored = score_run(tracked, log.mission, patches, seen.observations.issues).value();
   }
 
-  RealRunRows rows() const {
-    return real_run_rows({seen.rig, arena_text, log, seen.observations, seen.options.span.starts_s,
-                          tracked, patches, scored});
+  RealRunRows rows() const { return rows_of(seen.rig, log, seen.observations); }
+  RealRunRows rows_of(const Rig& rig, const RunLog& of_run,
+                      const Observations& observations) const {
+    return real_run_rows(findings_of(rig, of_run, observations, tracked, scored), arena_text,
+                         seen.options.span.starts_s);
   }
 
   SeenRun seen;
@@ -165,9 +167,7 @@ TEST_F(RealRunRowsTest, ScoreAgainToTheSameBits) {
 TEST_F(RealRunRowsTest, AreTheSameRowsAfterARoundTrip) {
   const RealRunRows run = rows();
   const auto stored = stored_run(run).value();
-  const RealRunRows again =
-      real_run_rows({stored.rig, run.arena_file, stored.log, stored.observations,
-                     seen.options.span.starts_s, tracked, patches, scored});
+  const RealRunRows again = rows_of(stored.rig, stored.log, stored.observations);
   EXPECT_EQ(again.key, run.key);
   EXPECT_EQ(again.log, run.log);
   EXPECT_EQ(again.mission_file, run.mission_file);
@@ -249,9 +249,7 @@ TEST_F(RealRunRowsTest, HoldTheRobotsLogsFromWhichLatencyFollowsAgain) {
     EXPECT_EQ(again.latencies[i]->agreement, found.latencies[i]->agreement);
     EXPECT_EQ(again.latencies[i]->reason, found.latencies[i]->reason);
   }
-  const RealRunRows once_more =
-      real_run_rows({stored->rig, run.arena_file, stored->log, stored->observations,
-                     seen.options.span.starts_s, tracked, patches, scored});
+  const RealRunRows once_more = rows_of(stored->rig, stored->log, stored->observations);
   EXPECT_EQ(once_more.logs, run.logs);
   EXPECT_EQ(once_more.log_cycles, run.log_cycles);
 }

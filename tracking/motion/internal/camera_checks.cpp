@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/median.h"
 #include "tracking/motion/internal/camera_moved.h"
 #include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/resampling.h"
@@ -21,20 +22,12 @@ double duration_of(const TrackOptions& options) {
   return instant_s(options.span.cycles);
 }
 
-/// Sorts; the larger of the two in the middle. 0 for none.
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// One camera's frames on the clock of the run.
 struct FramesOfRun {
   std::vector<double> times;      ///< of all that are no repeats
   std::vector<double> intervals;  ///< between those within the run
   std::int64_t within = 0;
-  double usual_s = 0;  ///< median of the intervals
+  double usual_s = 0;  ///< median of the intervals; 0 without one
 };
 
 FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double start_s,
@@ -53,8 +46,7 @@ FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double
       frames.intervals.push_back(frames.times[i] - frames.times[i - 1]);
     }
   }
-  std::vector<double> sorted = frames.intervals;
-  frames.usual_s = median(sorted);
+  if (!frames.intervals.empty()) frames.usual_s = upper_median(frames.intervals);
   return frames;
 }
 
@@ -79,10 +71,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
     issues.push_back({IssueCode::FrameRate,
                       fmt::format("camera {} took {:.1f} frames/s, at least {:.0f} are needed; "
                                   "film at 15 to 30 frames/s",
-                                  camera, 1 / frames.usual_s, limits.least_frame_rate),
-                      {},
-                      {},
-                      {}});
+                                  camera, 1 / frames.usual_s, limits.least_frame_rate)});
   }
   const auto all = static_cast<double>(frames.within + dropped);
   if (all > 0 && static_cast<double>(dropped) > limits.dropped_share * all) {
@@ -90,10 +79,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
                       fmt::format("camera {} dropped {} of {:.0f} frames ({:.1f} %, limit {:.0f} "
                                   "%); a faster disk or a lower frame rate helps",
                                   camera, dropped, all, 100 * static_cast<double>(dropped) / all,
-                                  100 * limits.dropped_share),
-                      {},
-                      {},
-                      {}});
+                                  100 * limits.dropped_share)});
   }
   if (frames.usual_s > 0) {
     report.checks.push_back(answered(kRate, camera, outcome_of(issues, first, IssueCode::FrameRate),
@@ -197,7 +183,7 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     const auto [least, most] = std::ranges::minmax(intervals);
     report.frame_rate_least = 1 / most;
     if (least > 0) report.frame_rate_most = 1 / least;
-    report.frame_rate_median = 1 / median(intervals);
+    report.frame_rate_median = 1 / upper_median(std::move(intervals));
   }
   return report;
 }

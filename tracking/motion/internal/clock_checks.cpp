@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/median.h"
 #include "tracking/motion/internal/clock_steps.h"
 #include "tracking/motion/resampling.h"
 
@@ -269,10 +270,8 @@ std::optional<double> counted_period_s(const std::vector<double>& times) {
   std::vector<double> intervals;
   for (std::size_t i = 1; i < times.size(); ++i)
     intervals.push_back(times[i] - times[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::ranges::nth_element(intervals, middle);
   const double grain = grain_s(times);
-  double period = *middle;
+  double period = upper_median(std::move(intervals));
   if (!(period > 2 * grain)) return std::nullopt;
   // The period is better known with each frame.
   double turns = 0;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
+
+#include "base/median.h"
 
 namespace swarmsmith {
 namespace {
@@ -39,10 +42,7 @@ class Film {
     std::vector<double> intervals;
     for (std::size_t i = 1; i < frames_.size(); ++i)
       intervals.push_back(time(i) - time(i - 1));
-    if (intervals.empty()) return;
-    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-    std::ranges::nth_element(intervals, middle);
-    usual_s_ = *middle;
+    if (!intervals.empty()) usual_s_ = upper_median(std::move(intervals));
   }
 
   std::size_t size() const { return frames_.size(); }
@@ -203,9 +203,7 @@ double jitter_of(const std::map<std::size_t, Said>& lost) {
     if (!said.is_leap) sizes.push_back(std::fabs(said.lost_s));
   }
   if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::ranges::nth_element(sizes, middle);
-  return 1.4826 * *middle;
+  return 1.4826 * upper_median(std::move(sizes));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/math.h"
+#include "base/median.h"
 
 namespace swarmsmith {
 namespace {
@@ -35,11 +36,9 @@ double residual_at_middle(const Five& weights, const Five& values) {
   return (values(kHalf) - weights.dot(values)) / std::sqrt(1 - weights(kHalf));
 }
 
-double sigma_of(std::vector<double>& residuals, double least) {
+double sigma_of(const std::vector<double>& residuals, double least) {
   if (residuals.size() < kLeastResiduals) return least;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::ranges::nth_element(residuals, middle);
-  return std::max(least, *middle / kMedianOfNormal);
+  return std::max(least, upper_median(residuals) / kMedianOfNormal);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "base/math.h"
+#include "base/median.h"
 #include "tracking/geometry/walls.h"
 #include "tracking/motion/internal/outliers.h"
 
@@ -54,10 +56,7 @@ double median_scale(const std::vector<Sample>& samples) {
   for (const Sample& sample : samples) {
     if (sample.use == Sample::Use::Used) scales.push_back(sample.scale);
   }
-  if (scales.empty()) return 1;
-  const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
-  std::ranges::nth_element(scales, middle);
-  return *middle;
+  return scales.empty() ? 1 : upper_median(std::move(scales));
 }
 
 /// Drops single bad fits; returns the mean scale of the others.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "base/math.h"
+#include "base/median.h"
 
 namespace swarmsmith {
 namespace {
@@ -19,12 +21,6 @@ constexpr double kMostTilt_rad = 8 * kDegree;
 
 double tilt_limit(const RobotSetup& robot) {
   return std::clamp(std::atan2(kLean_m, robot.height_m), kLeastTilt_rad, kMostTilt_rad);
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// A sighting's shear, and where it was seen.
@@ -86,7 +82,7 @@ double floor_scale(const Observations& observations, std::span<const TrackedCame
     }
   }
   if (tags.size() < 2) return 1;
-  const double scale = median_of(std::move(scales));
+  const double scale = upper_median(std::move(scales));
   return std::fabs(scale - 1) < kPlausible ? scale : 1;
 }
 
@@ -209,8 +205,7 @@ double judge_size(const Look& look, double floor, bool all_alike,
               .value = 100 * off,
               .limit = 100 * limits.scale_tolerance,
               .unit = "%",
-              .catches = "a wrong height, or another tag",
-              .reason = {}};
+              .catches = "a wrong height, or another tag"};
   const Cause cause = off > warn ? cause_of(look.seen.samples, look.scale, cameras) : Cause::Open;
   // An edge moves no place, only what is known of the height.
   const bool fails = off > limits.scale_tolerance && cause != Cause::Edge;
@@ -225,9 +220,7 @@ double judge_size(const Look& look, double floor, bool all_alike,
       {fails ? IssueCode::TagSize : IssueCode::TagSizeDoubtful,
        fmt::format("{} (tag {}) {}", setup.name, setup.tag,
                    size_text(look, floor, fails ? limits.scale_tolerance : warn, cause, all_alike)),
-       setup.name,
-       {},
-       {}});
+       setup.name});
   return cause == Cause::Edge ? 0 : off * (look.height_m - setup.height_m);
 }
 
@@ -236,11 +229,9 @@ double judge_tilt(const TaggedRobot& robot, const std::optional<TagTilt>& tilt, 
   const double limit = tilt_limit(setup);
   Check check{.name = "tilt of the tag",
               .subject = robot.subject(),
-              .value = {},
               .limit = limit / kDegree,
               .unit = "degrees",
-              .catches = "a tag or robot that does not stand level",
-              .reason = {}};
+              .catches = "a tag or robot that does not stand level"};
   const bool is_told = tilt && 3 * tilt->sigma < limit;
   if (!is_told) {
     check.outcome = Check::Outcome::NotRun;
@@ -261,9 +252,7 @@ double judge_tilt(const TaggedRobot& robot, const std::optional<TagTilt>& tilt, 
                    "calibrate the robot again",
                    setup.name, setup.tag, angle / kDegree, limit / kDegree,
                    1000 * setup.height_m * std::sin(angle)),
-       setup.name,
-       {},
-       {}});
+       setup.name});
   return angle;
 }
 

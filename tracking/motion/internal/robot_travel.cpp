@@ -167,11 +167,9 @@ class Case {
   void judge_heading() {
     Check check{.name = "travel against heading",
                 .subject = robot_.setup.name,
-                .value = {},
                 .limit = kHeading_rad / kDegree,
                 .unit = "degrees",
-                .catches = "a tag that was put back turned, or on another robot",
-                .reason = {}};
+                .catches = "a tag that was put back turned, or on another robot"};
     if (!robot_.has_yaw) return skip(std::move(check), "no straight run was filmed");
     if (!fit_.knows_heading) return skip(std::move(check), kTooLittle);
     const double off = std::fabs(fit_.turned_rad);
@@ -194,11 +192,9 @@ class Case {
   void judge_place() {
     Check check{.name = "tag against the treads",
                 .subject = robot_.setup.name,
-                .value = {},
                 .limit = {},
                 .unit = "mm",
-                .catches = "a tag that sits elsewhere than calibrated",
-                .reason = {}};
+                .catches = "a tag that sits elsewhere than calibrated"};
     if (!robot_.has_offset) return skip(std::move(check), "its tag was taken for its centre");
     if (!fit_.knows_place)
       return skip(std::move(check), "it turned too little on the spot where it touched nothing");
@@ -223,11 +219,9 @@ class Case {
   void judge_slide(const std::vector<TravelStep>& steps) {
     Check check{.name = "way to the side",
                 .subject = robot_.setup.name,
-                .value = {},
                 .limit = {},
                 .unit = "mm",
-                .catches = "a robot that was pushed or carried",
-                .reason = {}};
+                .catches = "a robot that was pushed or carried"};
     const std::optional<Slide> worst = worst_slide(steps, fit_);
     if (!worst) return skip(std::move(check), "it stood still, or touched something all the time");
     check.value = 1000 * std::fabs(worst->aside_m);
@@ -364,10 +358,7 @@ void judge_direction(const std::vector<TravelFit>& fits, TrackedRun& run) {
     run.issues.push_back({IssueCode::Timestamps,
                           fmt::format("all {} robots drive backwards, and skid before they turn: "
                                       "the film runs backwards",
-                                      backwards),
-                          {},
-                          {},
-                          {}});
+                                      backwards)});
   }
   run.checks.push_back(std::move(check));
 }

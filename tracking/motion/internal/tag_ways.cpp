@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/median.h"
 
 namespace swarmsmith {
 namespace {
@@ -24,9 +27,7 @@ void measure_scale(TagWay& tag, double edge_m) {
   for (const Sighting* const seen : tag.seen) {
     if (seen != nullptr) edges.push_back(edge_px(seen->corners));
   }
-  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-  std::ranges::nth_element(edges, middle);
-  tag.pixels_per_m = *middle / edge_m;
+  tag.pixels_per_m = upper_median(std::move(edges)) / edge_m;
 }
 
 /// Sums of steps. None is longer than the fastest robot goes since the tag moved last: a tag that

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/median.h"
 #include "tracking/motion/internal/pivot.h"
 
 namespace swarmsmith {
@@ -94,12 +95,6 @@ Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& w
   return line;
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Least absolute residuals, by weights: a minority that was pushed does not turn the line.
 Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& sigma_m) {
   constexpr int kRounds = 20;
@@ -109,7 +104,7 @@ Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& 
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < steps.size(); ++i)
       off[i] = std::fabs(residual(steps[i], line));
-    sigma_m = std::max(kLeastStepSigma_m, median_of(off) / kMedianOfNormal);
+    sigma_m = std::max(kLeastStepSigma_m, upper_median(off) / kMedianOfNormal);
     for (std::size_t i = 0; i < steps.size(); ++i)
       weights[i] = 1 / std::max(off[i], 2 * sigma_m);
     line = fit_line(steps, weights, with_place);

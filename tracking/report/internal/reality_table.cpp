@@ -25,7 +25,7 @@ std::string states_text(const Reality& reality) {
 
 }  // namespace
 
-HtmlTable reality_table(const ReportedRun& run) {
+HtmlTable reality_table(const RunFindings& run) {
   HtmlTable table{.caption =
                       "What logs and film together tell of the robots' world: how far treads took "
                       "the robots of what they were told, and how many of the robots that were in "
@@ -35,12 +35,11 @@ HtmlTable reality_table(const ReportedRun& run) {
                               {"Way of that told (%)"},
                               {"Turn of that told (%)"},
                               {"Neighbours missed (%)"},
-                              {"Seconds by state"}},
-                  .rows = {}};
-  for (std::size_t i = 0; i < run.scored.reality.size(); ++i) {
-    if (!run.scored.reality[i]) continue;
-    const Reality& reality = *run.scored.reality[i];
-    table.rows.push_back({run.tracked.robots[i].name, gain_text(reality.slip.way),
+                              {"Seconds by state"}}};
+  for (const RobotFinding& robot : run.robots) {
+    if (robot.reality == nullptr) continue;
+    const Reality& reality = *robot.reality;
+    table.rows.push_back({robot.tracked->name, gain_text(reality.slip.way),
                           gain_text(reality.slip.turn), neighbours_text(reality.neighbours),
                           states_text(reality)});
   }

@@ -52,7 +52,7 @@ bool is_bare(const Mission& mission, Point point) {
   return is_inside(arena, point) && distance_to_walls(arena, point) > kWall_m;
 }
 
-Channels median_of(std::vector<Channels> colors) {
+Channels median_color(std::vector<Channels> colors) {
   Channels medians{};
   const auto middle = colors.begin() + static_cast<std::ptrdiff_t>(colors.size() / 2);
   for (std::size_t channel = 0; channel < medians.size(); ++channel) {
@@ -88,7 +88,7 @@ std::optional<std::string> FloorLight::fault() const {
   std::vector<Channels> colors;
   for (const Spot& spot : floor_)
     colors.push_back(spot.rgb);
-  const Channels light = median_of(std::move(colors));
+  const Channels light = median_color(std::move(colors));
   const auto [least, most] = std::ranges::minmax(light);
   if (least < kDarkest) {
     return fmt::format("the pictures are too dark: the floor has {:.0f} of 255", least);
@@ -120,8 +120,8 @@ std::optional<std::array<double, 3>> FloorLight::ratio_of(const Rectangle& place
   std::vector<Channels> floor;
   for (std::size_t i = 0; i < std::min(kSpots, around.size()); ++i)
     floor.push_back(around[i].rgb);
-  const Channels inside = median_of(std::move(within));
-  const Channels outside = median_of(std::move(floor));
+  const Channels inside = median_color(std::move(within));
+  const Channels outside = median_color(std::move(floor));
   Channels ratio{};
   for (std::size_t i = 0; i < ratio.size(); ++i)
     ratio.at(i) = inside.at(i) / std::max(1.0, outside.at(i));

@@ -54,7 +54,9 @@ class BagMessages final : public MessageReader {
     auto record = bag::record_at(entry.place, size, inside);
     while (record && record->op == bag::Op::Connection)
       record = bag::record_at(record->end, size, inside);
-    if (!record || record->op != bag::Op::Message) return std::nullopt;
+    if (!record || record->op != bag::Op::Message ||
+        bag::number_in<std::uint32_t>(record->fields, "conn") != entry.connection)
+      return std::nullopt;
     return inside(record->data, record->size());
   }
 

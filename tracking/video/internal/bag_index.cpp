@@ -2,36 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "tracking/video/internal/unreadable.h"
 
 namespace swarmsmith::bag {
 namespace {
-
-/// The places in a chunk that an index may name; nothing when it does not consist of records. From
-/// a connection one goes on to the next message.
-std::optional<std::vector<std::uint32_t>> messages_in(std::int64_t size, const Read& read) {
-  std::vector<std::uint32_t> messages;
-  std::vector<std::uint32_t> before;
-  for (std::int64_t at = 0; at < size;) {
-    const auto found = record_at(at, size, read);
-    if (!found) return std::nullopt;
-    before.push_back(static_cast<std::uint32_t>(at));
-    if (found->op == Op::Message) {
-      messages.insert(messages.end(), before.begin(), before.end());
-      before.clear();
-    } else if (found->op != Op::Connection) {
-      return std::nullopt;
-    }
-    at = found->end;
-  }
-  return messages;
-}
 
 class Reading {
  public:
@@ -116,23 +94,7 @@ class Reading {
     if (!size || packing == chunk.fields.end() || *size > kMostChunk || chunk.size() > kMostChunk) {
       return false;
     }
-    Read inside = [&](std::int64_t at, std::int64_t count) -> std::optional<std::string> {
-      return count <= chunk.size() - at ? read_(chunk.data + at, count) : std::nullopt;
-    };
-    std::optional<std::string> bytes;
-    is_lost_ = false;
-    if (packing->second != "none") {
-      bytes = unpacked(chunk, read_);
-      is_lost_ = !bytes;
-      if (is_lost_) return true;
-      inside = reading_of(*bytes);
-    } else if (chunk.size() != *size) {
-      return false;
-    }
-    auto messages = messages_in(*size, inside);
-    if (!messages) return false;
-    messages_ = std::move(*messages);
-    return true;
+    return packing->second != "none" || chunk.size() == *size;
   }
 
   /// Of the chunk before it: a time (8 bytes) and the place of each message.
@@ -150,7 +112,6 @@ class Reading {
       const auto seconds = number_at<std::uint32_t>(*entries, at).value();
       const auto nanoseconds = number_at<std::uint32_t>(*entries, at + 4).value();
       const auto place = number_at<std::uint32_t>(*entries, at + 8).value();
-      if (!is_lost_ && !std::ranges::binary_search(messages_, place)) return false;
       index_.entries.push_back({.recorded_ns = seconds * kNanoseconds + nanoseconds,
                                 .chunk = *chunks_.rbegin(),
                                 .place = place,
@@ -177,9 +138,6 @@ class Reading {
   Index index_;
   std::set<std::int64_t> chunks_;    ///< where they begin
   std::set<std::uint32_t> indexed_;  ///< connections that have messages
-  // Of the last chunk.
-  bool is_lost_ = false;                 ///< it cannot be unpacked
-  std::vector<std::uint32_t> messages_;  ///< places that the index may name
 };
 
 }  // namespace

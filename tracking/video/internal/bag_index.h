@@ -35,10 +35,9 @@ struct Index {
 /// Reads from a file; its stream is shared by all copies.
 Read reading_of(std::shared_ptr<av::ByteStream> bytes);
 
-/// Reads a bag's index, and looks whether the bag is whole: records within their bounds, an index
-/// that leads to messages, connections that are there. Reads headers alone, but unpacks what is
-/// packed; a chunk that cannot be unpacked is left to who reads its messages. E_VIDEO_UNREADABLE,
-/// with the place in the file, and what to do.
+/// Reads a bag's index, and looks whether the bag is whole: records within their bounds, and
+/// connections that are there. Reads headers alone: whether an entry leads to its message, its
+/// reader sees. E_VIDEO_UNREADABLE, with the place in the file, and what to do.
 Expected<Index> read_index(std::int64_t size, const Read& read, const std::string& name);
 
 }  // namespace swarmsmith::bag

@@ -24,7 +24,7 @@ function card(c: string, design: Design, leads: boolean) {
   return <a key={id} class={leads ? "card leads" : "card"} href={href([c, id])}
     aria-label={`${id}, ${words(design.mission)}, ${method}, repetition ${repetition}${campaign ? `, of ${campaign}` : ""}: ${design.paused ? "paused" : state}`}>
     <span class="card-head"><b>{id}</b>{state_word(design)}</span>
-    <Bar value={design.used} of={design.budget} name={`${id}: experiments used`} />
+    <Bar of={design} name={`${id}: experiments used`} />
     <span><b>{number(design.best_mean)}</b>{leads && <span class="faint"> best</span>}</span>
     {campaign && <small>{campaign}</small>}
     <small>{is_over(design) ? `${whole(design.used)} used` : stage_of(design)}{state === "racing" && alive !== null && `, ${whole(alive)} alive`}</small>

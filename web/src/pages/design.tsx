@@ -69,7 +69,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
   const over = is_over(design);
   return <div>
     {pairs("panel facts", [
-      ["experiments", [<Bar value={design.used} of={design.budget} name="experiments used" />, used_of(design)]],
+      ["experiments", [<Bar of={design} name="experiments used" />, used_of(design)]],
       [stage ? "search" : "iteration", [stage ?? whole(design.iteration), !over && alive !== null && <small> {whole(alive)} alive</small>]],
       ["best", best ? link(best) : "none yet"],
       ["mean score", number(design.best_mean), "over the pairs that the best has met; higher is better"],

@@ -1,5 +1,5 @@
 import { Component, h } from "preact";
-import { path_of } from "../api";
+import { is_snapshot, path_of } from "../api";
 import { announce, command, Copy, Empty, link, pairs, Panel, place_of, Quiet, Slider, Table } from "../components";
 import { Files } from "../figure";
 import { Canvas, Pen, Point, viridis } from "../canvas";
@@ -287,19 +287,22 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
   render({ params, query, design }: PageProps) {
     const { id } = design;
     const newest = Math.max(1, design.iteration);
-    const shown = params.iteration ? Number(params.iteration) : newest;
     const to = (iteration: number) => go(`${place_of(id)}/race/${iteration}`);
-    const turn = (by: number, mark: string, label: string) =>
-      <Quiet label={"iteration " + label} disabled={shown + by < 1 || shown + by > newest} act={() => to(shown + by)}>{mark}</Quiet>;
-    return <div>
-      {design_title(design)}
-      <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
+    const choice = (shown: number) => {
+      const turn = (by: number, mark: string, label: string) =>
+        <Quiet label={"iteration " + label} disabled={shown + by < 1 || shown + by > newest} act={() => to(shown + by)}>{mark}</Quiet>;
+      return <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
         {turn(-1, "‹", "before")}<Slider id="iteration" min={1} max={newest} value={shown} to={to} />{turn(1, "›", "after")}
         {params.iteration && (shown !== newest || design.state === "racing") && <a href={place_of(id) + "/race"}>the newest</a>}
-      </div>
+      </div>;
+    };
+    const asked = params.iteration ? Number(params.iteration) : design.state === "racing" && !is_snapshot ? null : newest;
+    // While it races: the newest one that has a step, unless another is asked for.
+    return <div>
+      {design_title(design)}
       {design.iteration === 0 ? <Empty>{design.state === "finished" ? kNoRace : "No step of the race has ended yet: its cells come one by one."}</Empty>
-        : <Get<Race> path={path_of(`${params.c}/designs/${id}/race`, { iteration: shown, rows: query.rows })} keep
-          version={shown === design.iteration ? design.version : "ended"} render={(race) => this.#race(race)} />}
+        : <Get<Race> path={path_of(`${params.c}/designs/${id}/race`, { iteration: asked, rows: query.rows })} keep
+          version={asked && asked < design.iteration ? "ended" : design.version} render={(race) => <div>{choice(race.iteration)}{this.#race(race)}</div>} />}
     </div>;
   }
 }

@@ -1,0 +1,78 @@
+#include "cli/output/stored_campaigns.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "cli/output/query_output.h"
+#include "cli/output/stored_stages.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr const char* kDesigns =
+    "SELECT design, campaign, mission, method, repetition, state, used, budget, iteration, "
+    "best_candidate, best_mean, reason FROM v_designs ORDER BY design";
+
+}  // namespace
+
+Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written) {
+  std::vector<CampaignStatus> campaigns;
+  std::map<std::string, std::size_t> places;  // by number
+  const auto heads =
+      select(store, "SELECT campaign, name, state FROM v_campaigns ORDER BY campaign");
+  if (!heads) return Unexpected(heads.error());
+  for (const auto& cells : heads->cells) {
+    places.emplace(cells[0].text, campaigns.size());
+    campaigns.push_back({.name = cells[1].text, .state = cells[2].text});
+    if (!is_written && campaigns.back().state == "running") campaigns.back().state = "interrupted";
+  }
+  std::map<DesignId, bool> paused;
+  for (const CommandRow& row : store.commands()) {
+    if (is_of_leases(row.kind)) paused[row.design] = row.kind == CommandKind::Pause;
+  }
+  const auto designs = select(store, kDesigns, {.rows = 10'000'000});
+  if (!designs) return Unexpected(designs.error());
+  const auto stages = StoredStages::read(store);
+  if (!stages) return Unexpected(stages.error());
+  for (const auto& cells : designs->cells) {
+    DesignStatus design{.id = cells[0].id<DesignId>(),
+                        .mission = cells[2].text,
+                        .method = cells[3].text,
+                        .repetition = cells[4].integer(),
+                        .state = design_state_of(cells[5].text).value_or(DesignState::Waiting),
+                        .used = cells[6].integer(),
+                        .budget = cells[7].integer(),
+                        .iteration = cells[8].integer(),
+                        .best = cells[9].id<CandidateId>(),
+                        .best_mean = cells[10].real(),
+                        .reason = cells[11].text};
+    const auto command = paused.find(design.id);
+    design.paused = command != paused.end() && command->second && !is_over(design.state);
+    if (const SearchOptions* search = stages->search(cells[0].text); search != nullptr) {
+      design.search = name_of(search->kind);
+      design.stage = stages->stage(cells[0].text, cells[8].text);
+    }
+    if (const auto place = places.find(cells[1].text); place != places.end())
+      campaigns[place->second].designs.push_back(std::move(design));
+  }
+  return campaigns;
+}
+
+void tell_states(Rows& designs, const std::vector<CampaignStatus>& campaigns) {
+  const std::size_t id = designs.column("design");
+  const std::size_t state = designs.column("state");
+  if (std::max(id, state) >= designs.columns.size()) return;
+  std::map<std::string, std::string_view> words;
+  for (const CampaignStatus& campaign : campaigns) {
+    for (const DesignStatus& design : campaign.designs)
+      words[to_string(design.id)] = campaign.word_of_design(design);
+  }
+  for (auto& cells : designs.cells) {
+    if (const auto word = words.find(cells[id].text); word != words.end())
+      cells[state].text = word->second;
+  }
+}
+
+}  // namespace swarmsmith::cli
