@@ -1,5 +1,6 @@
 #include "worker/simulation_evaluator.h"
 
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -69,14 +70,24 @@ class Simulation {
   std::vector<std::unordered_map<std::string, Controller>> controllers_;  ///< by method and text
 };
 
+/// The version that plays all of its missions here.
+int engine_version_of(const WorkerScenario& scenario) {
+  int version = kEngineVersion;
+  for (const Mission& mission : scenario.missions) {
+    version = std::max(version, engine_version_of(mission, scenario.profile));
+    for (const Profile& profile : scenario.test_profiles)
+      version = std::max(version, engine_version_of(mission, profile));
+  }
+  return version;
+}
+
 }  // namespace
 
 Expected<Evaluator> make_simulation_evaluator(WorkerScenario scenario) {
-  if (scenario.engine_version != kEngineVersion) {
-    return unexpected(ErrorKind::Conflict, "the campaign needs version " +
-                                               std::to_string(scenario.engine_version) +
-                                               " of the simulator, this program has version " +
-                                               std::to_string(kEngineVersion));
+  if (const int own = engine_version_of(scenario); scenario.engine_version != own) {
+    return unexpected(ErrorKind::Conflict,
+                      "the campaign needs version " + std::to_string(scenario.engine_version) +
+                          " of the simulator, this program has version " + std::to_string(own));
   }
   std::vector<Flavour> flavours;
   for (const WorkerMethod& method : scenario.methods) {

@@ -43,7 +43,8 @@ std::string difference_text(const StoredRun& run, const SimulationResult& result
                      values_text(result.score, result.state_digest) + "; the store holds ";
   text += run.outcome ? values_text(run.outcome->score, run.outcome->state_digest) : "a rejection";
   text += run.given_by();
-  const std::string older = other_engine(run.engine_version);
+  const std::string older =
+      other_engine(run.engine_version, engine_version_of(run.mission, run.profile));
   if (!older.empty()) text += "; " + older;
   return text;
 }

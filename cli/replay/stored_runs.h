@@ -96,8 +96,8 @@ class StoredRuns {
 /// Why nothing of a store can be evaluated again.
 Error programs_scored(const std::string& where);
 
-/// The stored version (0: not known) differs from this program's: a sentence that says so, else
-/// empty.
-std::string other_engine(int stored_version);
+/// The stored version (0: not known) differs from this program's version of the mission: a sentence
+/// that says so, else empty.
+std::string other_engine(int stored_version, int version = kEngineVersion);
 
 }  // namespace swarmsmith::cli

@@ -1,6 +1,7 @@
 #include "cli/run/pool_setup.h"
 
 #include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/campaign_text.h"
 #include "coordinator/service/http_address.h"
 #include "proto/access/address.h"
 #include "proto/scenario/scenario.h"
@@ -13,7 +14,7 @@ namespace {
 
 WorkerScenario scenario_of(const Campaign& campaign) {
   WorkerScenario scenario{.campaign_digest = campaign_digest(campaign),
-                          .engine_version = kEngineVersion,
+                          .engine_version = engine_version_of(campaign),
                           .profile = campaign.profile,
                           .test_profiles = campaign.test_profiles,
                           .target = campaign.target};

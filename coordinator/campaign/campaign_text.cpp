@@ -12,6 +12,16 @@ std::string normalised_text(const Campaign& campaign) {
   return text_of(sections_of(campaign));
 }
 
+int engine_version_of(const Campaign& campaign) {
+  int version = kEngineVersion;
+  for (const CampaignMission& mission : campaign.missions) {
+    version = std::max(version, engine_version_of(mission.mission, campaign.profile));
+    for (const Profile& profile : campaign.test_profiles)
+      version = std::max(version, engine_version_of(mission.mission, profile));
+  }
+  return version;
+}
+
 Deciding deciding(const Campaign& campaign) {
   Deciding entries;
   for (const Section& section : sections_of(campaign)) {
@@ -19,7 +29,7 @@ Deciding deciding(const Campaign& campaign) {
       if (line.decides) entries.emplace_back(section.prefix + line.key, line.value);
     }
   }
-  entries.emplace_back("engine.version", std::to_string(kEngineVersion));
+  entries.emplace_back("engine.version", std::to_string(engine_version_of(campaign)));
   entries.emplace_back("race.version", std::to_string(kRaceVersion));
   // Other searches only where a method uses them: campaigns without keep their digests.
   for (const SearchKind kind : all_searches()) {

@@ -13,6 +13,9 @@ namespace swarmsmith {
 /// Kept in the store. Where workers run is left out, where the store is as well.
 std::string normalised_text(const Campaign& campaign);
 
+/// The version of the engine that plays all of the campaign's missions, the highest of theirs.
+int engine_version_of(const Campaign& campaign);
+
 /// Exactly what decides the campaign's answer, as (key, value) in a fixed order: missions, methods,
 /// profile, race options, seed, budget, repetitions, versions of engine and race. Keys read like
 /// `mission.aggregation.robots`.

@@ -14,8 +14,10 @@
 #include "base/hash.h"
 #include "base/rng.h"
 #include "sim/engine/internal/float32.h"
+#include "sim/engine/internal/mover.h"
 #include "sim/engine/internal/robot_clock.h"
 #include "sim/engine/internal/robot_senses.h"
+#include "sim/engine/internal/walls.h"
 #include "sim/engine/internal/world.h"
 #include "sim/mission/score.h"
 
@@ -388,6 +390,14 @@ class Run {
 };
 
 }  // namespace
+
+int engine_version_of(const Mission& mission, const Profile& profile) {
+  const Arena& arena = mission.arena;
+  const bool meets_obstacles = profile.contacts == ContactModel::Exact &&
+                               !arena.obstacles.empty() && arena.objects.empty() &&
+                               walls_of(arena).convex && robot_kind(mission.body).form.is_rvr;
+  return meets_obstacles ? kObstaclesVersion : kEngineVersion;
+}
 
 SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder,
                           Decider* decider) {

@@ -28,12 +28,13 @@ class ContactSolver {
   virtual void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) = 0;
 };
 
-/// The solver of a contact model. `Exact` wants a plain world (World::is_plain); in another one it
-/// is Box2D's. `surroundings` must outlive the solver.
-std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool plain,
+/// The solver of a contact model. `Exact` wants squares of the RVR's side alone in a convex arena
+/// (`squares`); with other movers or walls it is Box2D's. `surroundings` must outlive the solver.
+std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool squares,
                                                    const Surroundings& surroundings);
 
-/// Our own, for the RVR's squares inside a convex polygon (simulator facts, section 4.1).
+/// Our own, for the RVR's squares inside a convex polygon, among fixed obstacles (simulator facts,
+/// section 4.1).
 std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surroundings);
 /// Box2D's, single precision (simulator facts, section 4.2), for all forms. In a plain world
 /// overlap is left as it is, as in the original; elsewhere more than 5 mm of it is pushed apart,

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "base/assert.h"
 #include "sim/engine/internal/gaps.h"
 #include "sim/engine/internal/motion.h"
 
@@ -13,6 +15,9 @@ namespace {
 /// Keeps the quotient of a gap and no motion finite, metres a sub-step.
 constexpr double kLeastReach_m = 1e-9;
 constexpr std::uint64_t kWallBit = std::uint64_t{1} << 63U;
+constexpr std::uint64_t kObstacleBit = std::uint64_t{1} << 62U;
+/// An obstacle's corners are counted behind the four of the square.
+constexpr std::size_t kMostCorners = 60;
 
 std::uint64_t id_of(const Meeting& meeting) {
   return static_cast<std::uint64_t>(meeting.mover) << 32U |
@@ -114,10 +119,118 @@ void meet_wall(Contact contact, const Body& body, const WallPlane& wall,
   }
 }
 
+/// An axis between a square and a solid, and the gap along it: negative when they overlap.
+struct Axis {
+  double gap = -std::numeric_limits<double>::infinity();
+  double nx = 0;  ///< unit vector from the square to the solid
+  double ny = 0;
+
+  void widen(double other, double x, double y) {
+    if (other <= gap) return;
+    gap = other;
+    nx = x;
+    ny = y;
+  }
+};
+
+/// The axis on which the two overlap least, of the normals of all sides.
+Axis axis_between(const Body& body, const FixedSolid& solid) {
+  const Body& at = solid.at;
+  const double dx = at.x - body.x;
+  const double dy = at.y - body.y;
+  Axis axis;
+  for (const double side : {1.0, -1.0}) {
+    for (const Vector normal :
+         {Vector{side * body.cos, side * body.sin}, Vector{-side * body.sin, side * body.cos}}) {
+      const double apart = normal.x * dx + normal.y * dy;
+      axis.widen(apart - kHalfSide_m - extent_along(solid.form, at, -normal.x, -normal.y), normal.x,
+                 normal.y);
+    }
+  }
+  for (std::size_t i = 0; i < solid.form.normals.size(); ++i) {
+    const Point& normal = solid.form.normals[i];
+    const double x = normal.x * at.cos - normal.y * at.sin;
+    const double y = normal.x * at.sin + normal.y * at.cos;
+    const double own = normal.x * solid.form.corners[i].x + normal.y * solid.form.corners[i].y;
+    const double reach = kHalfSide_m * (std::fabs(x * body.cos + y * body.sin) +
+                                        std::fabs(y * body.cos - x * body.sin));
+    axis.widen(-(x * dx + y * dy) - own - reach, -x, -y);
+  }
+  return axis;
+}
+
+bool is_inside(const FixedSolid& solid, double x, double y) {
+  const Body& at = solid.at;
+  const double own_x = (x - at.x) * at.cos + (y - at.y) * at.sin;
+  const double own_y = (y - at.y) * at.cos - (x - at.x) * at.sin;
+  for (std::size_t i = 0; i < solid.form.normals.size(); ++i) {
+    const Point& normal = solid.form.normals[i];
+    const Point& corner = solid.form.corners[i];
+    if (normal.x * (own_x - corner.x) + normal.y * (own_y - corner.y) > 0) return false;
+  }
+  return true;
+}
+
+/// Corners of the square that lie in the solid, then corners of the solid that lie in the square.
+void meet_polygon(Contact contact, const Body& body, const FixedSolid& solid,
+                  std::vector<Contact>& found) {
+  const Axis axis = axis_between(body, solid);
+  if (axis.gap >= 0) return;
+  contact.nx = axis.nx;
+  contact.ny = axis.ny;
+  const auto add = [&](std::size_t corner, double x, double y) {
+    found.push_back(contact);
+    found.back().id |= corner;
+    found.back().ax = x;
+    found.back().ay = y;
+  };
+  for (unsigned corner = 0; corner < 4; ++corner) {
+    const Vector from_own = corner_of(body, corner);
+    if (is_inside(solid, body.x + from_own.x, body.y + from_own.y))
+      add(corner, from_own.x, from_own.y);
+  }
+  SWARMSMITH_ASSERT(solid.form.corners.size() <= kMostCorners, "an obstacle has few corners");
+  for (std::size_t i = 0; i < solid.form.corners.size(); ++i) {
+    const Point& corner = solid.form.corners[i];
+    const double x = solid.at.x + solid.at.cos * corner.x - solid.at.sin * corner.y - body.x;
+    const double y = solid.at.y + solid.at.sin * corner.x + solid.at.cos * corner.y - body.y;
+    if (std::fabs(x * body.cos + y * body.sin) > kHalfSide_m ||
+        std::fabs(y * body.cos - x * body.sin) > kHalfSide_m)
+      continue;
+    add(4 + i, x, y);
+  }
+}
+
+/// The point of the square that is nearest to the circle's centre; a centre within the square is
+/// pushed out of its nearest side.
+void meet_circle(Contact contact, const Body& body, const FixedSolid& solid,
+                 std::vector<Contact>& found) {
+  const double dx = solid.at.x - body.x;
+  const double dy = solid.at.y - body.y;
+  const Vector centre = {dx * body.cos + dy * body.sin, dy * body.cos - dx * body.sin};
+  const Vector nearest = {std::clamp(centre.x, -kHalfSide_m, kHalfSide_m),
+                          std::clamp(centre.y, -kHalfSide_m, kHalfSide_m)};
+  Vector normal = {centre.x - nearest.x, centre.y - nearest.y};
+  const double distance = std::sqrt(normal.x * normal.x + normal.y * normal.y);
+  if (distance >= solid.form.radius_m) return;
+  if (distance > 0) {
+    normal = {normal.x / distance, normal.y / distance};
+  } else if (std::fabs(centre.x) > std::fabs(centre.y)) {
+    normal = {std::copysign(1.0, centre.x), 0};
+  } else {
+    normal = {0, std::copysign(1.0, centre.y)};
+  }
+  found.push_back(contact);
+  found.back().nx = normal.x * body.cos - normal.y * body.sin;
+  found.back().ny = normal.x * body.sin + normal.y * body.cos;
+  found.back().ax = nearest.x * body.cos - nearest.y * body.sin;
+  found.back().ay = nearest.x * body.sin + nearest.y * body.cos;
+}
+
 }  // namespace
 
-void find_contacts(std::span<const Mover> movers, const Island& island, const Walls& walls,
-                   std::vector<Contact>& found) {
+void find_contacts(std::span<const Mover> movers, const Island& island,
+                   const Surroundings& surroundings, std::vector<Contact>& found) {
   found.clear();
   for (const Meeting& meeting : island.pairs) {
     const Body& a = movers[static_cast<std::size_t>(meeting.mover)].body;
@@ -132,9 +245,23 @@ void find_contacts(std::span<const Mover> movers, const Island& island, const Wa
           .ny = normal.y},
          pair, a, b, found);
   }
+  for (const Meeting& meeting : island.obstacles) {
+    const Body& a = movers[static_cast<std::size_t>(meeting.mover)].body;
+    const auto other = static_cast<std::size_t>(meeting.other);
+    const FixedSolid& solid = surroundings.obstacles[other];
+    const Contact contact{.a = meeting.mover,
+                          .b = -1,
+                          .id = kObstacleBit | static_cast<std::uint64_t>(meeting.mover) << 32U |
+                                static_cast<std::uint64_t>(other) << 6U};
+    if (solid.form.is_circle()) {
+      meet_circle(contact, a, solid, found);
+    } else {
+      meet_polygon(contact, a, solid, found);
+    }
+  }
   for (const Meeting& meeting : island.walls) {
     const Body& a = movers[static_cast<std::size_t>(meeting.mover)].body;
-    const WallPlane& wall = walls.planes[static_cast<std::size_t>(meeting.other)];
+    const WallPlane& wall = surroundings.walls.planes[static_cast<std::size_t>(meeting.other)];
     if (gap_to(a, wall) >= 0) continue;
     meet_wall({.a = meeting.mover,
                .b = -1,

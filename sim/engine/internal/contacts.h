@@ -10,10 +10,11 @@
 
 namespace swarmsmith {
 
-/// A corner of a robot's square that lies in another robot's, or behind the face of a wall.
+/// Where a robot's square lies in another robot's, in an obstacle, or behind the face of a wall: a
+/// corner of one of the two, or the point of the square that is deepest in a circle.
 struct Contact {
   int a = 0;
-  int b = -1;            ///< another robot, or -1: a wall
+  int b = -1;            ///< another robot, or -1: what never moves
   std::uint64_t id = 0;  ///< which corner meets what; the same as long as it does
   double nx = 0;         ///< unit normal from a to the other
   double ny = 0;
@@ -24,10 +25,10 @@ struct Contact {
 };
 
 /// All contacts of an island of RVRs as it stands, in the order of their ids; replaces what was in
-/// `found`. Between two squares the normal is the axis of least overlap. Walls count with their
+/// `found`. Between two solids the normal is the axis of least overlap. Walls count with their
 /// whole line, so the arena must be convex.
-void find_contacts(std::span<const Mover> movers, const Island& island, const Walls& walls,
-                   std::vector<Contact>& found);
+void find_contacts(std::span<const Mover> movers, const Island& island,
+                   const Surroundings& surroundings, std::vector<Contact>& found);
 
 /// For how many sub-steps, up to `most`, no contact is possible: gaps against the fastest approach.
 int quiet_sub_steps(std::span<const Mover> movers, const Island& island,

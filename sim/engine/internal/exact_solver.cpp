@@ -102,7 +102,7 @@ class ExactSolver final : public ContactSolver {
   void sub_step(std::span<Mover> movers, const Island& island) {
     for (const int index : island.movers)
       move(movers[static_cast<std::size_t>(index)].body);
-    find_contacts(movers, island, surroundings_->walls, contacts_);
+    find_contacts(movers, island, *surroundings_, contacts_);
     const bool held = select(movers, island);
     if (active_.empty()) {
       constraints_.clear();
@@ -240,10 +240,10 @@ std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surrounding
   return std::make_unique<ExactSolver>(surroundings);
 }
 
-std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool plain,
+std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool squares,
                                                    const Surroundings& surroundings) {
-  return model == ContactModel::Exact && plain ? make_exact_solver(surroundings)
-                                               : make_box2d_solver(surroundings, plain);
+  if (model == ContactModel::Exact && squares) return make_exact_solver(surroundings);
+  return make_box2d_solver(surroundings, squares && surroundings.obstacles.empty());
 }
 
 }  // namespace swarmsmith

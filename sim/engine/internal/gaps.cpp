@@ -5,9 +5,7 @@
 #include <limits>
 
 namespace swarmsmith {
-namespace {
 
-/// How far a solid reaches from its centre along a unit vector of the world.
 double extent_along(const Form& form, const Body& at, double x, double y) {
   if (form.is_circle()) return form.radius_m;
   const double own_x = x * at.cos + y * at.sin;
@@ -17,6 +15,8 @@ double extent_along(const Form& form, const Body& at, double x, double y) {
     extent = std::max(extent, own_x * corner.x + own_y * corner.y);
   return extent;
 }
+
+namespace {
 
 /// The widest gap that a side's normal of the first shows; nothing for a circle.
 double gap_along_normals(const Form& form, const Body& at, const Form& other,

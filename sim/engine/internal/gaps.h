@@ -5,6 +5,9 @@
 
 namespace swarmsmith {
 
+/// How far a solid reaches from its centre along a unit vector of the world.
+double extent_along(const Form& form, const Body& at, double x, double y);
+
 /// Gap between two solids along the best separating axis among the normals of their sides, metres:
 /// a lower bound of their distance, negative when they overlap. Two RVRs take the quicker way of
 /// walls.h.

@@ -43,12 +43,12 @@ World::World(const Arena& arena, const Outline& robot, std::span<const Pose> sta
       robots_(static_cast<int>(starts.size())),
       kinds_(kinds_of(arena, robot)),
       movers_(movers_of(arena, starts, kinds_)),
-      plain_(surroundings_.walls.convex && kinds_[0].form.is_rvr && arena.obstacles.empty() &&
-             arena.objects.empty()),
+      squares_(surroundings_.walls.convex && kinds_[0].form.is_rvr && arena.objects.empty()),
+      plain_(squares_ && arena.obstacles.empty()),
       largest_radius_m_(largest_radius_of(kinds_)),
       places_(movers_.size()),
       reach_(surroundings_, movers_.size(), largest_radius_m_),
-      solver_(make_contact_solver(contacts, plain_, surroundings_)) {
+      solver_(make_contact_solver(contacts, squares_, surroundings_)) {
   places_.update(movers_);
 }
 

@@ -76,6 +76,7 @@ class World {
   int robots_;
   std::vector<MoverKind> kinds_;  ///< the robots', then those of the objects
   std::vector<Mover> movers_;
+  bool squares_;  ///< plain, but for fixed obstacles
   bool plain_;
   double largest_radius_m_;
   Places places_;

@@ -10,6 +10,7 @@
 
 #include "base/math.h"
 #include "base/rng.h"
+#include "sim/engine/internal/gaps.h"
 #include "sim/engine/internal/motion.h"
 #include "tests/sim/engine/islands.h"
 
@@ -218,6 +219,128 @@ TEST_P(BothSolvers, EndAtTheSamePoses) {
   EXPECT_LT(turned, run.heading);
   RecordProperty("apart_um", static_cast<int>(apart * 1e6));
   RecordProperty("turned_ppm", static_cast<int>(turned * 1e6));
+}
+
+/// A robot that drives against an obstacle, and past it.
+struct ObstacleRun {
+  const char* name;
+  Obstacle obstacle;
+  Pose start;
+  Command command;
+  int ticks;
+  double position_m;
+  double heading;
+};
+
+void PrintTo(const ObstacleRun& run, std::ostream* out) {
+  *out << run.name;
+}
+
+class BothAtObstacles : public testing::TestWithParam<ObstacleRun> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Solvers, BothAtObstacles,
+    testing::Values(ObstacleRun{"FaceOfABox",
+                                {BoxOutline{0.2, 0.2}, {0, 0, 0}},
+                                {-0.4, 0.03, 0},
+                                {0.3, 0.3},
+                                25,
+                                2e-3,
+                                5e-3},
+                    ObstacleRun{"AlongABox",
+                                {BoxOutline{0.5, 0.1}, {0, 0, 0.3}},
+                                {-0.3, -0.3, 0.9},
+                                {0.3, 0.3},
+                                20,
+                                3e-3,
+                                5e-3},
+                    ObstacleRun{"CornerOfABox",
+                                {BoxOutline{0.2, 0.2}, {0, 0, 0.785}},
+                                {-0.4, 0, 0},
+                                {0.3, 0.3},
+                                15,
+                                2e-3,
+                                5e-3},
+                    ObstacleRun{"Triangle",
+                                {PolygonOutline{{{0.2, 0}, {-0.1, 0.2}, {-0.1, -0.2}}}, {0, 0, 0}},
+                                {-0.4, 0.1, 0},
+                                {0.3, 0.25},
+                                20,
+                                3e-3,
+                                1e-2},
+                    ObstacleRun{"Circle",
+                                {CircleOutline{0.15}, {0, 0, 0}},
+                                {-0.4, 0.04, 0},
+                                {0.3, 0.3},
+                                25,
+                                3e-3,
+                                1e-2}),
+    [](const auto& run) { return run.param.name; });
+
+TEST_P(BothAtObstacles, EndAtTheSamePose) {
+  const ObstacleRun& run = GetParam();
+  Arena arena = dodecagon_of_the_thesis();
+  arena.obstacles = {run.obstacle};
+  const Surroundings around = surroundings_of(arena);
+  const Island all = everything(1, around);
+  std::array<Mover, 3> ends;
+  for (std::size_t solver = 0; solver < 3; ++solver) {
+    const auto contacts = solver == 0 ? make_exact_solver(around) : make_box2d_solver(around, true);
+    std::vector<Mover> movers = {{.body = body_at(run.start), .set_point = {}}};
+    for (int tick = 0; tick < run.ticks; ++tick) {
+      movers[0].set_point = set_point_of(run.command, movers[0].body);
+      if (solver < 2)
+        contacts->advance(movers, {&all, 1}, 10);
+      else
+        advance_freely(movers[0].body, movers[0].set_point, 10);
+    }
+    ends[solver] = movers[0];
+  }
+  const Body& exact = ends[0].body;
+  const Body& box2d = ends[1].body;
+  const Body& free = ends[2].body;
+  EXPECT_GT(hypot(exact.x - free.x, exact.y - free.y), 0.02) << "nothing was in its way";
+  EXPECT_LT(hypot(exact.x - box2d.x, exact.y - box2d.y), run.position_m)
+      << exact.x << " " << exact.y << "; Box2D " << box2d.x << " " << box2d.y;
+  EXPECT_LT(std::max(std::fabs(exact.cos - box2d.cos), std::fabs(exact.sin - box2d.sin)),
+            run.heading);
+}
+
+TEST(ContactSolvers, PressAsDeepIntoObstacles) {
+  Rng rng(7);
+  int touched = 0;
+  for (int i = 0; i < 300; ++i) {
+    Arena arena = dodecagon_of_the_thesis();
+    const double size = rng.uniform(0.05, 0.3);
+    const std::array<Outline, 3> outlines = {
+        Outline(CircleOutline{size}), BoxOutline{size, rng.uniform(0.02, 0.3)},
+        PolygonOutline{{{size, 0}, {-0.05, size}, {-0.05, -0.1}}}};
+    arena.obstacles = {{outlines[static_cast<std::size_t>(i) % 3], {0, 0, rng.uniform(-kPi, kPi)}}};
+    const Surroundings around = surroundings_of(arena);
+    const FixedSolid& solid = around.obstacles.front();
+    const double from = rng.uniform(-kPi, kPi);
+    const Mover start{
+        .body = body_at({-0.6 * cos(from), -0.6 * sin(from), from + rng.uniform(-0.2, 0.2)}),
+        .set_point = {}};
+    const Island all = everything(1, around);
+    const Command command{0.3, rng.uniform(0.25, 0.3)};
+    const auto deepest_of = [&](ContactSolver& solver) {
+      std::vector<Mover> movers = {start};
+      Mover& mover = movers.front();
+      double deepest = 0;
+      for (int tick = 0; tick < 40; ++tick) {
+        mover.set_point = set_point_of(command, mover.body);
+        solver.advance(movers, {&all, 1}, 10);
+        deepest = std::min(deepest, gap_between(mover.form(), mover.body, solid.form, solid.at));
+      }
+      EXPECT_TRUE(is_sound(mover.body));
+      return deepest;
+    };
+    const double exact = deepest_of(*make_exact_solver(around));
+    EXPECT_NEAR(exact, deepest_of(*make_box2d_solver(around, true)), 1e-3) << "run " << i;
+    touched += exact < 0;
+  }
+  EXPECT_GT(touched, 100);
 }
 
 TEST(ContactSolvers, AWorldThatIsNotPlainGetsBox2d) {

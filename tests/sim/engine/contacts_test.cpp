@@ -23,7 +23,7 @@ std::vector<Mover> island_of(const std::vector<Pose>& poses) {
 std::vector<Contact> contacts_of(const std::vector<Mover>& island) {
   std::vector<Contact> contacts;
   const Surroundings around = surroundings_of(dodecagon_of_the_thesis());
-  find_contacts(island, everything(island.size(), around), around.walls, contacts);
+  find_contacts(island, everything(island.size(), around), around, contacts);
   return contacts;
 }
 
@@ -106,7 +106,7 @@ TEST(QuietSubSteps, NeverEndBehindATouch) {
     for (int step = 0; step < quiet; ++step) {
       for (Mover& member : island)
         sub_step(member.body, member.set_point);
-      find_contacts(island, all, around.walls, contacts);
+      find_contacts(island, all, around, contacts);
       ASSERT_TRUE(contacts.empty()) << "run " << i << " sub-step " << step;
     }
   }

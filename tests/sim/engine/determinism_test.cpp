@@ -165,6 +165,37 @@ TEST(Determinism, AWorldOfSolidsHasItsFixedHash) {
             "568338e4ec873ed8f67f363bbd9bdaa5");
 }
 
+TEST(Determinism, ObstaclesHaveTheirFixedHash) {
+  Mission mission = built_in_mission("aggregation").value();
+  mission.arena.obstacles = {
+      {BoxOutline{0.2, 0.3}, {0.4, 0.3, 0.3}},
+      {CircleOutline{0.12}, {-0.4, 0.3, 0}},
+      {PolygonOutline{{{0.15, 0}, {-0.1, 0.12}, {-0.1, -0.12}}}, {0, -0.4, 1}}};
+  EXPECT_EQ(hash_of(mission, "watermelon", "rvr"), "04371ef059ef935d4359ef67e163e181");
+}
+
+TEST(EngineVersion, IsAnotherWhereTheExactModelMeetsObstacles) {
+  const Profile exact{};
+  Profile box2d{};
+  box2d.contacts = ContactModel::Box2d;
+  const Obstacle post{CircleOutline{0.1}, {0, 0, 0}};
+  for (const char* name : kMissions)
+    EXPECT_EQ(engine_version_of(built_in_mission(name).value(), exact), kEngineVersion) << name;
+  const Mission open = built_in_mission("aggregation").value();
+  Mission mission = open;
+  mission.arena.obstacles = {post};
+  EXPECT_EQ(engine_version_of(mission, exact), kObstaclesVersion);
+  EXPECT_EQ(engine_version_of(mission, box2d), kEngineVersion);
+  // Those that Box2D plays have its bits as before.
+  Mission round = mission;
+  round.body = CircleOutline{0.1};
+  EXPECT_EQ(engine_version_of(round, exact), kEngineVersion);
+  Mission bent = mission;
+  bent.arena.walls = {{1, -1}, {1, 1}, {0, 0.5}, {-1, 1}, {-1, -1}};
+  EXPECT_EQ(engine_version_of(bent, exact), kEngineVersion);
+  EXPECT_EQ(engine_version_of(mission_with_solids(), exact), kEngineVersion);
+}
+
 TEST(Determinism, TheLidarOfThirtyRobotsHasItsFixedHash) {
   Mission mission = built_in_mission("grid_exploration").value();
   mission.robots = 30;
