@@ -49,7 +49,7 @@ std::vector<std::string> details_of(const EvaluateOptions& arguments, std::int64
 }
 
 /// Also counts the cycles of a run that takes seconds; for others it would cost more than it says.
-Recorder counted(Recorder recorder, const Mission& mission, Counter& counter) {
+Recorder with_counter(Recorder recorder, const Mission& mission, Counter& counter) {
   constexpr std::int64_t kLongRun = 500'000;  // robots times cycles
   if (std::int64_t{mission.robots} * mission.cycles < kLongRun) return recorder;
   const Sensors sensors = recorder.sensors;
@@ -165,13 +165,14 @@ class Evaluation {
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
     Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
-    const SimulationResult result = simulate({.controller = job.controller,
-                                              .flavour = job.flavour,
-                                              .profile = job.profile,
-                                              .mission = job.mission,
-                                              .instance = job.instances[i],
-                                              .seed = job.seeds[i]},
-                                             counted(std::move(recorder), job.mission, cycles));
+    const SimulationResult result =
+        simulate({.controller = job.controller,
+                  .flavour = job.flavour,
+                  .profile = job.profile,
+                  .mission = job.mission,
+                  .instance = job.instances[i],
+                  .seed = job.seeds[i]},
+                 with_counter(std::move(recorder), job.mission, cycles));
     const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
         std::chrono::steady_clock::now() - begin);
     if (!std::isfinite(result.score)) return reject(job, job.seeds[i], result.score);
