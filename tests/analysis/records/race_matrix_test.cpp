@@ -76,7 +76,6 @@ TEST_F(RaceMatrixTest, RowsAreElitesByRankThenByHowFarTheyCameThenByMeanRank) {
   EXPECT_TRUE(anybody_dropped);
 }
 
-// The mean of scores says little where candidates have not run on the same pairs.
 TEST_F(RaceMatrixTest, WhatTheLastTestDropsComesAfterThoseThatWereOnlyNotKept) {
   const RaceMatrix before = matrix();
   const auto last =
