@@ -5,6 +5,8 @@
 #include <string>
 #include <system_error>
 
+#include "base/plain_text.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -29,9 +31,7 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
                          std::string(text) + "\"",
                      "--seeds");
   };
-  std::string_view rest = text;
-  while (true) {
-    const std::string_view part = rest.substr(0, rest.find(','));
+  for (const std::string_view part : split(text, ',')) {
     const std::size_t dash = part.find('-');
     const auto first = parse_seed(part.substr(0, dash));
     const auto last = dash == std::string_view::npos ? first : parse_seed(part.substr(dash + 1));
@@ -41,9 +41,8 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
     }
     for (std::int64_t seed = *first; seed <= *last; ++seed)
       seeds.push_back(seed);
-    if (part.size() == rest.size()) return seeds;
-    rest.remove_prefix(part.size() + 1);
   }
+  return seeds;
 }
 
 }  // namespace swarmsmith

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "programs/batch.h"
 #include "programs/words.h"
 
@@ -18,10 +19,6 @@ bool is_simple(std::string_view word) {
 /// A program's path as one types it.
 std::string typed(const std::string& program) {
   return is_simple(program) ? program : shell_quoted(program);
-}
-
-std::string seconds(std::int64_t count) {
-  return std::to_string(count) + (count == 1 ? " second" : " seconds");
 }
 
 std::string name_of_signal(int number) {
@@ -104,7 +101,7 @@ tl::expected<ProcessEnd, TargetFailure> TargetRunner::call(const Command& comman
     case ProcessEnd::Why::Limit:
       return tl::unexpected(failure(command, &*end,
                                     "the " + role + " did not end within " +
-                                        seconds(target_.timeout_s) +
+                                        counted(target_.timeout_s, "second") +
                                         " (targetRunnerTimeout), and was "
                                         "killed"));
     case ProcessEnd::Why::Itself:

@@ -1,7 +1,4 @@
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +8,7 @@
 #include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/race_plot.h"
+#include "analysis/records/race_matrix.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -20,33 +18,12 @@ namespace {
 struct Race {
   DesignRecord design;
   IterationRecord iteration;
-  bool has_ended = false;
-  std::vector<StepRecord> steps;
-  std::vector<RaceCell> cells;
-  std::map<CandidateId, EliminationRecord> dropped;
-  std::set<CandidateId> elites_before;
-  std::map<CandidateId, std::int64_t> elites_after;  ///< to their rank
-};
+  RaceMatrix matrix;
 
-/// The one that is asked for, else the last; the race of what was left, after that, only when
-/// asked.
-Expected<std::int64_t> chosen_iteration(const std::vector<StepRecord>& steps,
-                                        const std::vector<IterationRecord>& all,
-                                        const FigureOptions& options, DesignId design) {
-  if (steps.empty()) {
-    return unexpected(ErrorKind::NotFound, fmt::format("{} has not raced yet", to_string(design)));
+  bool has_ended() const {
+    return std::ranges::any_of(matrix.rows, [](const auto& row) { return !!row.elite_after; });
   }
-  const std::int64_t last = steps.back().iteration;
-  std::int64_t wanted = options.iteration.value_or(last);
-  const auto record = std::ranges::find(all, last, &IterationRecord::iteration);
-  const bool is_extra = record != all.end() && record->postselection;
-  if (!options.iteration && is_extra && last > 1) wanted = last - 1;
-  if (std::ranges::find(steps, wanted, &StepRecord::iteration) == steps.end()) {
-    return bad_input(fmt::format("--iteration {}: {} has raced the iterations 1 to {}", wanted,
-                                 to_string(design), last));
-  }
-  return wanted;
-}
+};
 
 Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
   auto design = chosen_design(store, options, "race");
@@ -58,119 +35,63 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
         "{} was searched by {}, which has no races to draw; `figure convergence` shows how it went",
         to_string(id), search));
   }
-  const auto steps = race_steps(store, id);
-  if (!steps) return Unexpected(steps.error());
+  const auto last = last_raced_iteration(store, id);
+  if (!last) return Unexpected(last.error());
+  if (*last == 0) {
+    return unexpected(ErrorKind::NotFound, fmt::format("{} has not raced yet", to_string(id)));
+  }
   const auto all = iterations(store, id);
   if (!all) return Unexpected(all.error());
-  const auto number = chosen_iteration(*steps, *all, options, id);
-  if (!number) return Unexpected(number.error());
-  auto cells = race_cells(store, id, *number);
-  if (!cells) return Unexpected(cells.error());
-  const auto dropped = eliminations(store, id);
-  if (!dropped) return Unexpected(dropped.error());
-  const auto kept = elites(store, {.design = id});
-  if (!kept) return Unexpected(kept.error());
-
-  Race race{.design = std::move(*design), .cells = std::move(*cells)};
-  for (const StepRecord& step : *steps)
-    if (step.iteration == *number) race.steps.push_back(step);
-  for (const EliminationRecord& row : *dropped)
-    if (row.iteration == *number) race.dropped.emplace(row.candidate, row);
-  for (const EliteRecord& elite : *kept) {
-    if (elite.iteration == *number - 1) race.elites_before.insert(elite.candidate);
-    if (elite.iteration == *number) race.elites_after.emplace(elite.candidate, elite.rank);
+  const auto record_of = [&](std::int64_t iteration) {
+    const auto found = std::ranges::find(*all, iteration, &IterationRecord::iteration);
+    return found == all->end() ? IterationRecord{.iteration = iteration} : *found;
+  };
+  // The one that is asked for, else the last; the race of what was left, after that, only when
+  // asked.
+  const bool is_extra = record_of(*last).postselection && *last > 1;
+  const std::int64_t wanted = options.iteration.value_or(is_extra ? *last - 1 : *last);
+  auto matrix = race_matrix(store, id, wanted);
+  if (!matrix) return Unexpected(matrix.error());
+  if (matrix->steps.empty()) {
+    return bad_input(fmt::format("--iteration {}: {} has raced the iterations 1 to {}", wanted,
+                                 to_string(id), *last));
   }
-  // The campaign may have stored a step since the steps were read.
-  std::erase_if(race.cells, [&](const RaceCell& cell) {
-    return std::ranges::find(race.steps, cell.step, &StepRecord::step) == race.steps.end();
-  });
-  race.has_ended = !race.elites_after.empty();
-  const auto iteration = std::ranges::find(*all, *number, &IterationRecord::iteration);
-  race.iteration = iteration == all->end() ? IterationRecord{.iteration = *number} : *iteration;
-  return race;
+  return Race{
+      .design = std::move(*design), .iteration = record_of(wanted), .matrix = std::move(*matrix)};
 }
 
-/// A row and what it is sorted by.
-struct Ranked {
-  RacePlot::Row row;
-  CandidateId candidate;
-  bool kept = false;
-  std::size_t last_column = 0;
-  double rank_sum = 0;
-  std::size_t ranked = 0;
-
-  double mean_rank() const {
-    return ranked == 0 ? std::numeric_limits<double>::max()
-                       : rank_sum / static_cast<double>(ranked);
-  }
-  /// How far it came, then its mean rank.
-  bool operator<(const Ranked& other) const {
-    if (kept != other.kept) return kept;
-    if (last_column != other.last_column) return last_column > other.last_column;
-    if (mean_rank() != other.mean_rank()) return mean_rank() < other.mean_rank();
-    return candidate < other.candidate;
-  }
-};
-
-std::vector<Ranked> rows_of(const Race& race) {
-  std::map<std::int64_t, std::size_t> columns;
-  std::map<std::int64_t, double> scored;  ///< candidates of a step that have a rank
-  for (const StepRecord& step : race.steps)
-    columns.emplace(step.step, columns.size());
-  for (const RaceCell& cell : race.cells)
-    if (cell.rank) ++scored[cell.step];
-  std::map<CandidateId, Ranked> rows;
-  for (const RaceCell& cell : race.cells) {
-    Ranked& row = rows[cell.candidate];
-    row.row.cells.resize(race.steps.size());
-    const std::size_t column = columns.at(cell.step);
-    row.last_column = std::max(row.last_column, column);
-    RacePlot::Cell& drawn = row.row.cells[column];
-    if (!cell.rank) {
-      drawn.state = RacePlot::Cell::State::Rejected;
-      continue;
+RacePlot::Row drawn(const RaceMatrix& matrix, const RaceMatrix::Row& row) {
+  RacePlot::Row drawn{.name = to_string(row.candidate),
+                      .elite_before = row.elite_before.has_value(),
+                      .elite_after = row.elite_after.has_value()};
+  // Who was only not kept came to the end of the race.
+  if (!row.came_to_the_end()) drawn.dropped_after = row.dropped_after;
+  for (std::size_t column = 0; column < matrix.steps.size(); ++column) {
+    RacePlot::Cell& cell = drawn.cells.emplace_back();
+    const auto [has_run, score, rank] = row.at(column);
+    if (rank) {
+      const auto others = static_cast<double>(matrix.steps[column].ranked - 1);
+      cell = {RacePlot::Cell::State::Ranked, others > 0 ? (*rank - 1) / others : 0};
+    } else if (has_run) {
+      cell.state = RacePlot::Cell::State::Rejected;
     }
-    const double others = scored[cell.step] - 1;
-    drawn = {RacePlot::Cell::State::Ranked, others > 0 ? (*cell.rank - 1) / others : 0};
-    row.rank_sum += *cell.rank;
-    ++row.ranked;
   }
-  std::vector<Ranked> sorted;
-  for (auto& [candidate, row] : rows) {
-    row.candidate = candidate;
-    row.row.name = to_string(candidate);
-    row.row.elite_before = race.elites_before.contains(candidate);
-    row.row.elite_after = race.elites_after.contains(candidate);
-    row.kept = row.row.elite_after;
-    const auto dropped = race.dropped.find(candidate);
-    // Who was only not kept came to the end of the race.
-    if (dropped != race.dropped.end() && dropped->second.reason != "not kept") {
-      const auto column = columns.find(dropped->second.step);
-      if (column != columns.end()) row.row.dropped_after = column->second;
-    }
-    if (row.row.dropped_after) {
-      row.last_column = *row.row.dropped_after;
-    } else {
-      row.last_column = race.steps.size();
-    }
-    sorted.push_back(std::move(row));
-  }
-  std::ranges::sort(sorted, std::less<>());
-  return sorted;
+  return drawn;
 }
 
-std::string description_of(const Race& race, const std::vector<Ranked>& rows) {
+std::string description_of(const Race& race) {
+  const auto& [steps, rows] = race.matrix;
   std::string text = fmt::format(
       "Ranks of {} candidates in {} steps of iteration {} of design {}, best rows first.",
-      rows.size(), race.steps.size(), race.iteration.iteration, to_string(race.design.design));
-  for (const StepRecord& step : race.steps) {
+      rows.size(), steps.size(), race.iteration.iteration, to_string(race.design.design));
+  for (const StepRecord& step : steps) {
     if (step.alive_after == step.alive_before) continue;
     text += fmt::format(" Step {} dropped {} and left {}.", step.step,
                         step.alive_before - step.alive_after, step.alive_after);
   }
   if (!rows.empty()) {
-    text += fmt::format(" {} came farthest, with the mean rank {:.1f}.", rows.front().row.name,
-                        rows.front().mean_rank());
+    text += fmt::format(" {} came farthest, with the mean rank {:.1f}.",
+                        to_string(rows.front().candidate), rows.front().mean_rank);
   }
   return text;
 }
@@ -182,19 +103,23 @@ std::string csv_of(const Race& race) {
   const auto maybe = [](const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : "";
   };
-  std::size_t at = 0;
-  for (const RaceCell& cell : race.cells) {
-    while (race.steps[at].step != cell.step)
-      ++at;
-    const StepRecord& step = race.steps[at];
-    const auto dropped = race.dropped.find(cell.candidate);
-    const bool here = dropped != race.dropped.end() && dropped->second.step == cell.step;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", race.design.design.value,
-                       step.iteration, step.step, csv_field(step.marker), step.alive_before,
-                       step.alive_after, cell.pair, cell.instance, cell.seed, cell.candidate.value,
-                       race.elites_before.contains(cell.candidate) ? 1 : 0,
-                       race.elites_after.contains(cell.candidate) ? 1 : 0, maybe(cell.score),
-                       maybe(cell.rank), here ? csv_field(dropped->second.reason) : "");
+  const auto& [steps, rows] = race.matrix;
+  std::vector<const RaceMatrix::Row*> by_number;
+  for (const RaceMatrix::Row& row : rows)
+    by_number.push_back(&row);
+  std::ranges::sort(by_number, {}, &RaceMatrix::Row::candidate);
+  for (std::size_t column = 0; column < steps.size(); ++column) {
+    const StepRecord& step = steps[column];
+    for (const RaceMatrix::Row* row : by_number) {
+      const auto [has_run, score, rank] = row->at(column);
+      if (!has_run) continue;
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", race.design.design.value,
+                         step.iteration, step.step, csv_field(step.marker), step.alive_before,
+                         step.alive_after, step.pair, step.instance.value_or(0),
+                         step.seed.value_or(0), row->candidate.value, row->elite_before ? 1 : 0,
+                         row->elite_after ? 1 : 0, maybe(score), maybe(rank),
+                         row->dropped_after == column ? csv_field(row->reason) : "");
+    }
   }
   return csv;
 }
@@ -204,23 +129,23 @@ std::string csv_of(const Race& race) {
 Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
   const auto race = read_race(store, options);
   if (!race) return Unexpected(race.error());
-  const std::vector<Ranked> rows = rows_of(*race);
+  const auto& [steps, rows] = race->matrix;
   RacePlot plot{.title = title_of(race->design),
-                .description = description_of(*race, rows),
+                .description = description_of(*race),
                 .width_mm = options.width_mm};
   std::string_view remark;
   if (race->iteration.postselection) remark = " (postselection)";
-  if (!race->has_ended) remark = " (goes on)";
+  if (!race->has_ended()) remark = " (goes on)";
   plot.details.push_back(fmt::format("Race of {}, iteration {}{}", to_string(race->design.design),
                                      race->iteration.iteration, remark));
   plot.details.push_back(fmt::format("Budget: {} of the design's {} experiments",
                                      race->iteration.budget, race->design.budget));
   plot.details.push_back(fmt::format("{} candidates, {} alive after step {}", rows.size(),
-                                     race->steps.back().alive_after, race->steps.back().step));
-  for (const StepRecord& step : race->steps)
+                                     steps.back().alive_after, steps.back().step));
+  for (const StepRecord& step : steps)
     plot.steps.push_back({step.step, step.marker, step.alive_before});
-  for (const Ranked& row : rows)
-    plot.rows.push_back(row.row);
+  for (const RaceMatrix::Row& row : rows)
+    plot.rows.push_back(drawn(race->matrix, row));
   return Figure{.svg = draw(for_paper(plot, options)), .csv = csv_of(*race), .tex = {}};
 }
 

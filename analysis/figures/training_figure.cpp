@@ -11,6 +11,7 @@
 #include "analysis/figures/makers.h"
 #include "analysis/figures/scatter_plot.h"
 #include "analysis/records/chosen_scores.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -65,8 +66,7 @@ Expected<Figure> training_figure(StoreReader& store, const FigureOptions& option
                       "they are");
   }
   ScatterPlot plot{.title = "Training and test",
-                   .details = {fmt::format("{} winner{}; dashed: the same in both", winners.size(),
-                                           winners.size() == 1 ? "" : "s"),
+                   .details = {counted(winners.size(), "winner") + "; dashed: the same in both",
                                "below the line: worse on fresh seeds than in the race"},
                    .horizontal = "mean score in the race",
                    .vertical = "mean score in the tests (higher is better)",

@@ -17,6 +17,10 @@ namespace {
 using Cell = StoreReader::Cell;
 using Cells = std::vector<Cell>;
 
+std::optional<std::int64_t> maybe_integer(const Cell& cell) {
+  return cell.is_null() ? std::nullopt : std::optional(cell.integer());
+}
+
 std::optional<CandidateId> maybe_candidate(const Cell& cell) {
   return cell.is_null() ? std::nullopt : std::optional(CandidateId{cell.integer()});
 }
@@ -200,17 +204,15 @@ Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                                            std::int64_t iteration) {
   return read<RaceCell>(
       store,
-      fmt::format("SELECT step, pair, instance, seed, candidate, score, rank FROM v_race_matrix"
+      fmt::format("SELECT step, pair, candidate, score, rank FROM v_race_matrix"
                   " WHERE design = {} AND iteration = {} ORDER BY step, candidate",
                   design.value, iteration),
       [](const Cells& row) {
         return RaceCell{.step = row[0].integer(),
                         .pair = row[1].integer(),
-                        .instance = row[2].integer(),
-                        .seed = row[3].integer(),
-                        .candidate = {row[4].integer()},
-                        .score = row[5].maybe_real(),
-                        .rank = row[6].maybe_real()};
+                        .candidate = {row[2].integer()},
+                        .score = row[3].maybe_real(),
+                        .rank = row[4].maybe_real()};
       });
 }
 
@@ -257,34 +259,48 @@ Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId des
       });
 }
 
-Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design) {
+Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design,
+                                             std::int64_t iteration) {
   return read<StepRecord>(
       store,
-      fmt::format(
-          "SELECT step, iteration, pair, marker, alive_before, alive_after, best, mean_best,"
-          " used, statistic, p_value FROM v_race_steps WHERE design = {} ORDER BY step",
-          design.value),
+      fmt::format("SELECT s.step, s.iteration, s.pair, p.instance, p.seed, s.marker,"
+                  " s.alive_before, s.alive_after, s.best, s.mean_best, s.used, s.statistic,"
+                  " s.p_value FROM v_race_steps AS s LEFT JOIN pair AS p ON p.design = s.design"
+                  " AND p.purpose = 0 AND p.number = s.pair"
+                  " WHERE s.design = {} AND s.iteration = {} ORDER BY s.step",
+                  design.value, iteration),
       [](const Cells& row) {
         return StepRecord{.step = row[0].integer(),
                           .iteration = row[1].integer(),
                           .pair = row[2].integer(),
-                          .marker = row[3].text,
-                          .alive_before = row[4].integer(),
-                          .alive_after = row[5].integer(),
-                          .best = maybe_candidate(row[6]),
-                          .mean_best = row[7].real(),
-                          .used = row[8].integer(),
-                          .statistic = row[9].maybe_real(),
-                          .p_value = row[10].maybe_real()};
+                          .instance = maybe_integer(row[3]),
+                          .seed = maybe_integer(row[4]),
+                          .marker = row[5].text,
+                          .alive_before = row[6].integer(),
+                          .alive_after = row[7].integer(),
+                          .best = maybe_candidate(row[8]),
+                          .mean_best = row[9].real(),
+                          .used = row[10].integer(),
+                          .statistic = row[11].maybe_real(),
+                          .p_value = row[12].maybe_real()};
       });
 }
 
-Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design) {
+Expected<std::int64_t> last_raced_iteration(StoreReader& store, DesignId design) {
+  const auto last = read<std::int64_t>(
+      store, fmt::format("SELECT max(iteration) FROM v_race_steps WHERE design = {}", design.value),
+      [](const Cells& row) { return row[0].integer(); });
+  if (!last) return Unexpected(last.error());
+  return last->front();
+}
+
+Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design,
+                                                      std::int64_t iteration) {
   return read<EliminationRecord>(
       store,
       fmt::format("SELECT candidate, iteration, step, reason FROM v_eliminations"
-                  " WHERE design = {} ORDER BY iteration, step, candidate",
-                  design.value),
+                  " WHERE design = {} AND iteration = {} ORDER BY step, candidate",
+                  design.value, iteration),
       [](const Cells& row) {
         return EliminationRecord{.candidate = {row[0].integer()},
                                  .iteration = row[1].integer(),

@@ -91,8 +91,6 @@ struct EliteRecord {
 struct RaceCell {
   std::int64_t step = 0;
   std::int64_t pair = 0;
-  std::int64_t instance = 0;
-  std::int64_t seed = 0;
   CandidateId candidate;
   std::optional<double> score;  ///< none when rejected
   std::optional<double> rank;   ///< 1 is best, ties share their mean
@@ -103,6 +101,8 @@ struct StepRecord {
   std::int64_t step = 0;
   std::int64_t iteration = 0;
   std::int64_t pair = 0;
+  std::optional<std::int64_t> instance;  ///< of the pair, as in v_race_matrix
+  std::optional<std::int64_t> seed;
   std::string marker;
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;
@@ -189,8 +189,12 @@ std::string search_of(StoreReader& store, DesignId design);
 Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design);
 /// All that a design tried, in the order in which they were sampled.
 Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId design);
-Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design);
-Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design);
+Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design,
+                                             std::int64_t iteration);
+Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design,
+                                                      std::int64_t iteration);
+/// The last iteration of the design that has a step; 0 before the first.
+Expected<std::int64_t> last_raced_iteration(StoreReader& store, DesignId design);
 /// Of the candidates of one design, or of some of them.
 Expected<std::vector<ParameterRecord>> parameters(StoreReader& store, DesignId design,
                                                   const std::vector<CandidateId>& candidates = {});

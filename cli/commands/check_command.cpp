@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "cli/commands/commands.h"
 #include "cli/output/number_text.h"
@@ -58,8 +59,8 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << " tests of winners\n"
              << "evaluation   " << evaluation_text(campaign, plan) << "\n";
   if (plan.evaluation_s) {
-    output.out << "time         about " << duration_text(plan.time_s) << " on " << plan.slots
-               << (plan.slots == 1 ? " slot\n" : " slots\n");
+    output.out << "time         about " << duration_text(plan.time_s) << " on "
+               << counted(plan.slots, "slot") << "\n";
   }
   output.out << "disk         about " << megabytes << " MB, and "
              << decimals(plan.log_bytes / 1e6, "%.1f") << " MB of log while it runs\n"

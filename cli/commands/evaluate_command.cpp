@@ -1,7 +1,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 #include "analysis/statistics/summary.h"
@@ -38,18 +37,8 @@ void write_summary(std::ostream& out, const std::vector<double>& scores) {
   out << "  n " << scores.size() << "\n";
 }
 
-/// What a picture says of the run; a machine given as text has no name.
-std::vector<std::string> details_of(const EvaluateOptions& arguments, std::int64_t seed,
-                                    double score) {
-  const std::size_t first = arguments.machine.find_first_not_of(' ');
-  const bool is_text = arguments.machine.compare(first, 2, "--") == 0;
-  const std::string name =
-      is_text ? "" : std::filesystem::path(arguments.machine).filename().string();
-  return {name, "seed " + std::to_string(seed), "score " + score_text(score)};
-}
-
 /// Also counts the cycles of a run that takes seconds; for others it would cost more than it says.
-Recorder counted(Recorder recorder, const Mission& mission, Counter& counter) {
+Recorder with_counter(Recorder recorder, const Mission& mission, Counter& counter) {
   constexpr std::int64_t kLongRun = 500'000;  // robots times cycles
   if (std::int64_t{mission.robots} * mission.cycles < kLongRun) return recorder;
   const Sensors sensors = recorder.sensors;
@@ -123,22 +112,22 @@ std::int64_t runs_of(const EvaluationPlan& plan) {
 /// Runs the jobs one after the other, and tells of each run.
 class Evaluation {
  public:
-  Evaluation(const EvaluateOptions& arguments, const EvaluationPlan& plan, Output& output)
-      : arguments_(arguments),
-        plan_(plan),
+  Evaluation(const EvaluationPlan& plan, const RecordingArguments& recording, Output& output)
+      : plan_(plan),
+        recording_(recording),
         output_(output),
-        answer_(arguments.recording.takes_standard_output() ? output.err : output.out),
+        answer_(recording.takes_standard_output() ? output.err : output.out),
         counter_(output, "simulated", "runs"),
         of_(runs_of(plan)) {}
 
   ExitCode run() {
-    if (plan_.stores) {
-      auto keeper = ScoreKeeper::open(*arguments_.store.path());
+    if (!plan_.store.empty()) {
+      auto keeper = ScoreKeeper::open(plan_.store);
       if (!keeper) return fail(output_, ExitCode::Store, keeper.error());
       keeper_ = std::move(*keeper);
     }
-    auto recording = Recording::start(arguments_.recording, plan_.jobs.front().mission,
-                                      plan_.jobs.front().controller, output_);
+    const EvaluationJob& first = plan_.jobs.front();
+    auto recording = Recording::start(recording_, first.mission, first.controller, output_);
     if (!recording) {
       return fail(output_, exit_code_of_recording(recording.error()), recording.error());
     }
@@ -152,9 +141,10 @@ class Evaluation {
       }
     }
     counter_.tell(of_, of_);
-    const auto written = recording->finish(details_of(arguments_, plan_.jobs.front().seeds.front(),
-                                                      scores_.empty() ? 0 : scores_.front()),
-                                           plan_.jobs.front().instances.front());
+    const auto written =
+        recording->finish({plan_.machine, "seed " + std::to_string(first.seeds.front()),
+                           "score " + score_text(scores_.empty() ? 0 : scores_.front())},
+                          first.instances.front());
     if (!written) return fail(output_, ExitCode::Failed, written.error());
     if (!output_.json && plan_.jobs.size() == 1 && !scores_.empty())
       write_summary(answer_, scores_);
@@ -165,13 +155,14 @@ class Evaluation {
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
     Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
-    const SimulationResult result = simulate({.controller = job.controller,
-                                              .flavour = job.flavour,
-                                              .profile = job.profile,
-                                              .mission = job.mission,
-                                              .instance = job.instances[i],
-                                              .seed = job.seeds[i]},
-                                             counted(std::move(recorder), job.mission, cycles));
+    const SimulationResult result =
+        simulate({.controller = job.controller,
+                  .flavour = job.flavour,
+                  .profile = job.profile,
+                  .mission = job.mission,
+                  .instance = job.instances[i],
+                  .seed = job.seeds[i]},
+                 with_counter(std::move(recorder), job.mission, cycles));
     const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
         std::chrono::steady_clock::now() - begin);
     if (!std::isfinite(result.score)) return reject(job, job.seeds[i], result.score);
@@ -207,8 +198,8 @@ class Evaluation {
                  "seed " + std::to_string(seed)});
   }
 
-  const EvaluateOptions& arguments_;
   const EvaluationPlan& plan_;
+  const RecordingArguments& recording_;
   Output& output_;
   std::ostream& answer_;
   Counter counter_;
@@ -224,16 +215,15 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
   if (!plan) {
     const Error& error = plan.error();
     const bool no_candidate = error.kind == ErrorKind::NotFound && error.where.empty();
-    const bool no_store = error.kind != ErrorKind::BadInput && !no_candidate;
-    const bool of_files = error.where == arguments.starts || error.where == arguments.patches;
-    if (no_store && !of_files) return fail(output, ExitCode::Store, error);
-    return fail(output, no_candidate ? ExitCode::NoSuchId : ExitCode::Usage, error);
+    if (no_candidate) return fail(output, ExitCode::NoSuchId, error);
+    const bool no_store = error.kind != ErrorKind::BadInput;
+    return fail(output, no_store ? ExitCode::Store : ExitCode::Usage, error);
   }
   if (arguments.recording.any() && runs_of(*plan) > 1) {
     return fail(output, ExitCode::Usage,
                 "--seeds: tables and pictures show one run; name one seed");
   }
-  return Evaluation(arguments, *plan, output).run();
+  return Evaluation(*plan, arguments.recording, output).run();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
@@ -26,8 +27,7 @@ std::string used(const EvaluationHistory& history) {
   if (history.steps.cells.empty()) {
     return iteration.empty() ? "no" : "not in a step that is over";
   }
-  return "in " + std::to_string(history.steps.cells.size()) + " step" +
-         (history.steps.cells.size() == 1 ? "" : "s") +
+  return "in " + counted(history.steps.cells.size(), "step") +
          (history.is_race() ? " of the race" : " of the search");
 }
 

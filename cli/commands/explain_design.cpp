@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/records/records.h"
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
 #include "cli/output/progress_text.h"
@@ -71,10 +72,6 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
   return story;
 }
 
-std::string runs_text(std::int64_t count) {
-  return fmt::format("{} run{}", count, count == 1 ? "" : "s");
-}
-
 /// "0.6 less than the best mean before it, 3 of c2000047 in generation 22".
 std::string difference(const Story& story, const EliteRecord& last, const StoryPart& before) {
   const double change = last.mean - before.best->mean;
@@ -98,8 +95,9 @@ std::string sentence(const Story& story, const StoredStages& stages) {
   std::string text = to_string(story.winner->candidate) + ", made in " +
                      stages.round(design, std::to_string(story.winner->iteration));
   if (last.best->candidate != story.winner->candidate) return text;
-  text += fmt::format("; mean {} over {} in {}", story.mean(last.best->mean),
-                      runs_text(last.best->runs), last.is_final ? "the final stage" : last.name);
+  text +=
+      fmt::format("; mean {} over {} in {}", story.mean(last.best->mean),
+                  counted(last.best->runs, "run"), last.is_final ? "the final stage" : last.name);
   const bool is_compared = last.is_final && ended.size() > 1 && !ended[ended.size() - 2]->is_final;
   if (is_compared) text += ", " + difference(story, *last.best, *ended[ended.size() - 2]);
   return text;
@@ -130,7 +128,7 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
     output.out << part.line;
     if (part.best)
       output.out << "; best " << to_string(part.best->candidate) << ", mean "
-                 << story.mean(part.best->mean) << " over " << runs_text(part.best->runs);
+                 << story.mean(part.best->mean) << " over " << counted(part.best->runs, "run");
     output.out << "\n";
   }
 }

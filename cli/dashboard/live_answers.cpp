@@ -10,6 +10,7 @@
 
 #include "analysis/records/records.h"
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "cli/output/query_output.h"
 #include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_quarantine.h"
@@ -69,11 +70,6 @@ JsonObject design_json(const CampaignStatus& campaign, const DesignStatus& desig
   if (is_merged) object.add("campaign", campaign.name);
   if (!design.search.empty()) object.add("stage", design.stage).add("search", design.search);
   return object;
-}
-
-/// "1 worker", "2 workers".
-std::string counted(std::int64_t count, std::string_view what) {
-  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
 }
 
 struct CauseText {

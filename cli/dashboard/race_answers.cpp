@@ -4,69 +4,24 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <limits>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>
 #include <string_view>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "analysis/figures/race_plot.h"
-#include "analysis/records/records.h"
+#include "analysis/records/race_matrix.h"
+#include "base/plain_text.h"
 #include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-using RaceCell = StoreReader::Cell;
-
 constexpr std::int64_t kMostIterations = 1'000'000;
-
-/// A candidate in an iteration.
-struct Racer {
-  std::int64_t candidate = 0;
-  std::map<std::size_t, std::string> scores{};  ///< JSON, by place of the step
-  double sum = 0;
-  std::int64_t runs = 0;
-  std::optional<std::int64_t> dropped_at{};
-  std::string reason{};
-  std::int64_t elite_before = 0;  ///< rank; 0: none
-  std::int64_t elite_after = 0;
-
-  double mean() const {
-    return runs == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(runs);
-  }
-};
-
-/// Those who came further first; among them elites by rank, then the better mean.
-bool came_further(const Racer& a, const Racer& b) {
-  static constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
-  const auto order = [](const Racer& racer) {
-    return std::tuple(-racer.dropped_at.value_or(kLast),
-                      racer.elite_after == 0 ? kLast : racer.elite_after, -racer.mean(),
-                      racer.candidate);
-  };
-  return order(a) < order(b);
-}
-
-/// Elites at the end of an iteration, by rank.
-Expected<std::map<std::int64_t, std::int64_t>> elites_of(const Question& question,
-                                                         std::int64_t iteration) {
-  const auto rows =
-      rows_of(question, fmt::format("SELECT candidate, rank FROM v_convergence WHERE design = {} "
-                                    "AND iteration = {}",
-                                    question.design.value, iteration));
-  if (!rows) return Unexpected(rows.error());
-  std::map<std::int64_t, std::int64_t> ranks;
-  for (const auto& cells : rows->cells)
-    ranks[cells[0].integer()] = cells[1].integer();
-  return ranks;
-}
 
 /// The iteration that is asked for, else the last one that has a step: most of an iteration's time
 /// goes before its first step ends, and a page shows the race before it until then.
@@ -80,113 +35,32 @@ Expected<std::int64_t> iteration_of(const Question& question) {
     return unexpected(ErrorKind::NotFound, "no iteration has begun yet",
                       to_string(question.design));
   }
-  const auto stepped = rows_of(question, fmt::format("SELECT coalesce(max(iteration), {}) FROM "
-                                                     "v_race_steps WHERE design = {}",
-                                                     newest, question.design.value));
+  const auto stepped = last_raced_iteration(question.store, question.design);
   if (!stepped) return Unexpected(stepped.error());
   const auto asked =
-      question.integer("iteration", stepped->cells.front().front().integer(), 1, kMostIterations);
+      question.integer("iteration", *stepped == 0 ? newest : *stepped, 1, kMostIterations);
   if (!asked || *asked <= newest) return asked;
   return unexpected(ErrorKind::NotFound,
                     fmt::format("the design has no such iteration; it has 1 to {}", newest),
                     "iteration");
 }
 
-struct Race {
-  Rows steps;
-  std::vector<Racer> racers;
-};
-
-Expected<Race> read_race(const Question& question, std::int64_t iteration) {
-  const std::string of_race =
-      fmt::format(" WHERE design = {} AND iteration = {}", question.design.value, iteration);
-  Race race;
-  auto steps = rows_of(question,
-                       "SELECT step, pair, marker, alive_after, statistic, p_value, used, "
-                       "best, mean_best, alive_before FROM v_race_steps" +
-                           of_race + " ORDER BY step");
-  if (!steps) return Unexpected(steps.error());
-  race.steps = std::move(*steps);
-  std::map<std::int64_t, std::size_t> places;
-  for (std::size_t i = 0; i < race.steps.cells.size(); ++i)
-    places[race.steps.cells[i][0].integer()] = i;
-  const auto cells =
-      rows_of(question, "SELECT candidate, step, score FROM v_race_matrix" + of_race);
-  const auto drops =
-      rows_of(question, "SELECT candidate, step, reason FROM v_eliminations" + of_race);
-  const auto before = elites_of(question, iteration - 1);
-  const auto after = elites_of(question, iteration);
-  if (!cells) return Unexpected(cells.error());
-  if (!drops) return Unexpected(drops.error());
-  if (!before) return Unexpected(before.error());
-  if (!after) return Unexpected(after.error());
-  std::map<std::int64_t, Racer> racers;
-  for (const auto& row : cells->cells) {
-    // A race that goes on may be a step further than its list of steps was.
-    const auto place = places.find(row[1].integer());
-    if (place == places.end()) continue;
-    Racer& racer = racers[row[0].integer()];
-    racer.scores[place->second] = cell_as_json(row[2]).text;
-    if (row[2].type == RaceCell::Type::Null) continue;
-    racer.sum += row[2].real();
-    ++racer.runs;
-  }
-  for (const auto& row : drops->cells) {
-    const auto racer = racers.find(row[0].integer());
-    if (racer == racers.end()) continue;
-    racer->second.dropped_at = row[1].integer();
-    racer->second.reason = row[2].text;
-  }
-  for (auto& [candidate, racer] : racers) {
-    racer.candidate = candidate;
-    if (const auto rank = before->find(candidate); rank != before->end())
-      racer.elite_before = rank->second;
-    if (const auto rank = after->find(candidate); rank != after->end())
-      racer.elite_after = rank->second;
-    race.racers.push_back(std::move(racer));
-  }
-  std::ranges::sort(race.racers, came_further);
-  return race;
+/// A value of each candidate in each step; those that were dropped before have none any more.
+JsonPiece cells_of(const RaceMatrix& matrix, std::span<const RaceMatrix::Row> shown,
+                   std::optional<double> RaceMatrix::Cell::*value) {
+  return json_list(matrix.steps, [&](const RaceMatrix::Step& step) {
+    const auto column = static_cast<std::size_t>(&step - matrix.steps.data());
+    const auto gone = std::ranges::find_if(
+        shown, [&](const auto& row) { return row.dropped_after && *row.dropped_after < column; });
+    return json_list(shown.first(static_cast<std::size_t>(gone - shown.begin())),
+                     [&](const RaceMatrix::Row& row) { return row.at(column).*value; });
+  });
 }
 
-/// Scores of the step's survivors, in their order; who was dropped before has none any more.
-JsonPiece scores_at(std::span<const Racer> racers, std::size_t place, std::int64_t step) {
-  std::string text = "[";
-  for (const Racer& racer : racers) {
-    if (racer.dropped_at && *racer.dropped_at < step) break;
-    if (text.size() > 1) text += ',';
-    const auto score = racer.scores.find(place);
-    text += score == racer.scores.end() ? "null" : score->second;
-  }
-  return {text + "]"};
-}
-
-/// A column of the steps.
 JsonPiece column_of(const Rows& rows, std::size_t column) {
-  return json_list(rows.cells,
-                   [&](const std::vector<RaceCell>& cells) { return cell_as_json(cells[column]); });
-}
-
-/// Instance and seed of each step's pair.
-Expected<std::pair<JsonPiece, JsonPiece>> pairs_of(const Question& question, const Rows& steps) {
-  const auto rows = rows_of(question, fmt::format("SELECT number, instance, seed FROM pair WHERE "
-                                                  "design = {} AND purpose = 0",
-                                                  question.design.value));
-  if (!rows) return Unexpected(rows.error());
-  std::map<std::string, const std::vector<RaceCell>*> known;
-  for (const auto& cells : rows->cells)
-    known[cells[0].text] = &cells;
-  const auto values = [&](std::size_t column) {
-    return json_list(steps.cells, [&](const std::vector<RaceCell>& step) {
-      const auto found = known.find(step[1].text);
-      return found == known.end() ? JsonPiece{"null"} : cell_as_json((*found->second)[column]);
-    });
-  };
-  return std::pair(values(1), values(2));
-}
-
-std::optional<std::int64_t> none_for_0(std::int64_t rank) {
-  return rank == 0 ? std::nullopt : std::optional(rank);
+  return json_list(rows.cells, [&](const std::vector<StoreReader::Cell>& cells) {
+    return cell_as_json(cells[column]);
+  });
 }
 
 /// What is sampled: all elites, and of the others so many, evenly.
@@ -217,17 +91,6 @@ Expected<Sample> sample_of(const Question& question, std::int64_t wanted) {
   if (!list.empty()) sample.condition += " OR candidate IN (" + list + ")";
   sample.condition += ")";
   return sample;
-}
-
-std::set<std::string> names_of(const Question& question) {
-  std::set<std::string> names;
-  std::string_view rest = question.text("names");
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(',');
-    names.emplace(rest.substr(0, comma));
-    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
-  }
-  return names;
 }
 
 /// What an iteration is called, and why it is no race where it is none.
@@ -265,7 +128,7 @@ Expected<Answer> race_answer(const Question& question) {
       return Unexpected(iteration.error());
     return json_answer(answer_object().add("nothing", iteration.error().message));
   }
-  const auto race = read_race(question, *iteration);
+  const auto race = race_matrix(question.store, question.design, *iteration);
   if (!race) return Unexpected(race.error());
   const auto over = rows_of(
       question, fmt::format("SELECT 1 FROM v_designs WHERE design = {} AND (iteration > {} OR "
@@ -274,14 +137,11 @@ Expected<Answer> race_answer(const Question& question) {
   if (!over) return Unexpected(over.error());
   const auto round = round_of(question, *iteration);
   if (!round) return Unexpected(round.error());
-  const auto pairs = pairs_of(question, race->steps);
-  if (!pairs) return Unexpected(pairs.error());
-  std::span<const Racer> shown(race->racers);
+  std::span<const RaceMatrix::Row> shown(race->rows);
   shown = shown.subspan(std::min(shown.size(), static_cast<std::size_t>(*from)));
   shown = shown.first(std::min(shown.size(), static_cast<std::size_t>(*rows)));
-  std::string scores;
-  for (std::size_t i = 0; i < race->steps.cells.size(); ++i)
-    scores += (i == 0 ? "" : ",") + scores_at(shown, i, race->steps.cells[i][0].integer()).text;
+  const auto by_step = [&](const auto& of) { return json_list(race->steps, std::mem_fn(of)); };
+  const auto by_row = [&](const auto& of) { return json_list(shown, std::mem_fn(of)); };
   // A later campaign of a finished design (`extend`) begins new iterations.
   const bool ended = !over->cells.empty();
   return json_answer(
@@ -291,35 +151,45 @@ Expected<Answer> race_answer(const Question& question) {
           .add("ended", ended)
           .add("title", round->title)
           .add("note", round->note)
-          .add("rows_total", race->racers.size())
+          .add("rows_total", race->rows.size())
           .add("from", *from)
-          .add("steps", column_of(race->steps, 0))
-          .add("pairs", column_of(race->steps, 1))
-          .add("instances", pairs->first)
-          .add("seeds", pairs->second)
-          .add("markers", column_of(race->steps, 2))
+          .add("steps", by_step(&StepRecord::step))
+          .add("pairs", by_step(&StepRecord::pair))
+          .add("instances", by_step(&StepRecord::instance))
+          .add("seeds", by_step(&StepRecord::seed))
+          .add("markers", by_step(&StepRecord::marker))
           .add("meanings",
-               json_list(race->steps.cells,
-                         [](const auto& cells) { return meaning_of_marker(cells[2].text); }))
-          .add("alive", column_of(race->steps, 3))
-          .add("alive_before", column_of(race->steps, 9))
-          .add("statistic", column_of(race->steps, 4))
-          .add("p_value", column_of(race->steps, 5))
-          .add("used", column_of(race->steps, 6))
-          .add("best", column_of(race->steps, 7))
-          .add("mean_best", column_of(race->steps, 8))
-          .add("candidates", json_list(shown, [](const Racer& each) { return each.candidate; }))
-          .add("elite_before",
-               json_list(shown, [](const Racer& each) { return none_for_0(each.elite_before); }))
-          .add("elite_after",
-               json_list(shown, [](const Racer& each) { return none_for_0(each.elite_after); }))
-          .add("dropped_at", json_list(shown, [](const Racer& each) { return each.dropped_at; }))
+               json_list(race->steps,
+                         [](const auto& step) { return meaning_of_marker(step.marker); }))
+          .add("alive", by_step(&StepRecord::alive_after))
+          .add("alive_before", by_step(&StepRecord::alive_before))
+          .add("statistic", by_step(&StepRecord::statistic))
+          .add("p_value", by_step(&StepRecord::p_value))
+          .add("used", by_step(&StepRecord::used))
+          .add("best", json_list(race->steps,
+                                 [](const auto& step) {
+                                   return step.best ? std::optional(step.best->value)
+                                                    : std::nullopt;
+                                 }))
+          .add("mean_best", by_step(&StepRecord::mean_best))
+          .add("ranked", by_step(&RaceMatrix::Step::ranked))
+          .add("candidates", json_list(shown, [](const auto& row) { return row.candidate.value; }))
+          .add("elite_before", by_row(&RaceMatrix::Row::elite_before))
+          .add("elite_after", by_row(&RaceMatrix::Row::elite_after))
+          .add("dropped_at", json_list(shown,
+                                       [&](const auto& row) {
+                                         return row.dropped_after
+                                                    ? std::optional(
+                                                          race->steps[*row.dropped_after].step)
+                                                    : std::nullopt;
+                                       }))
           .add("reasons", json_list(shown,
-                                    [](const Racer& each) {
-                                      return each.reason.empty() ? std::nullopt
-                                                                 : std::optional(each.reason);
+                                    [](const auto& row) {
+                                      return row.dropped_after ? std::optional(row.reason)
+                                                               : std::nullopt;
                                     }))
-          .add("scores", JsonPiece{"[" + scores + "]"}),
+          .add("scores", cells_of(*race, shown, &RaceMatrix::Cell::score))
+          .add("ranks", cells_of(*race, shown, &RaceMatrix::Cell::rank)),
       ended);
 }
 
@@ -334,7 +204,8 @@ Expected<Answer> parameters_answer(const Question& question) {
                             "v_candidates" +
                                 sample->condition + " ORDER BY candidate");
   if (!rows) return Unexpected(rows.error());
-  const std::set<std::string> names = names_of(question);
+  const std::string& asked = question.text("names");
+  const std::vector<std::string_view> names = split(asked, ',');
   // In the order in which they first occur.
   std::vector<std::string> order;
   std::map<std::string, std::vector<std::string>> values;
@@ -342,7 +213,7 @@ Expected<Answer> parameters_answer(const Question& question) {
     const auto parameters = nlohmann::ordered_json::parse(rows->cells[i][4].text, nullptr, false);
     if (!parameters.is_object()) continue;
     for (const auto& [name, value] : parameters.items()) {
-      if (!names.empty() && !names.contains(name)) continue;
+      if (!asked.empty() && std::ranges::find(names, name) == names.end()) continue;
       auto& column = values[name];
       if (column.empty()) {
         order.push_back(name);
@@ -362,7 +233,7 @@ Expected<Answer> parameters_answer(const Question& question) {
                          .add("mean", column_of(*rows, 2))
                          .add("runs", column_of(*rows, 3))
                          .add("elite", json_list(rows->cells,
-                                                 [&](const std::vector<RaceCell>& cells) {
+                                                 [&](const std::vector<StoreReader::Cell>& cells) {
                                                    return sample->elites.contains(
                                                        cells[0].integer());
                                                  }))

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "embedded/kStoragePage.h"
 
 namespace swarmsmith::cli {
@@ -41,11 +42,8 @@ std::string plain(std::string_view text) {
 /// "used, budget" apart.
 std::vector<std::string> names_in(std::string_view text) {
   std::vector<std::string> names;
-  while (!text.empty()) {
-    const std::size_t comma = text.find(',');
-    names.push_back(plain(trimmed(text.substr(0, comma))));
-    text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
-  }
+  for (const std::string_view name : split(text, ','))
+    names.push_back(plain(trimmed(name)));
   return names;
 }
 
@@ -53,11 +51,7 @@ std::vector<std::string> names_in(std::string_view text) {
 ViewTexts read_page() {
   ViewTexts views;
   std::vector<ViewText*> here;  // that the rows are about
-  std::string_view page = kStoragePage;
-  while (!page.empty()) {
-    const std::size_t end = page.find('\n');
-    const std::string_view line = page.substr(0, end);
-    page.remove_prefix(end == std::string_view::npos ? page.size() : end + 1);
+  for (const std::string_view line : split_lines(kStoragePage)) {
     if (line.starts_with("#")) {
       here.clear();
       if (!line.starts_with("### v_")) continue;

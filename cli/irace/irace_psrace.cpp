@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "cli/irace/stored_configurations.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/iterated_race.h"
@@ -56,8 +56,7 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
     if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
   };
   if (const auto text = settings.text(kIdsOption); text && !text->empty()) {
-    std::istringstream words(*text + ",");
-    for (std::string word; std::getline(words, word, ',');) {
+    for (const std::string_view word : split(*text, ',')) {
       std::int64_t id = 0;
       const char* end = word.data() + word.size();
       const auto [rest, trouble] = std::from_chars(word.data(), end, id);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "cli/output/number_text.h"
 #include "programs/cost.h"
 
@@ -163,8 +164,7 @@ std::string iteration_line(const IterationRow& iteration, const DesignProgress& 
   return to_string(iteration.design) + " iteration " + std::to_string(iteration.number) + "/~" +
          std::to_string(std::max(iteration.of, iteration.number)) + ": " +
          std::to_string(iteration.configurations) + " configurations (" +
-         std::to_string(iteration.elites) + (iteration.elites == 1 ? " elite" : " elites") +
-         "), budget " + grouped(iteration.budget) +
+         counted(iteration.elites, "elite") + "), budget " + grouped(iteration.budget) +
          (iteration.soft_restart ? ", soft restart" : "");
 }
 

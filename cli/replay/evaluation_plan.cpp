@@ -1,6 +1,7 @@
 #include "cli/replay/evaluation_plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -86,30 +87,30 @@ Expected<Profile> profile_of(const EvaluateArguments& arguments, const NamedMach
 template <class Table>
 Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std::string_view)) {
   const auto text = read_file(file, "table");
-  if (!text) return Unexpected(text.error());
+  if (!text) return bad_input(text.error().message, text.error().where);
   auto table = parse(*text);
   if (table) return table;
   return bad_input(table.error().message, file + ":" + table.error().where);
 }
 
 /// The tables, where they are named.
-Expected<void> read_instances(const EvaluateArguments& arguments, EvaluationPlan& plan,
-                              ExplicitInstances& given, Output& output) {
+Expected<ExplicitInstances> read_instances(const EvaluateArguments& arguments,
+                                           const Mission& mission, Output& output) {
+  ExplicitInstances given;
   if (!arguments.starts.empty()) {
     auto starts = read_table(arguments.starts, parse_starts_csv);
     if (!starts) return Unexpected(starts.error());
     given.starts = std::move(*starts);
   }
-  if (arguments.patches.empty()) return {};
-  const Mission& mission = plan.jobs.front().mission;
+  if (arguments.patches.empty()) return given;
   if (mission.shuffled.places.empty()) {
     print_note(output, "mission " + mission.name + " shuffles no patches: --patches is not used");
-    return {};
+    return given;
   }
   auto patches = read_table(arguments.patches, parse_patches_csv);
   if (!patches) return Unexpected(patches.error());
   given.patches = std::move(*patches);
-  return {};
+  return given;
 }
 
 /// The winners of the finished designs, or of those that are named.
@@ -264,12 +265,13 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
   EvaluationPlan plan;
   const auto machines = machines_of(arguments, output);
   if (!machines) return Unexpected(machines.error());
-  plan.of_store = static_cast<bool>(machines->front().candidate);
-  plan.stores = plan.of_store && !arguments.no_store;
+  const bool is_text = arguments.machine.find("--") == arguments.machine.find_first_not_of(' ');
+  if (!is_text) plan.machine = std::filesystem::path(arguments.machine).filename().string();
+  if (machines->front().candidate && !arguments.no_store) plan.store = *arguments.store.path();
   for (const NamedMachine& named : *machines) {
     auto job = job_of(named, arguments, output);
     if (!job) return Unexpected(job.error());
-    if (plan.stores) {
+    if (!plan.store.empty()) {
       if (auto complaint = complaint_about(*job, named, arguments)) {
         return bad_input(*complaint + "; --no-store prints them only", to_string(named.candidate));
       }
@@ -288,11 +290,9 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
     print_note(output, named.place + ": " + *remark);
     break;
   }
-  ExplicitInstances given;
-  if (auto read = read_instances(arguments, plan, given, output); !read) {
-    return Unexpected(read.error());
-  }
-  if (auto added = add_instances(plan, given); !added) return Unexpected(added.error());
+  const auto given = read_instances(arguments, plan.jobs.front().mission, output);
+  if (!given) return Unexpected(given.error());
+  if (auto added = add_instances(plan, *given); !added) return Unexpected(added.error());
   return plan;
 }
 

@@ -15,7 +15,7 @@
 
 namespace swarmsmith::cli {
 
-/// What `evaluate` is asked for.
+/// The words of `evaluate`: only `plan_evaluations` reads them.
 struct EvaluateArguments {
   std::string machine;
   std::string flavour;
@@ -46,12 +46,12 @@ struct EvaluationJob {
 /// Everything that the command line says, read and checked.
 struct EvaluationPlan {
   std::vector<EvaluationJob> jobs;  ///< at least one; by design
-  bool of_store = false;            ///< the machines are candidates of a store
-  bool stores = false;              ///< and their scores go there
+  std::string store;                ///< that their scores go to; empty: none
+  std::string machine;              ///< what a picture calls it; empty for a text
 };
 
 /// Reads the store, files and words. NotFound without a place: there is no such candidate or
-/// design.
+/// design. BadInput: a word or a file that it names is wrong. All others are of the store.
 Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Output& output);
 
 /// The seed of evaluations outside of the races when none is named: the first number of the stream

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "base/rng.h"
+#include "base/text/json.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/internal/sections.h"
 #include "coordinator/campaign/method_space.h"
@@ -32,12 +33,10 @@ std::int64_t design_budget(const Campaign& campaign, const CampaignMission& miss
 
 /// In the digest's order, so that a person can compare two campaigns line by line.
 std::string deciding_json(const Deciding& entries) {
-  std::string text = "{";
-  for (const auto& [key, value] : entries) {
-    if (text.size() > 1) text += ",";
-    text += quoted_text(key) + ":" + quoted_text(value);
-  }
-  return text + "}";
+  JsonObject object;
+  for (const auto& [key, value] : entries)
+    object.add(key, value);
+  return object.text();
 }
 
 }  // namespace

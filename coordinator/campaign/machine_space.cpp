@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "base/assert.h"
+#include "base/text/json.h"
 #include "base/text/toml_text.h"
 #include "coordinator/campaign/internal/module_parameters.h"
 
@@ -159,16 +160,16 @@ Configuration MachineSpace::from_machine(const Machine& machine) const {
 }
 
 std::string parameters_json(const ParameterSpace& space, const Configuration& configuration) {
-  std::string text = "{";
+  JsonObject object;
   for (std::size_t i = 0; i < space.size(); ++i) {
     if (!configuration.is_active(i)) continue;
-    if (text.size() > 1) text += ",";
-    text += "\"" + space[i].name + "\":";
     const Scalar value = space.scalar(i, configuration[i]);
     const bool is_text = value.type == Scalar::Type::Text;
-    text += is_text ? quoted_text(value.text) : to_fixed_text(value.number);
+    // A program's values may be any bytes, and the store's digest covers them: none is replaced.
+    object.add(space[i].name,
+               JsonPiece{is_text ? quoted_text(value.text) : to_fixed_text(value.number)});
   }
-  return text + "}";
+  return object.text();
 }
 
 std::vector<std::pair<std::string, int>> module_counts(const Controller& controller) {
@@ -193,12 +194,10 @@ std::vector<std::pair<std::string, int>> module_counts(const Controller& control
 }
 
 std::string modules_json(const Controller& controller) {
-  std::string text = "{";
-  for (const auto& [module, count] : module_counts(controller)) {
-    if (text.size() > 1) text += ",";
-    text += "\"" + module + "\":" + std::to_string(count);
-  }
-  return text + "}";
+  JsonObject object;
+  for (const auto& [module, count] : module_counts(controller))
+    object.add(module, count);
+  return object.text();
 }
 
 int transition_count(const Machine& machine) {

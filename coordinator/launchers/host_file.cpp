@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/whole_file.h"
 
@@ -111,11 +112,8 @@ class Reader {
 
 HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& file) {
   Reader reader(file.string());
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    reader.read_line(text.substr(0, end));
-    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
-  }
+  for (const std::string_view line : split_lines(text))
+    reader.read_line(line);
   return reader.finish();
 }
 

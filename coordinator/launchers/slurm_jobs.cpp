@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "base/plain_text.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -58,10 +60,7 @@ bool passes_by_itself(std::string_view message) {
 
 std::vector<QueuedJob> parse_queue(std::string_view text) {
   std::vector<QueuedJob> jobs;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  for (const std::string_view line : split_lines(text)) {
     const std::size_t first = line.find('|');
     const std::size_t second = first == std::string_view::npos ? first : line.find('|', first + 1);
     if (second == std::string_view::npos) continue;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/text/json.h"
 #include "base/text/toml_text.h"
 #include "coordinator/campaign/machine_space.h"
 #include "coordinator/results/internal/log_races.h"
@@ -97,22 +98,22 @@ Expected<CandidateRow> Rows::candidate(const LogConfiguration& configuration) co
   CandidateRow row{.id = id_of(configuration.id),
                    .iteration = 0,
                    .parent = id_of(configuration.parent),
-                   .parameters = "{",
+                   .parameters = "",
                    .machine = "",
                    .modules = "{}",
                    .states = 0,
                    .transitions = 0};
+  JsonObject parameters;
   for (std::size_t i = 0; i < configuration.values.size(); ++i) {
     const std::string& value = configuration.values[i];
     if (value.empty()) continue;
     const LogParameter& parameter = log_.parameters[i];
     const bool is_number = parameter.type == 'i' || parameter.type == 'r';
-    row.parameters +=
-        fmt::format("{}{}:{}", row.parameters.size() > 1 ? "," : "", quoted_text(parameter.name),
-                    is_number && number_in(value) ? value : quoted_text(value));
+    parameters.add(parameter.name,
+                   JsonPiece{is_number && number_in(value) ? value : quoted_text(value)});
     row.machine += (row.machine.empty() ? "" : " ") + parameter.switch_text + value;
   }
-  row.parameters += "}";
+  row.parameters = parameters.text();
   if (!known_.flavour) return row;
   const auto machine = parse_machine(row.machine, *known_.flavour);
   if (!machine) return Unexpected(machine.error());
@@ -242,12 +243,13 @@ void Rows::add_end() {
 
 /// With what the store has no tables for, so that the log can be made again.
 std::string deciding_of(const IraceLog& log) {
-  std::string json = fmt::format(R"({{"imported":"irace log","irace":{},"log":"{}")",
-                                 quoted_text(log.version), log.digest);
+  JsonObject object;
+  object.add("imported", "irace log").add("irace", log.version).add("log", log.digest);
   const auto texts = print_irace_log(log);
+  // Bytes that are no UTF-8 stay, so that the files are made again as they were.
   for (const std::string& file : irace_setting_files())
-    json += fmt::format(R"(,"{}":{})", file, quoted_text(texts.at(file)));
-  return json + "}";
+    object.add(file, JsonPiece{quoted_text(texts.at(file))});
+  return object.text();
 }
 
 std::int64_t next_repetition(const IraceImport& known) {

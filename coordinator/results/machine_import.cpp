@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
-#include "base/text/toml_text.h"
+#include "base/text/json.h"
 #include "coordinator/campaign/method_space.h"
 #include "sim/control/controller.h"
 #include "sim/files/machine_file.h"
@@ -153,13 +153,15 @@ std::optional<Error> complaint_about_two(const std::vector<MachineText>& machine
 /// As a campaign's row has it: texts of TOML in JSON.
 std::string deciding_json(const MachineImport& known, std::size_t machines,
                           const ImportedWorld& world) {
-  std::string json = fmt::format(R"({{"imported":"machines","flavour":"{}","machines":"{}")",
-                                 known.flavour.name, machines);
+  JsonObject object;
+  object.add("imported", "machines")
+      .add("flavour", known.flavour.name)
+      .add("machines", std::to_string(machines));
   for (const Section& section : imported_sections(world)) {
     for (const SectionLine& line : section.lines)
-      json += "," + quoted_text(section.prefix + line.key) + ":" + quoted_text(line.value);
+      object.add(section.prefix + line.key, line.value);
   }
-  return json + "}";
+  return object.text();
 }
 
 void add_design(Addition& addition, DesignRow design, const MachineText& from,

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "base/text/toml_text.h"
+#include "base/text/json.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -255,11 +255,10 @@ Expected<void> Importer::put(const CsvRow& row, Score read) {
   result_.addition.rows.emplace_back(EvaluationRow{
       .key = key, .score = read.score, .time = read.time, .source = read.place.source});
   if (!read.note.empty()) {
-    result_.addition.rows.emplace_back(
-        EventRow{.severity = "info",
-                 .kind = "note",
-                 .text = fmt::format(R"({{"evaluation":"{}","note":{}}})", to_string(key),
-                                     quoted_text(read.note))});
+    result_.addition.rows.emplace_back(EventRow{
+        .severity = "info",
+        .kind = "note",
+        .text = JsonObject().add("evaluation", to_string(key)).add("note", read.note).text()});
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "irace_core/expression.h"
 #include "irace_core/files/number_text.h"
@@ -23,16 +24,6 @@ std::string lower_case(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
 }
 
 /// first_test becomes firstTest.

@@ -5,16 +5,13 @@
 #include <cstdio>
 #include <optional>
 
+#include "base/plain_text.h"
 #include "irace_core/search/annealing.h"
 #include "irace_core/search/generations.h"
 #include "irace_core/search/random_search.h"
 
 namespace swarmsmith {
 namespace {
-
-std::string counted(std::int64_t count, std::string_view what) {
-  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
-}
 
 std::string of(std::int64_t whole) {
   return whole > 0 ? " of " + std::to_string(whole) : "";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "robot/runtime/order.h"
 
@@ -43,10 +44,8 @@ std::optional<int> index_in_name(const std::string& name) {
 
 Expected<std::vector<std::string>> robot_names(const std::string& words) {
   std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= words.size();) {
-    const std::size_t comma = std::min(words.find(',', begin), words.size());
-    const std::string word = words.substr(begin, comma - begin);
-    begin = comma + 1;
+  for (const std::string_view part : split(words, ',')) {
+    const std::string word(part);
     const std::size_t dash = word.find('-');
     if (dash != std::string::npos && is_number(word.substr(0, dash)) &&
         is_number(word.substr(dash + 1))) {

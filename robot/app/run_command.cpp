@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
@@ -63,12 +64,10 @@ Expected<Feed> feed_by(const std::string& name, const char* option) {
 
 Expected<std::vector<Rgb>> labels_of(const std::string& words) {
   std::vector<Rgb> labels;
-  for (std::size_t begin = 0; !words.empty() && begin <= words.size();) {
-    const std::size_t comma = std::min(words.find(',', begin), words.size());
-    const std::string word = words.substr(begin, comma - begin);
-    begin = comma + 1;
+  if (words.empty()) return labels;
+  for (const std::string_view word : split(words, ',')) {
     const auto color = parse_color(word);
-    if (!color) return bad_input(no_such_color(word), "--labels");
+    if (!color) return bad_input(no_such_color(std::string(word)), "--labels");
     labels.push_back(*color);
   }
   return labels;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -18,16 +19,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 5> kSensors = {
     RangesMessage::kTopic, GroundColorMessage::kTopic, ScanMessage::kTopic,
     NeighboursMessage::kTopic, LightMessage::kTopic};
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t next = text.find(at);
-    parts.push_back(text.substr(0, next));
-    if (next == std::string_view::npos) return parts;
-    text.remove_prefix(next + 1);
-  }
-}
 
 bool read_kind(std::string_view text, Fault& fault) {
   if (text == "silent") {

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
@@ -152,8 +153,7 @@ class Reader {
     for (const auto& [message, place] : repeated_) {
       const auto& [index, more] = place;
       if (more == 0) continue;
-      errors_[index].message +=
-          "; the same with " + std::to_string(more) + (more == 1 ? " more line" : " more lines");
+      errors_[index].message += "; the same with " + swarmsmith::counted(more, "more line");
     }
     return std::move(errors_);
   }
@@ -215,11 +215,8 @@ tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
         file.string()}});
   }
   Reader reader(file.string());
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    reader.take(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
+  for (const std::string_view line : split_lines(text))
+    reader.take(line);
   return reader.finish();
 }
 
@@ -239,11 +236,8 @@ std::string head_text(const MachineHead& head) {
   sections.insert(sections.begin(), std::move(top));
   std::string lines;
   const std::string toml = text_of(sections);
-  for (std::string_view rest = toml; !rest.empty();) {
-    const std::size_t end = rest.find('\n');
-    lines += end == 0 ? "#:\n" : "#: " + std::string(rest.substr(0, end + 1));
-    rest.remove_prefix(end + 1);
-  }
+  for (const std::string_view line : split_lines(toml))
+    lines += line.empty() ? "#:\n" : "#: " + std::string(line) + "\n";
   return lines;
 }
 

@@ -1,4 +1,4 @@
-"""Functions of the pages that need no page: ranks, texts of numbers, addresses, poses between cycles, brushes."""
+"""Functions of the pages that need no page: texts of numbers, addresses, poses between cycles, brushes."""
 import json
 import os
 import pathlib
@@ -29,11 +29,6 @@ class Functions(unittest.TestCase):
 
     def of(self, name, *arguments):
         return self.page.js(f"f.{name}(...{json.dumps(arguments)})")
-
-    def test_the_largest_score_has_rank_1_and_ties_share_their_mean(self):
-        self.assertEqual(self.of("ranks", [3, 5, None, 5, 1]), [3, 1.5, None, 1.5, 4])
-        self.assertEqual(self.of("ranks", [2, 2, 2]), [2, 2, 2])
-        self.assertEqual(self.of("ranks", []), [])
 
     def test_columns_grow_by_what_is_new(self):
         before = {"v": 1, "step": [1, 2], "best": [7, None]}

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/id.h"
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "console/counter.h"
@@ -238,7 +239,7 @@ ExitCode overlay(const OverlayArguments& words, Output& output) {
   if (output.json)
     output.out << JsonObject().add("file", words.out).add("frames", *drawn).text() << "\n";
   else
-    output.out << words.out << ": " << *drawn << (*drawn == 1 ? " frame\n" : " frames\n");
+    output.out << words.out << ": " << counted(*drawn, "frame") << "\n";
   return ExitCode::Done;
 }
 

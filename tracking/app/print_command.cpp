@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "console/pdf.h"
@@ -67,8 +68,7 @@ ExitCode write_pages(std::span<const std::string> pages, const std::string& file
     }
   }
   if (!output.json) {
-    print_note(output, "wrote " + std::to_string(pages.size()) +
-                           (pages.size() == 1 ? " page" : " pages") + " to " + names.front() +
+    print_note(output, "wrote " + counted(pages.size(), "page") + " to " + names.front() +
                            (names.size() > 1 ? " to " + names.back() : "") +
                            "; print at 100 %, and measure the ruler");
     return ExitCode::Done;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/toml_text.h"
 #include "tracking/calibration/internal/marker_board.h"
@@ -24,16 +25,6 @@ constexpr std::array<std::string_view, 21> kDictionaries = {
 static_assert(cv::aruco::DICT_APRILTAG_36h11 + 1 == kDictionaries.size());
 
 constexpr int kMostSquares = 100;
-
-std::vector<std::string_view> split(std::string_view word, char at) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = word.find(at);
-    parts.push_back(word.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    word.remove_prefix(end + 1);
-  }
-}
 
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/drawing/figure_style.h"
+#include "base/plain_text.h"
 #include "tracking/detection/tag_pattern.h"
 #include "tracking/printing/internal/page.h"
 
@@ -145,9 +146,7 @@ double largest_edge_mm(const Paper& paper, const TagPattern& pattern) {
 Expected<std::vector<int>> ids_from_text(std::string_view text) {
   constexpr std::size_t kMostIds = 10'000;
   std::vector<int> ids;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    const std::string_view part = text.substr(0, comma);
+  for (const std::string_view part : split(text, ',')) {
     const std::size_t dash = part.find('-');
     const auto first = number_from(part.substr(0, dash), part);
     if (!first) return tl::unexpected(first.error());
@@ -163,9 +162,8 @@ Expected<std::vector<int>> ids_from_text(std::string_view text) {
     for (int id = *first; id <= *last; ++id) {
       if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
     }
-    if (comma == std::string_view::npos) return ids;
-    text.remove_prefix(comma + 1);
   }
+  return ids;
 }
 
 Expected<std::vector<std::string>> tag_sheets(const TagSheetOptions& options) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "base/plain_text.h"
 #include "base/text/toml_text.h"
 #include "tracking/robots/delays.h"
 
@@ -98,9 +99,8 @@ class Writer {
   }
 
   static std::string count_text(const Told& told) {
-    std::string text = fmt::format("of {} robot{} in {} run{}", told.robots.size(),
-                                   told.robots.size() == 1 ? "" : "s", told.runs.size(),
-                                   told.runs.size() == 1 ? "" : "s");
+    std::string text =
+        "of " + counted(told.robots.size(), "robot") + " in " + counted(told.runs.size(), "run");
     if (!told.reasons.empty()) text += fmt::format(" ({} could not tell)", told.reasons.size());
     return text;
   }

@@ -165,6 +165,8 @@ export interface Race {
   p_value: (number | null)[];
   best: (number | null)[];
   mean_best: (number | null)[];
+  /// Candidates with a rank, whether they are in this answer or not.
+  ranked: number[];
   candidates: number[];
   /// Rank among the elites; null for none.
   elite_before: (number | null)[];
@@ -174,6 +176,7 @@ export interface Race {
   reasons: (string | null)[];
   /// [step][i] of candidate i; a candidate that was dropped before has none.
   scores: (number | null)[][];
+  ranks: (number | null)[][];
 }
 
 export interface Iteration {

@@ -18,6 +18,7 @@
 
 #include "base/local_secret.h"
 #include "base/log.h"
+#include "base/plain_text.h"
 #include "base/process/begin_program.h"
 #include "base/process/guard.h"
 #include "base/process_limits.h"
@@ -127,8 +128,7 @@ Expected<void> check_limits(const Arguments& arguments, int slots) {
   constexpr std::uint64_t kSpaceOfSlot = std::uint64_t{12} << 20U;
   constexpr std::uint64_t kMemory = std::uint64_t{16} << 20U;
   constexpr std::uint64_t kMemoryOfSlot = std::uint64_t{1} << 20U;
-  const std::string who =
-      "a worker with " + std::to_string(slots) + (slots == 1 ? " slot" : " slots");
+  const std::string who = "a worker with " + counted(slots, "slot");
   const bool programs = !arguments.allow.empty() || arguments.allow_shell;
   const std::int64_t descriptors = kDescriptors + (programs ? kDescriptorsOfProgram * slots : 0);
   if (auto enough = provide_descriptors(descriptors, descriptors, who); !enough) return enough;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/csv.h"
 
@@ -108,10 +109,8 @@ GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::s
       result.panels.back().groups.push_back(std::move(place_and_group.second));
   }
   const std::size_t designs = designs_in(taken.scores);
-  result.details = {
-      fmt::format("{} score{} of {} design{}", taken.scores.size(),
-                  taken.scores.size() == 1 ? "" : "s", designs, designs == 1 ? "" : "s"),
-      taken.said};
+  result.details = {counted(taken.scores.size(), "score") + " of " + counted(designs, "design"),
+                    taken.said};
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "irace_core/files/internal/r_operators.h"
 #include "irace_core/files/internal/r_texts.h"
@@ -25,8 +26,7 @@ Expected<Vector> apply(const Node& node, const std::string& function, Operation 
                        const std::vector<Part>& parts) {
   const Arity wanted = arity(operation);
   if (parts.size() < wanted.least || parts.size() > wanted.most) {
-    return wrong(node, "`" + function + "` does not take " + std::to_string(parts.size()) +
-                           (parts.size() == 1 ? " value" : " values"));
+    return wrong(node, "`" + function + "` does not take " + counted(parts.size(), "value"));
   }
   std::vector<Expression> operands;
   for (const Part& part : parts) {

@@ -74,10 +74,8 @@ TEST_F(StoreFigures, RaceHasACellAScoreAndALineADroppedCandidate) {
   const Figure figure = made("race", options);
   const auto cells = race_cells(*reader, DesignId{1}, 2);
   EXPECT_EQ(rows_of(figure.csv), cells->size());
-  const auto dropped = eliminations(*reader, DesignId{1});
-  const auto by_test = std::ranges::count_if(*dropped, [](const EliminationRecord& row) {
-    return row.iteration == 2 && row.reason == "test";
-  });
+  const auto dropped = eliminations(*reader, DesignId{1}, 2);
+  const auto by_test = std::ranges::count(*dropped, "test", &EliminationRecord::reason);
   ASSERT_GT(by_test, 0);
   const DrawnPage page = drawn_page(figure.svg);
   EXPECT_EQ(page.bars_of("#d55e00").size(), static_cast<std::size_t>(by_test));

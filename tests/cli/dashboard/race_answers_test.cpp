@@ -28,14 +28,16 @@ class RaceAnswersTest : public testing::Test {
 TEST_F(RaceAnswersTest, ARaceHasAllCellsOfItsView) {
   const json race = Asking(store_).json("c1/designs/d1/race", {{"iteration", "2"}});
   std::map<std::pair<std::int64_t, std::int64_t>, json> expected;
-  for (const json& row : query("SELECT step, candidate, score FROM v_race_matrix WHERE design = 1 "
-                               "AND iteration = 2"))
-    expected[{row[0], row[1]}] = row[2];
+  for (const json& row : query("SELECT step, candidate, score, rank FROM v_race_matrix WHERE "
+                               "design = 1 AND iteration = 2"))
+    expected[{row[0], row[1]}] = {row[2], row[3]};
   ASSERT_GT(expected.size(), 20U);
   std::map<std::pair<std::int64_t, std::int64_t>, json> found;
   for (std::size_t s = 0; s < race["steps"].size(); ++s) {
     for (std::size_t i = 0; i < race["scores"][s].size(); ++i)
-      found[{race["steps"][s], race["candidates"][i]}] = race["scores"][s][i];
+      found[{race["steps"][s], race["candidates"][i]}] = {race["scores"][s][i],
+                                                          race["ranks"][s][i]};
+    EXPECT_EQ(race["ranked"][s], race["scores"][s].size());
   }
   EXPECT_EQ(found, expected);
   EXPECT_EQ(race["rows_total"], race["candidates"].size());
@@ -107,6 +109,9 @@ TEST_F(RaceAnswersTest, APartOfTheRowsIsThatPart) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(part["candidates"][i], all["candidates"][i + 1]);
   EXPECT_EQ(part["scores"][0][0], all["scores"][0][1]);
+  // Ranks are those among all, not among the rows of this answer.
+  EXPECT_EQ(part["ranks"][0][0], all["ranks"][0][1]);
+  EXPECT_EQ(part["ranked"], all["ranked"]);
   EXPECT_EQ(asking.json("c1/designs/d1/race", {{"iteration", "2"}, {"from", "9999"}})["candidates"]
                 .size(),
             0U);

@@ -181,5 +181,12 @@ TEST(CampaignRow, HoldsTextAndKeysOfTheCampaign) {
   EXPECT_THAT(row.deciding, testing::HasSubstr(R"("mission.aggregation.duration":"\"120 s\"")"));
 }
 
+// irace's files may be in any encoding, and readers of JSON refuse what is not UTF-8.
+TEST(CampaignRow, IsJsonWhereAProgramsParametersAreNotUtf8) {
+  Campaign campaign = parsed(FileText{}.text());
+  campaign.methods.front().parameters = "a \"--a\" c (caf\xe9, b)\n";
+  EXPECT_THAT(campaign_row(campaign).deciding, testing::HasSubstr("(caf\xef\xbf\xbd, b)"));
+}
+
 }  // namespace
 }  // namespace swarmsmith

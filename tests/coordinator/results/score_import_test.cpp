@@ -178,6 +178,13 @@ TEST(ScoreImport, KeepsNotesAndSaysWhatItDoesNotRead) {
   EXPECT_EQ(note.text, R"({"evaluation":"e200001s","note":"robot \"2\" fell"})");
 }
 
+TEST(ScoreImport, ANoteThatIsNotUtf8IsStoredAsJson) {
+  const auto scores = import("design,score,note\n1,3,caf\xe9\n");
+  ASSERT_TRUE(scores);
+  EXPECT_EQ(std::get<EventRow>(scores->addition.rows.back()).text,
+            "{\"evaluation\":\"e200001s\",\"note\":\"caf\xef\xbf\xbd\"}");
+}
+
 TEST(MissionWords, NameOneForAllAndRenameOthers) {
   const auto words = read_mission_words({"grid=grid_exploration", "aggregation"});
   ASSERT_TRUE(words);

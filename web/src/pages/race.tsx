@@ -14,21 +14,18 @@ import { design_title, kNoRace } from "./design";
 // Parts of the picture, in CSS pixels.
 const kLeft = 86, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
 
-/// What the matrix shows, made once of an answer.
+/// What the matrix shows of an answer.
 class Matrix {
-  readonly rank: (number | null)[][];   ///< [step][candidate], 1 is best, ties share their mean rank
-  readonly ranked: number[];            ///< how many had a score in the step
+  constructor(readonly race: Race) {}
 
-  constructor(readonly race: Race) {
-    this.rank = race.scores.map(ranks);
-    this.ranked = this.rank.map((step) => step.filter((one) => one !== null).length);
-  }
+  /// 1 is best, ties share their mean rank; null without a score.
+  rank({ row, step }: At): number | null { return this.race.ranks[step][row] ?? null; }
 
   /// The rank of a cell as a part from 0 (best) to 1; a step in which all are the same has the
   /// middle throughout.
-  part(step: number, row: number): number | null {
-    const rank = this.rank[step][row] ?? null;
-    return rank === null ? null : this.ranked[step] < 2 ? 0.5 : (rank - 1) / (this.ranked[step] - 1);
+  part(at: At): number | null {
+    const rank = this.rank(at), ranked = this.race.ranked[at.step];
+    return rank === null ? null : ranked < 2 ? 0.5 : (rank - 1) / (ranked - 1);
   }
 
   /// The number of the last step that a row's candidate was in the race, as it was after `until`.
@@ -47,27 +44,14 @@ class Matrix {
 
   /// A cell in words.
   sentence(at: At): string {
-    const { race, ranked } = this;
+    const { race } = this;
     const { row, step } = at;
     const score = this.score(at), dropped = race.dropped_at[row], now = race.steps[step], reason = race.reasons[row];
     const what = score !== null
-      ? `score ${number(score, 6)}, rank ${number(this.rank[step][row])} of ${ranked[step]}` + (dropped === now ? `, dropped after it: ${reason}` : "")
+      ? `score ${number(score, 6)}, rank ${number(this.rank(at))} of ${race.ranked[step]}` + (dropped === now ? `, dropped after it: ${reason}` : "")
       : this.has_run(at) ? reason : dropped !== null && dropped < now ? `dropped after step ${dropped}: ${reason}` : "not evaluated";
     return `c${race.candidates[row]}, step ${now}, instance ${race.instances[step]}, seed ${race.seeds[step]}: ${what}`;
   }
-}
-
-/// Ranks of scores, largest first; null where there is none.
-export function ranks(scores: (number | null)[]): (number | null)[] {
-  const order = scores.filter((score): score is number => score !== null).sort((a, b) => b - a);
-  const rank = new Map<number, number>();
-  for (let i = 0; i < order.length;) {
-    let end = i;
-    while (order[end] === order[i]) ++end;
-    rank.set(order[i], (i + 1 + end) / 2);
-    i = end;
-  }
-  return scores.map((score) => score === null ? null : rank.get(score)!);
 }
 
 interface At { row: number; step: number }  // indices
@@ -115,9 +99,9 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
       // Grey where a candidate had fallen, the ground of what has not been evaluated.
       pen.box(inks.soft, x_of(end), y, (until + 1 - end) * column, row);
       for (let s = 0; s <= until; ++s) {
-        const part = matrix.part(s, i);
+        const at = { row: i, step: s }, part = matrix.part(at);
         // The best is farthest from the ground.
-        if (part !== null || matrix.has_run({ row: i, step: s })) pen.box(part === null ? vermilion : viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
+        if (part !== null || matrix.has_run(at)) pen.box(part === null ? vermilion : viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
       }
       if (dropped !== null && race.reasons[i] !== "not kept") pen.box(vermilion, x_of(end) - 1, y, 2.5, row);
       if (race.elite_before[i]) pen.box(inks.ink, kLeft - 6, y + (row - mark) / 2, 4, mark);
@@ -274,7 +258,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
       {pairs("facts", [
         ["candidate", link("c" + race.candidates[row])],
         ["score", number(score, 6), "higher is better"],
-        ["rank", [number(matrix.rank[step][row]), <small> of {matrix.ranked[step]}</small>]]])}
+        ["rank", [number(matrix.rank(at)), <small> of {race.ranked[step]}</small>]]])}
       <p>Step {race.steps[step]}, instance {race.instances[step]}, seed {race.seeds[step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[row]}.` : race.elite_after[row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
       {!matrix.has_run(at) ? <p class="faint">It was not evaluated here.</p> : [
         <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button><Copy text={command(`explain ${id}`)} /></p>,

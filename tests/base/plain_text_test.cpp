@@ -1,0 +1,32 @@
+#include "base/plain_text.h"
+
+#include <gmock/gmock.h>
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(Split, GivesOnePartMoreThanThereAreSeparators) {
+  EXPECT_THAT(split("a,b", ','), ElementsAre("a", "b"));
+  EXPECT_THAT(split(",a,", ','), ElementsAre("", "a", ""));
+  EXPECT_THAT(split("a b", ','), ElementsAre("a b"));
+  EXPECT_THAT(split("", ','), ElementsAre(""));
+}
+
+TEST(SplitLines, TheLastLineMayLackItsEnd) {
+  EXPECT_THAT(split_lines("a\n\nb\n"), ElementsAre("a", "", "b"));
+  EXPECT_THAT(split_lines("a\nb"), ElementsAre("a", "b"));
+  EXPECT_THAT(split_lines("\n"), ElementsAre(""));
+  EXPECT_THAT(split_lines(""), IsEmpty());
+}
+
+TEST(Counted, OneIsOneAndAllOthersAreSeveral) {
+  EXPECT_EQ(counted(1, "worker"), "1 worker");
+  EXPECT_EQ(counted(0, "worker"), "0 workers");
+  EXPECT_EQ(counted(std::size_t{2}, "hidden node"), "2 hidden nodes");
+}
+
+}  // namespace
+}  // namespace swarmsmith
