@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,6 +36,23 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
   const auto adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     pairs[i].p_holm = adjusted[i];
+}
+
+/// Designs are paired by source, and the two sources should be all that differs.
+void note_seeds(const std::vector<DesignScore>& scores, Comparison& comparison) {
+  if (comparison.unit == ScoreUnit::Run) return;  // only runs of one seed are paired
+  std::set<std::pair<std::string, std::string>> known;
+  for (ComparedPair& pair : comparison.pairs) {
+    std::vector<DesignScore> of_pair = scores;
+    std::erase_if(of_pair, [&](const DesignScore& score) {
+      return score.mission != pair.mission || score.method != pair.method;
+    });
+    if (auto note = seeds_differ(of_pair, pair.first, pair.second))
+      pair.notes.push_back(std::move(*note));
+    if (!known.insert({pair.first, pair.second}).second) continue;
+    if (auto note = seeds_differ(scores, pair.first, pair.second))
+      comparison.seeds.push_back(std::move(*note));
+  }
 }
 
 /// Nothing to compare is said, with what there is.
@@ -155,6 +173,7 @@ Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptio
     case CompareBy::Source:
       add_source_pairs(table, comparison);
       add_source_ranks(table, comparison);
+      note_seeds(taken.scores, comparison);
       note_lonely(table, comparison);
       break;
     case CompareBy::Method:

@@ -79,6 +79,7 @@ struct Comparison {
   std::vector<ComparedRanks> ranks;
   std::vector<std::string> notes;     ///< what was left out, and why
   std::vector<std::string> unranked;  ///< those of the notes that say why there are no ranks
+  std::vector<std::string> seeds;     ///< sources whose designs ran on different seeds, in words
 };
 
 /// Of scores that were read already; the options' filters are applied to them.

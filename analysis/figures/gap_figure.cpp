@@ -176,14 +176,19 @@ Expected<Figure> gap_figure(StoreReader& store, const FigureOptions& options) {
                       "the winners have scores of " +
                           (sources.empty() ? std::string("no source")
                                            : "one source alone (" + sources.front() + ")") +
-                          "; `swarmsmith evaluate best --profile pseudo-reality --store STORE` "
-                          "adds those of another");
+                          "; `[tests] profiles` of a campaign file adds those of another on the "
+                          "same seeds, `swarmsmith evaluate best --profile pseudo-reality --store "
+                          "STORE` on others");
   }
   const GapGroups groups = grouped_by_method(values, *names);
   BoxPlot plot{
       .title = "From " + sources.front() + " to other sources",
       .details = {taken.said + "; lines join the values of one design", runs_text(values, sources)},
       .width_mm = options.width_mm};
+  for (std::size_t s = 1; s < sources.size(); ++s) {
+    if (auto note = seeds_differ(taken.scores, sources[0], sources[s]))
+      plot.details.push_back(std::move(*note));
+  }
   std::map<std::string, std::size_t> methods;
   for (const auto& [place, group] : groups)
     ++methods[group.method];

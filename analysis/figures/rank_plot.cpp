@@ -223,6 +223,7 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
   for (const ComparedRanks& ranks : comparison->ranks) {
     plot.panels.push_back(panel_of(ranks, comparison->options.by, alone));
     std::vector<std::string>& details = plot.panels.back().details;
+    details.insert(details.end(), comparison->seeds.begin(), comparison->seeds.end());
     if (!read_alike) details.emplace_back(ranks.test.reading());
   }
   const bool has_band = std::ranges::any_of(comparison->ranks, [](const ComparedRanks& ranks) {
