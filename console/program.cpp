@@ -134,14 +134,14 @@ class Parser {
   }
 
   CLI::App& app() { return app_; }
-  const Run& run() const { return run_; }
+  const CommandRun& run() const { return run_; }
   bool no_color() const { return no_color_; }
   std::vector<DeclaredOption> declared() const { return options_.declared(); }
 
  private:
   CLI::App app_;
   Options options_;
-  Run run_;
+  CommandRun run_;
   bool no_color_ = false;
 };
 

@@ -13,7 +13,7 @@
 namespace swarmsmith {
 
 /// What remains of a command once its words are read.
-using Run = std::function<ExitCode(Output&)>;
+using CommandRun = std::function<ExitCode(Output&)>;
 
 /// One command of a program.
 struct ProgramCommand {
@@ -21,7 +21,7 @@ struct ProgramCommand {
   std::string_view summary;  ///< one line
   std::string_view details;  ///< examples and what else a person needs, below the options
   /// Declares the command's options and returns what runs when they were read.
-  Run (*declare)(Options& options) = nullptr;
+  CommandRun (*declare)(Options& options) = nullptr;
   /// In place of `declare`, for a command that reads its words, help and flags itself.
   ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
   /// Changes the words before they are read.

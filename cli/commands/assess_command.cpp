@@ -33,7 +33,7 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_assess(Options& options) {
+CommandRun declare_assess(Options& options) {
   auto arguments = std::make_shared<AssessArguments>();
   options.text("--flavour FLAVOUR", arguments->flavour,
                "Flavour of the modules (default watermelon)");

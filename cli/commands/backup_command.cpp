@@ -62,7 +62,7 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_backup(Options& options) {
+CommandRun declare_backup(Options& options) {
   auto arguments = std::make_shared<BackupArguments>();
   options.words("STORE_AND_COPY STORE", arguments->words, "The store's file, then the copy's",
                 Options::Need::Required);

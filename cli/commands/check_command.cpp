@@ -108,7 +108,7 @@ ExitCode run_check(const std::string& file, Output& output) {
 
 }  // namespace
 
-Run declare_check(Options& options) {
+CommandRun declare_check(Options& options) {
   auto file = std::make_shared<std::string>();
   options.text("FILE", *file, "The campaign file", Options::Need::Required);
   return [file](Output& output) { return run_check(*file, output); };

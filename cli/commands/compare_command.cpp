@@ -137,7 +137,7 @@ ExitCode run_compare(CompareArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_compare(Options& options) {
+CommandRun declare_compare(Options& options) {
   auto arguments = std::make_shared<CompareArguments>();
   arguments->store.declare(options);
   options.choice("--by", arguments->by, {"source", "method", "mission"},

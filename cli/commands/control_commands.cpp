@@ -243,7 +243,7 @@ class Control {
   CampaignRow campaign_;
 };
 
-Run declare(CommandKind kind, Options& options) {
+CommandRun declare(CommandKind kind, Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->kind = kind;
   if (kind == CommandKind::Forgive) {
@@ -282,23 +282,23 @@ Run declare(CommandKind kind, Options& options) {
 
 }  // namespace
 
-Run declare_pause(Options& options) {
+CommandRun declare_pause(Options& options) {
   return declare(CommandKind::Pause, options);
 }
 
-Run declare_resume(Options& options) {
+CommandRun declare_resume(Options& options) {
   return declare(CommandKind::Resume, options);
 }
 
-Run declare_cancel(Options& options) {
+CommandRun declare_cancel(Options& options) {
   return declare(CommandKind::Cancel, options);
 }
 
-Run declare_extend(Options& options) {
+CommandRun declare_extend(Options& options) {
   return declare(CommandKind::Extend, options);
 }
 
-Run declare_forgive(Options& options) {
+CommandRun declare_forgive(Options& options) {
   return declare(CommandKind::Forgive, options);
 }
 

@@ -191,7 +191,7 @@ ExitCode show(const DashboardArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_dashboard(Options& options) {
+CommandRun declare_dashboard(Options& options) {
   auto arguments = std::make_shared<DashboardArguments>();
   options.words("STORE", arguments->stores, "Stores to show (else SWARMSMITH_STORE)");
   options.text("--http HOST:PORT", arguments->http,

@@ -38,7 +38,7 @@ void write(Output& output, StoreReader& store) {
 
 }  // namespace
 
-Run declare_digest(Options& options) {
+CommandRun declare_digest(Options& options) {
   auto argument = std::make_shared<StoreArgument>();
   argument->declare(options);
   return [argument](Output& output) {

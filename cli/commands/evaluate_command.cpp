@@ -238,7 +238,7 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_evaluate(Options& options) {
+CommandRun declare_evaluate(Options& options) {
   auto arguments = std::make_shared<EvaluateOptions>();
   options.text("MACHINE BEST|CANDIDATE|FILE", arguments->machine,
                "Text that begins with --nstates, --fsm-config, --nroot, --rootnode, --bt-config or "

@@ -132,7 +132,7 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_explain(Options& options) {
+CommandRun declare_explain(Options& options) {
   auto arguments = std::make_shared<ExplainArguments>();
   options.text("EVALUATION DESIGN", arguments->id,
                "e100000007, e100000007t of a test, or a design: d3", Options::Need::Required);

@@ -298,7 +298,7 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_export(Options& options) {
+CommandRun declare_export(Options& options) {
   auto arguments = std::make_shared<ExportArguments>();
   arguments->store.declare(options);
   options.choice("--what", arguments->what, {"best", "elites", "all", "starts", "patches"},

@@ -135,7 +135,7 @@ ExitCode run_figure(const FigureArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_figure(Options& options) {
+CommandRun declare_figure(Options& options) {
   auto arguments = std::make_shared<FigureArguments>();
   arguments->declare(options);
   options.explain(kinds_text());

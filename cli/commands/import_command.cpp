@@ -99,7 +99,7 @@ ExitCode run_import(const ImportOptions& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_import(Options& options) {
+CommandRun declare_import(Options& options) {
   auto arguments = std::make_shared<ImportOptions>();
   options.text("FILE", arguments->file,
                "A scenario of irace; with --into scores or machines (.csv), machines (a text a "

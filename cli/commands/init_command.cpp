@@ -124,7 +124,7 @@ ExitCode run_init(const InitArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_init(Options& options) {
+CommandRun declare_init(Options& options) {
   auto arguments = std::make_shared<InitArguments>();
   options.text("DIR", arguments->folder, "Folder of the new campaign.toml (default: this one)");
   options.choice("--mission", arguments->mission, mission_names(), "Mission to design for");

@@ -63,7 +63,7 @@ ExitCode make_client(const KeyFolder& folder, const KeygenArguments& arguments, 
 
 }  // namespace
 
-Run declare_keygen(Options& options) {
+CommandRun declare_keygen(Options& options) {
   auto arguments = std::make_shared<KeygenArguments>();
   options.text("DIR", arguments->folder,
                "Folder of the keys (default: SWARMSMITH_KEYS, else ~/.config/swarmsmith/keys)");

@@ -96,7 +96,7 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_ls(Options& options) {
+CommandRun declare_ls(Options& options) {
   auto arguments = std::make_shared<LsArguments>();
   std::vector<std::string> kinds;
   kinds.reserve(std::size(kKinds));

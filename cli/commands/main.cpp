@@ -9,12 +9,12 @@
 
 int main(int argc, char** argv) {
   swarmsmith::begin_program();
-  using namespace swarmsmith::cli;
+  using namespace swarmsmith;
   Output output = standard_output();
   swarmsmith::set_check_listener([&](const std::string& text) { print_note(output, text); });
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    const ExitCode code = run_program(arguments, output);
+    const ExitCode code = cli::run_program(arguments, output);
     if (output.out.flush() || code != ExitCode::Done) return static_cast<int>(code);
     return static_cast<int>(
         fail(output, ExitCode::Failed,

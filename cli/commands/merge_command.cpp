@@ -69,7 +69,7 @@ ExitCode run_merge(const MergeArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_merge(Options& options) {
+CommandRun declare_merge(Options& options) {
   auto arguments = std::make_shared<MergeArguments>();
   options.words("STORE", arguments->stores,
                 "The stores, in the order of their designs in the new one",

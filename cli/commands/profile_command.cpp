@@ -83,7 +83,7 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_profile(Options& options) {
+CommandRun declare_profile(Options& options) {
   auto arguments = std::make_shared<ProfileArguments>();
   options.text("PROFILE", arguments->name, "A built-in profile, or a file (default: list them)");
   options.text("-o,--output FILE", arguments->file, "File to write; never overwritten");

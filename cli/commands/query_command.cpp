@@ -85,7 +85,7 @@ ExitCode run_query(QueryArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_query(Options& options) {
+CommandRun declare_query(Options& options) {
   auto arguments = std::make_shared<QueryArguments>();
   options.words("SQL_AND_STORE STORE", arguments->words, "The statement, then the store's file");
   arguments->store.declare(options, false);

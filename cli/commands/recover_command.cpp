@@ -209,7 +209,7 @@ ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_recover(Options& options) {
+CommandRun declare_recover(Options& options) {
   auto arguments = std::make_shared<RecoverArguments>();
   options.text("DAMAGED STORE", arguments->damaged, "The damaged store's file",
                Options::Need::Required);

@@ -189,7 +189,7 @@ ExitCode run_replay(ReplayArguments arguments, Output& output) {
 
 }  // namespace
 
-Run declare_replay(Options& options) {
+CommandRun declare_replay(Options& options) {
   constexpr std::int64_t kLargest = 2'147'483'647;
   auto arguments = std::make_shared<ReplayArguments>();
   options.text("ID CANDIDATE|RUN", arguments->id,

@@ -76,7 +76,7 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_report(Options& options) {
+CommandRun declare_report(Options& options) {
   auto arguments = std::make_shared<ReportArguments>();
   arguments->store.declare(options);
   options.text("-o,--output FILE", arguments->file,

@@ -9,7 +9,7 @@
 
 namespace swarmsmith::cli {
 
-Run declare_run(Options& options) {
+CommandRun declare_run(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
     AccessFlags access;

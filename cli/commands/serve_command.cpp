@@ -7,7 +7,7 @@
 
 namespace swarmsmith::cli {
 
-Run declare_serve(Options& options) {
+CommandRun declare_serve(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
     AccessFlags access;

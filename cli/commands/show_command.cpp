@@ -205,7 +205,7 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_show(Options& options) {
+CommandRun declare_show(Options& options) {
   auto arguments = std::make_shared<ShowArguments>();
   options.text("ID DESIGN|CANDIDATE|RUN", arguments->id, "d3, c812, e81200007 or r7",
                Options::Need::Required);

@@ -219,7 +219,7 @@ ExitCode run_status(const StatusArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_status(Options& options) {
+CommandRun declare_status(Options& options) {
   auto arguments = std::make_shared<StatusArguments>();
   arguments->store.declare(options);
   options.text("--connect HOST:PORT|FILE", arguments->connect,

@@ -161,7 +161,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_supplement(Options& options) {
+CommandRun declare_supplement(Options& options) {
   auto arguments = std::make_shared<SupplementArguments>();
   arguments->store.declare(options);
   options.text("-o,--output DIR", arguments->folder, "The new folder", Options::Need::Required);

@@ -123,7 +123,7 @@ ExitCode run_verify(const VerifyArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_verify(Options& options) {
+CommandRun declare_verify(Options& options) {
   auto arguments = std::make_shared<VerifyArguments>();
   arguments->store.declare(options);
   options.integer(

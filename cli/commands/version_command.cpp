@@ -9,7 +9,7 @@ std::string program_name() {
   return "swarmsmith " SWARMSMITH_VERSION " (engine " + std::to_string(kEngineVersion) + ")";
 }
 
-Run declare_version(Options&) {
+CommandRun declare_version(Options&) {
   return [](Output& output) {
     constexpr std::string_view kVersion = SWARMSMITH_VERSION;
     constexpr std::string_view kBuild = SWARMSMITH_BUILD;

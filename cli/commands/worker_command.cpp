@@ -26,7 +26,7 @@ Expected<std::vector<std::string>> where_words(const std::string& connect,
 
 }  // namespace
 
-Run declare_worker(Options& options) {
+CommandRun declare_worker(Options& options) {
   struct Arguments {
     std::string connect;
     std::string coordinator;

@@ -64,7 +64,7 @@ ExitCode check(const CheckWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_check(Options& options) {
+CommandRun declare_robot_check(Options& options) {
   auto words = std::make_shared<CheckWords>();
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);

@@ -51,23 +51,25 @@ state and random number has the bits of the log; 1: it says at which cycle one d
 log cannot be read.)";
 
 constexpr std::array kCommands = {
-    Command{"run", "Run a machine on a robot", kRunDetails, declare_robot_run, nullptr,
-            without_ros_words},
-    Command{"world", "Play the world for robots' nodes", kWorldDetails, declare_robot_world,
-            nullptr, without_ros_words},
-    Command{"start", "Start a run on all robots, and watch over it", kStartDetails,
-            declare_robot_start, nullptr, without_ros_words},
-    Command{"stop", "Stop robots", kStopDetails, declare_robot_stop, nullptr, without_ros_words},
-    Command{"check", "Say which robots are there, and whether a run can start", kCheckDetails,
-            declare_robot_check, nullptr, without_ros_words},
-    Command{"replay", "Step a machine through logs of robots and compare", kReplayDetails,
-            declare_robot_replay},
-    Command{"version", "Print the version, and whether ROS is in it", "", declare_robot_version},
+    ProgramCommand{"run", "Run a machine on a robot", kRunDetails, declare_robot_run, nullptr,
+                   without_ros_words},
+    ProgramCommand{"world", "Play the world for robots' nodes", kWorldDetails, declare_robot_world,
+                   nullptr, without_ros_words},
+    ProgramCommand{"start", "Start a run on all robots, and watch over it", kStartDetails,
+                   declare_robot_start, nullptr, without_ros_words},
+    ProgramCommand{"stop", "Stop robots", kStopDetails, declare_robot_stop, nullptr,
+                   without_ros_words},
+    ProgramCommand{"check", "Say which robots are there, and whether a run can start",
+                   kCheckDetails, declare_robot_check, nullptr, without_ros_words},
+    ProgramCommand{"replay", "Step a machine through logs of robots and compare", kReplayDetails,
+                   declare_robot_replay},
+    ProgramCommand{"version", "Print the version, and whether ROS is in it", "",
+                   declare_robot_version},
 };
 
 }  // namespace
 
-std::span<const Command> robot_commands() {
+std::span<const ProgramCommand> robot_commands() {
   return kCommands;
 }
 

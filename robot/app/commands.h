@@ -11,13 +11,13 @@ namespace swarmsmith {
 /// docs/robot-runtime.md.
 std::span<const ProgramCommand> robot_commands();
 
-Run declare_robot_run(Options& options);
-Run declare_robot_world(Options& options);
-Run declare_robot_start(Options& options);
-Run declare_robot_stop(Options& options);
-Run declare_robot_check(Options& options);
-Run declare_robot_replay(Options& options);
-Run declare_robot_version(Options& options);
+CommandRun declare_robot_run(Options& options);
+CommandRun declare_robot_world(Options& options);
+CommandRun declare_robot_start(Options& options);
+CommandRun declare_robot_stop(Options& options);
+CommandRun declare_robot_check(Options& options);
+CommandRun declare_robot_replay(Options& options);
+CommandRun declare_robot_version(Options& options);
 
 /// Words in the manner of ROS: `_seed:=7` as `--seed 7`, `ranges:=/teraranger/ranges` as `--topic`.
 std::vector<std::string> without_ros_words(std::vector<std::string> words);

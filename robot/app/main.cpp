@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   const Program program{"swarmsmith robot",
                         "Runs machines on real robots, or in a simulated world.", robot_commands(),
                         "docs/robot-runtime.md leads from a flashed computer to a first run.",
-                        offer_stored};
+                        cli::offer_stored};
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
     const ExitCode code = run_program(program, arguments, output);

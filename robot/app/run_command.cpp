@@ -241,7 +241,7 @@ ExitCode run(const RunWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_run(Options& options) {
+CommandRun declare_robot_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   constexpr auto kNeeded = Options::Need::Required;
   options.text("--robot ROBOT", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);

@@ -168,7 +168,7 @@ ExitCode start(const StartWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_start(Options& options) {
+CommandRun declare_robot_start(Options& options) {
   auto words = std::make_shared<StartWords>();
   options.text("--run NAME", words->run, "Name of the run; no robot takes one twice",
                Options::Need::Required);

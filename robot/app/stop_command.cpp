@@ -66,7 +66,7 @@ ExitCode stop(const StopWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_stop(Options& options) {
+CommandRun declare_robot_stop(Options& options) {
   auto words = std::make_shared<StopWords>();
   options.text("--robots ROBOTS", words->robots,
                "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names", Options::Need::Required);

@@ -8,7 +8,7 @@ std::string robot_program_name() {
   return "swarmsmith-robot " SWARMSMITH_VERSION;
 }
 
-Run declare_robot_version(Options&) {
+CommandRun declare_robot_version(Options&) {
   return [](Output& output) {
     if (output.json) {
       output.out << JsonObject()

@@ -386,7 +386,7 @@ ExitCode run(const WorldWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_robot_world(Options& options) {
+CommandRun declare_robot_world(Options& options) {
   auto words = std::make_shared<WorldWords>();
   options.text("--mission MISSION|FILE", words->mission,
                "aggregation, grid_exploration, color_selection or a file", Options::Need::Required);

@@ -68,7 +68,7 @@ std::string on_one_line(std::string_view text) {
 
 TEST(Program, ExplainsEveryCommandOnStandardOutput) {
   int explained = 0;
-  for (const Command& command : commands()) {
+  for (const ProgramCommand& command : commands()) {
     if (command.name == "track" || command.name == "robot") continue;  // becomes another program
     const Ran ran = run({std::string(command.name), "--help"});
     EXPECT_EQ(ran.code, 0) << command.name;
@@ -85,7 +85,7 @@ TEST(Program, HasEveryCommandInItsManual) {
   std::ifstream stream(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs" / "command-line.md");
   std::ostringstream manual;
   manual << stream.rdbuf();
-  for (const Command& command : commands()) {
+  for (const ProgramCommand& command : commands()) {
     EXPECT_THAT(manual.str(), HasSubstr("## `" + std::string(command.name)));
   }
 }

@@ -87,7 +87,7 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                  },
                  [&](DropItems) { worker.waiting.clear(); }, [](const Say&) {},
                  [&](const Leave& leave) {
-                   if (leave.code != ExitCode::Done) fail("a worker left: " + leave.reason);
+                   if (leave.code != WorkerExit::Done) fail("a worker left: " + leave.reason);
                    worker.process.alive = false;
                    connections_[worker.connection].open = false;
                    at(now_ + milliseconds(200), [this, index] { start_worker(index); });

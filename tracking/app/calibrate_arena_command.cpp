@@ -194,7 +194,7 @@ ExitCode run(const ArenaArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_calibrate_arena(Options& options) {
+CommandRun declare_calibrate_arena(Options& options) {
   auto arguments = std::make_shared<ArenaArguments>();
   options.words("PICTURES FILE", arguments->words,
                 "A video or bag of the arena with its floor tags, or pictures or folders of them");

@@ -206,7 +206,7 @@ ExitCode run(const CameraArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_calibrate_camera(Options& options) {
+CommandRun declare_calibrate_camera(Options& options) {
   auto arguments = std::make_shared<CameraArguments>();
   options.words("PICTURES FILE", arguments->words,
                 "Pictures of the board, folders of them, or a video or bag of it",

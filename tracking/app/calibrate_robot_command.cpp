@@ -152,7 +152,7 @@ ExitCode run(const RobotArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_calibrate_robot(Options& options) {
+CommandRun declare_calibrate_robot(Options& options) {
   auto arguments = std::make_shared<RobotArguments>();
   options.text("NAME", arguments->robot, "The robot, as the arena file names it",
                Options::Need::Required);

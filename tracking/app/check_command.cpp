@@ -183,7 +183,7 @@ ExitCode run(const std::string& file, Output& output) {
 
 }  // namespace
 
-Run declare_track_check(Options& options) {
+CommandRun declare_track_check(Options& options) {
   auto file = std::make_shared<std::string>();
   options.text("ARENA FILE", *file, "Arena file", Options::Need::Required);
   return [file](Output& output) { return run(*file, output); };

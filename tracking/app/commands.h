@@ -10,24 +10,24 @@ namespace swarmsmith {
 /// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
 std::span<const ProgramCommand> track_commands();
 
-Run declare_track_score(Options& options);
-Run declare_track_rescore(Options& options);
-Run declare_track_override(Options& options);
-Run declare_track_init(Options& options);
-Run declare_track_check(Options& options);
-Run declare_calibrate_camera(Options& options);
-Run declare_calibrate_arena(Options& options);
-Run declare_calibrate_robot(Options& options);
-Run declare_detect(Options& options);
-Run declare_print_tags(Options& options);
-Run declare_print_board(Options& options);
-Run declare_print_survey(Options& options);
-Run declare_track_report(Options& options);
-Run declare_track_profile(Options& options);
-Run declare_record(Options& options);
-Run declare_overlay(Options& options);
-Run declare_live(Options& options);
-Run declare_track_version(Options& options);
+CommandRun declare_track_score(Options& options);
+CommandRun declare_track_rescore(Options& options);
+CommandRun declare_track_override(Options& options);
+CommandRun declare_track_init(Options& options);
+CommandRun declare_track_check(Options& options);
+CommandRun declare_calibrate_camera(Options& options);
+CommandRun declare_calibrate_arena(Options& options);
+CommandRun declare_calibrate_robot(Options& options);
+CommandRun declare_detect(Options& options);
+CommandRun declare_print_tags(Options& options);
+CommandRun declare_print_board(Options& options);
+CommandRun declare_print_survey(Options& options);
+CommandRun declare_track_report(Options& options);
+CommandRun declare_track_profile(Options& options);
+CommandRun declare_record(Options& options);
+CommandRun declare_overlay(Options& options);
+CommandRun declare_live(Options& options);
+CommandRun declare_track_version(Options& options);
 
 /// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.
 std::string track_program_name();

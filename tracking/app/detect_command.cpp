@@ -182,7 +182,7 @@ ExitCode run(const DetectWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_detect(Options& options) {
+CommandRun declare_detect(Options& options) {
   auto words = std::make_shared<DetectWords>();
   options.text("SOURCE FILE", words->source, "Video, picture, folder of pictures or bag",
                Options::Need::Required);

@@ -51,7 +51,7 @@ ExitCode run(const std::string& folder, Output& output) {
 
 }  // namespace
 
-Run declare_track_init(Options& options) {
+CommandRun declare_track_init(Options& options) {
   auto folder = std::make_shared<std::string>(".");
   options.text("DIR", *folder, "Folder of the new arena.toml and run.toml (default: this one)");
   return [folder](Output& output) { return run(*folder, output); };

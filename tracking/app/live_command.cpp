@@ -204,7 +204,7 @@ ExitCode live(const LiveWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_live(Options& options) {
+CommandRun declare_live(Options& options) {
   auto words = std::make_shared<LiveWords>();
   options.text("--arena FILE", words->arena, "Arena file", Options::Need::Required);
   options.text("--camera CAMERA|FILE", words->source,

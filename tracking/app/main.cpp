@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   swarmsmith::set_check_listener([&](const std::string& text) { print_note(output, text); });
   const Program program{
       "swarmsmith track", "Scores runs of real robots, filmed from above.", track_commands(),
-      "docs/tracking.md leads from an empty arena to a first scored run.", offer_stored};
+      "docs/tracking.md leads from an empty arena to a first scored run.", cli::offer_stored};
   try {
     std::vector<std::string> arguments(argv + 1, argv + argc);
     if (!arguments.empty() && means_a_recording(arguments.front())) {

@@ -30,7 +30,7 @@ constexpr double kAround_s = 1;
 /// Floor tags are shown where they were within so long.
 constexpr double kReferenceHolds_s = 5;
 
-struct OverlayWords {
+struct OverlayArguments {
   ScoreArguments run;
   std::string video;
   std::string camera;
@@ -45,7 +45,7 @@ struct DrawnRun {
   std::size_t camera = 0;
 };
 
-OrRefusal<DrawnRun> run_of_videos(const OverlayWords& words, Output& output) {
+OrRefusal<DrawnRun> run_of_videos(const OverlayArguments& words, Output& output) {
   auto plan = plan_run(words.run);
   if (!plan) return tl::unexpected(std::move(plan.error()));
   auto run = watch_run(*plan, output);
@@ -56,7 +56,7 @@ OrRefusal<DrawnRun> run_of_videos(const OverlayWords& words, Output& output) {
   return drawn;
 }
 
-OrRefusal<DrawnRun> run_of_store(const OverlayWords& words) {
+OrRefusal<DrawnRun> run_of_store(const OverlayArguments& words) {
   const auto kept = kept_run(words.run.store, words.run.videos.front());
   if (!kept) return tl::unexpected(kept.error());
   auto run = analyse_again(kept->rows);
@@ -68,7 +68,7 @@ OrRefusal<DrawnRun> run_of_store(const OverlayWords& words) {
 }
 
 /// Which camera, and that its video is the one that was scored.
-std::optional<Refusal> settle_video(const OverlayWords& words, DrawnRun& drawn) {
+std::optional<Refusal> settle_video(const OverlayArguments& words, DrawnRun& drawn) {
   const auto& cameras = drawn.run.rig.cameras;
   if (!words.camera.empty()) {
     const auto found = std::find_if(cameras.begin(), cameras.end(),
@@ -174,7 +174,7 @@ class Sink {
 };
 
 Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
-                            const OverlayWords& words, Output& output) {
+                            const OverlayArguments& words, Output& output) {
   Mission mission = drawn.run.log.mission;
   mission.arena.patches.insert(mission.arena.patches.end(), drawn.run.scored.patches.begin(),
                                drawn.run.scored.patches.end());
@@ -211,7 +211,7 @@ Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
 }
 
 /// `--at` as seconds of the run.
-Expected<std::optional<double>> instant_of(const OverlayWords& words) {
+Expected<std::optional<double>> instant_of(const OverlayArguments& words) {
   if (words.at.empty()) return std::optional<double>();
   double value = 0;
   const char* const end = words.at.data() + words.at.size();
@@ -222,7 +222,7 @@ Expected<std::optional<double>> instant_of(const OverlayWords& words) {
   return std::optional<double>(value);
 }
 
-ExitCode overlay(const OverlayWords& words, Output& output) {
+ExitCode overlay(const OverlayArguments& words, Output& output) {
   const auto at_s = instant_of(words);
   if (!at_s) return fail(output, ExitCode::Usage, at_s.error());
   const bool is_stored =
@@ -244,8 +244,8 @@ ExitCode overlay(const OverlayWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_overlay(Options& options) {
-  auto words = std::make_shared<OverlayWords>();
+CommandRun declare_overlay(Options& options) {
+  auto words = std::make_shared<OverlayArguments>();
   ScoreArguments& run = words->run;
   constexpr Options::Range kTags{0, 65'535};
   options.words("RUN|VIDEO RUN|FILE", run.videos, "A stored run, r7, or its videos, one per camera",

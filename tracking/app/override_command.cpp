@@ -57,7 +57,7 @@ ExitCode run(const OverrideArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_override(Options& options) {
+CommandRun declare_track_override(Options& options) {
   auto arguments = std::make_shared<OverrideArguments>();
   options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
   options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},

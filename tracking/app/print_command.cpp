@@ -155,14 +155,14 @@ void declare_tag_words(Options& options, TagArguments& arguments) {
 
 }  // namespace
 
-Run declare_print_tags(Options& options) {
+CommandRun declare_print_tags(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
   options.text("--family FAMILY", arguments->family, "Family of the tags (default tag36h11)");
   declare_tag_words(options, *arguments);
   return [arguments](Output& output) { return print_tags(*arguments, output); };
 }
 
-Run declare_print_board(Options& options) {
+CommandRun declare_print_board(Options& options) {
   auto arguments = std::make_shared<BoardArguments>();
   options.text("BOARD", arguments->board, "Such as charuco:11x8:0.023:0.017:5x5_100",
                Options::Need::Required);
@@ -172,7 +172,7 @@ Run declare_print_board(Options& options) {
   return [arguments](Output& output) { return print_board(*arguments, output); };
 }
 
-Run declare_print_survey(Options& options) {
+CommandRun declare_print_survey(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
   declare_tag_words(options, *arguments);
   options.text("--area AREA", arguments->area,

@@ -228,7 +228,7 @@ ExitCode run(const ProfileArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_profile(Options& options) {
+CommandRun declare_track_profile(Options& options) {
   auto arguments = std::make_shared<ProfileArguments>();
   options.words("RUN", arguments->runs, "Runs of the store (r7), or run logs (run07.toml)",
                 Options::Need::Required);

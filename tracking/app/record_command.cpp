@@ -109,7 +109,7 @@ ExitCode record(const RecordWords& words, Output& output) {
 
 }  // namespace
 
-Run declare_record(Options& options) {
+CommandRun declare_record(Options& options) {
   auto words = std::make_shared<RecordWords>();
   options.text("SOURCE FILE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);

@@ -54,7 +54,7 @@ ExitCode run(const ReportArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_report(Options& options) {
+CommandRun declare_track_report(Options& options) {
   auto arguments = std::make_shared<ReportArguments>();
   options.text("RUN", arguments->run, "A real run: r7", Options::Need::Required);
   options.text("--store STORE", arguments->store, "Store that has it (else SWARMSMITH_STORE)");

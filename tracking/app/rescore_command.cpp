@@ -161,7 +161,7 @@ ExitCode run(const RescoreArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_rescore(Options& options) {
+CommandRun declare_track_rescore(Options& options) {
   auto arguments = std::make_shared<RescoreArguments>();
   options.words("RUN", arguments->runs, "Runs of the store: r7", Options::Need::Required);
   options.text("--store STORE", arguments->store, "The store (else SWARMSMITH_STORE)");

@@ -89,7 +89,7 @@ ExitCode score(const ScoreArguments& arguments, Output& output) {
 
 }  // namespace
 
-Run declare_track_score(Options& options) {
+CommandRun declare_track_score(Options& options) {
   auto arguments = std::make_shared<ScoreArguments>();
   arguments->declare(options);
   return [arguments](Output& output) { return score(*arguments, output); };

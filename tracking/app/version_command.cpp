@@ -14,7 +14,7 @@ std::string track_program_name() {
          ", apriltag " SWARMSMITH_APRILTAG ", libavformat " AV_STRINGIFY(LIBAVFORMAT_VERSION);
 }
 
-Run declare_track_version(Options&) {
+CommandRun declare_track_version(Options&) {
   return [](Output& output) {
     if (output.json) {
       output.out << JsonObject()

@@ -211,7 +211,7 @@ TEST_F(DashboardTest, LiveNumbersAreThoseOfTheLoop) {
   LiveStatus status;
   status.workers = 3;
   status.used_per_s = 10;
-  CampaignStatus campaign{.name = "demo", .used = 500, .budget = 2000};
+  CampaignStatus campaign{.name = "demo"};
   campaign.designs.push_back({.id = 1,
                               .state = DesignState::Racing,
                               .used = 500,
