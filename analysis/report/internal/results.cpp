@@ -206,12 +206,14 @@ void write_races(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
        {"budget (experiments)", Show::Count},
        {"used", Show::Count},
        {"iterations", Show::Count},
-       {"mean of the best", Show::Number},
+       {"its race's mean", Show::Number},
+       {"mean of its tests", Show::Number},
        {"state"},
        {"why it ended"}},
-      "SELECT design, mission, method, repetition, budget, used, iteration, best_mean, state, "
-      "iif(reason LIKE 'not enough budget%', 'budget used up', reason) "
-      "FROM v_designs ORDER BY design",
+      "SELECT d.design, d.mission, d.method, d.repetition, d.budget, d.used, d.iteration, "
+      "d.best_mean, t.test_mean, d.state, "
+      "iif(d.reason LIKE 'not enough budget%', 'budget used up', d.reason) "
+      "FROM v_designs AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design ORDER BY d.design",
       1000);
   if (!draft.options().page_of_design) {
     page.paragraph(

@@ -200,6 +200,8 @@ TEST_F(DashboardTest, LiveTellsWhatIsThere) {
   EXPECT_EQ(design["id"], "d1");
   EXPECT_EQ(design["best"], "c1");
   EXPECT_EQ(design["best_mean"], 2.5);
+  EXPECT_EQ(design["test_mean"], 3);
+  EXPECT_EQ(design["test_runs"], 1);
   EXPECT_EQ(design["paused"], false);
   EXPECT_EQ(design["used"], 2);
   EXPECT_GT(design["version"], 0);
@@ -235,6 +237,7 @@ TEST_F(DashboardTest, LiveNumbersAreThoseOfTheLoop) {
   EXPECT_EQ(design["state"], "racing");
   EXPECT_EQ(design["best"], "c2");
   EXPECT_EQ(design["best_mean"], 7);
+  EXPECT_TRUE(design["test_mean"].is_null());
   EXPECT_EQ(design["paused"], true);
   const json workers = json::parse(body_of(get("/api/v1/workers")));
   EXPECT_EQ(workers["workers"][0]["host"], "lab7");
