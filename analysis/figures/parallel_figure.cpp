@@ -148,8 +148,11 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
     plot.lines.push_back(line_of(*table, *chosen, row, false));
   for (const std::size_t row : drawn.elites)
     plot.lines.push_back(line_of(*table, *chosen, row, true));
-  return Figure{
-      .svg = draw(for_paper(plot, options)), .csv = csv_of(plot, design->design), .tex = {}};
+  Figure figure{.csv = csv_of(plot, design->design)};
+  for (std::size_t i = 0; i < chosen->size(); ++i)
+    plot.parameters[i].name = table->columns[(*chosen)[i]].words;
+  figure.svg = draw(for_paper(plot, options));
+  return figure;
 }
 
 }  // namespace swarmsmith

@@ -110,7 +110,12 @@ std::string draw(const SamplingPlot& plot) {
   const double pitch = (width + kBetween) / static_cast<double>(across);
   const double area_width = pitch - kBetween - room;
   const double area_height = std::min(kTallestPanel, kSampleRatio * (pitch - kBetween));
-  const double line_height = kLineHeight + area_height + 0.6 + kLineHeight;
+  double names = kLineHeight;
+  for (const auto& panel : plot.panels) {
+    const auto name_lines = whole_lines(panel.name, kTextSize, pitch - 1).size();
+    names = std::max(names, 1 + kPanelNameLine * static_cast<double>(name_lines));
+  }
+  const double line_height = names + area_height + 0.6 + kLineHeight;
   const double head = head_of(plot);
   double legend_top = head + lines * line_height + kLineHeight + 1;
   const double caption_top = legend_top + legends_height + kTextSize;
@@ -122,7 +127,7 @@ std::string draw(const SamplingPlot& plot) {
     const SamplingPlot::Panel& panel = plot.panels[i];
     const std::size_t line = i / across;
     const PlotArea area{.left = kMargin + room + pitch * static_cast<double>(i % across),
-                        .top = head + kLineHeight + line_height * static_cast<double>(line),
+                        .top = head + names + line_height * static_cast<double>(line),
                         .width = area_width,
                         .height = area_height};
     SamplingPanel drawing(svg, panel, area);

@@ -115,5 +115,26 @@ TEST(ModuleChart, WhatDoesNotFitSideBySideContinuesBelow) {
   EXPECT_THAT(shape_problems(svg), IsEmpty());
 }
 
+TEST(ModuleChart, OfAStudyIsAGridAMissionOnOnePage) {
+  ModuleChart chart = thesis_tables();
+  const auto columns = chart.blocks.front().columns;
+  chart.blocks.clear();
+  for (const char* method : {"cma-es", "evostick", "icepop", "irace", "maple", "random", "vanilla"})
+    chart.blocks.push_back({method, columns});
+  chart.blocks[1].columns[0].cells[3] = std::nullopt;
+  for (const double width : {84.0, 85.0, 174.0, 254.0}) {
+    chart.width_mm = width;
+    const std::string svg = draw(chart);
+    EXPECT_THAT(text_problems(svg), IsEmpty()) << width;
+    EXPECT_THAT(shape_problems(svg), IsEmpty()) << width;
+    EXPECT_LE(std::stod(svg.substr(svg.find("height=\"") + 8)), 240) << width;
+    for (const char* method : {"cma-es", "evostick", "vanilla"})
+      EXPECT_EQ(times(svg, method), 3) << width;
+    EXPECT_EQ(times(svg, "2.5"), 7) << width;  // black floor for aggregation, of each method
+    EXPECT_EQ(times(svg, "-"), 1);
+    EXPECT_THAT(words_of(svg), HasSubstr("-: the method has no such module"));
+  }
+}
+
 }  // namespace
 }  // namespace swarmsmith
