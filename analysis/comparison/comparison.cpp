@@ -64,7 +64,7 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   comparison.unranked.push_back(
       fmt::format("all scores have the same {} {}: there is nothing to compare{}",
                   by_source ? "source" : "method", *names.begin(),
-                  has_methods ? "; `--by method` compares the methods" : ""));
+                  has_methods ? "; its methods differ: compare by method" : ""));
   comparison.notes.push_back(comparison.unranked.back());
 }
 
