@@ -255,7 +255,7 @@ class Merged(Stores):
             self.assertEqual(card.count(one["campaign"]), 2, card)
         # A digest is of one campaign.
         self.assertEqual(cards.get("live")["campaigns"][0]["digest"], "")
-        self.assertEqual(page.js("[...document.querySelectorAll('.facts dt')].find(one => one.innerText === 'digest').nextSibling.innerText"), "–")
+        self.assertEqual(page.js("[...document.querySelectorAll('.facts dt')].find(one => one.innerText === \"campaign's digest\").nextSibling.innerText"), "–")
         # It is for reading: nothing is offered that would be refused.
         for name in ("campaigns", "network", "program"):
             for act in ("Extend", "Pause", "Cancel"):

@@ -108,7 +108,7 @@ function campaign_panels(live: Live, campaign: Campaign) {
         ["experiments", used_of(campaign)],
         state === "running" && live.running && ["ETA", eta_of(live, campaign.eta_s), "the rest of the budgets at the rate of the last minute"],
         ["store", <span class="small">{store}</span>],
-        ["digest", <code class="small">{campaign.digest.slice(0, 12) || "–"}</code>, "of all that decides the answer"]])}
+        ["campaign's digest", <code class="small">{campaign.digest.slice(0, 12) || "–"}</code>, "of all that decides the answer; swarmsmith digest prints that of the answer"]])}
       {state === "interrupted" && <Empty>It is not finished, and no process works on it here. {run} continues it.</Empty>}
       {designs.length ? grid(campaign)
         : <Empty>This store holds no design yet. {run} begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>}
