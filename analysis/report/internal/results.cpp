@@ -26,8 +26,9 @@ struct ScoreGroup {
   std::vector<double> values;
 };
 
-/// Mission, method, source, purpose.
-using Key = std::tuple<std::string, std::string, std::string, std::string>;
+/// Mission, method, whether it is no test, source, purpose: the world that designs were made in
+/// comes before the others.
+using Key = std::tuple<std::string, std::string, bool, std::string, std::string>;
 
 /// A row a mission, method, source and purpose: number, mean, standard deviation, and the five
 /// numbers of a box plot (analysis/statistics/summary.h).
@@ -40,12 +41,13 @@ HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
   }
   std::map<Key, ScoreGroup> found;
   for (const auto& [score, runs] : values_of(taken)) {
-    ScoreGroup& group = found[{score.mission, score.method, score.source, score.purpose}];
+    ScoreGroup& group =
+        found[{score.mission, score.method, score.purpose != "test", score.source, score.purpose}];
     group.designs.insert(score.design);
     group.values.push_back(score.score);
   }
   for (const auto& [key, group] : found) {
-    const auto& [mission, method, source, purpose] = key;
+    const auto& [mission, method, is_later, source, purpose] = key;
     const Summary summary = summary_of(group.values);
     std::vector<std::string> row = {as_words(mission),
                                     method,
