@@ -168,6 +168,8 @@ Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptio
   ChosenScores taken = wanted(scores, options);
   const ScoreTable table = score_table(taken.scores);
   Comparison comparison{.options = options, .unit = taken.unit, .said = std::move(taken.said)};
+  const auto test = std::ranges::find(taken.scores, "test", &DesignScore::purpose);
+  if (test != taken.scores.end()) comparison.tested = test->source;
   add_groups(table, comparison);
   switch (options.by) {
     case CompareBy::Source:

@@ -74,6 +74,7 @@ struct Comparison {
   ComparisonOptions options;
   ScoreUnit unit = ScoreUnit::Design;  ///< what one value is
   std::string said;                    ///< the same as a sentence
+  std::string tested;                  ///< the source of the campaign's own tests; empty: unknown
   std::vector<ComparedGroup> groups;   ///< by mission, method, source
   std::vector<ComparedPair> pairs;
   std::vector<ComparedRanks> ranks;

@@ -187,6 +187,9 @@ std::vector<MethodMatrix> method_matrices(const Comparison& comparison) {
   for (const ComparedGroup& group : comparison.groups) {
     if (std::ranges::find(sources, group.source) == sources.end()) sources.push_back(group.source);
   }
+  // The world that the designs were made in, then the others.
+  std::ranges::stable_partition(
+      sources, [&](const std::string& source) { return source == comparison.tested; });
   std::vector<MethodMatrix> matrices;
   for (const std::string& source : sources)
     matrices.push_back(matrix_of(comparison, source));

@@ -159,11 +159,15 @@ void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,
                           std::string_view label) {
   draw_line(svg, {area.left, area.bottom()}, {area.right(), area.bottom()}, kInk, 0.2);
   const double step = tick_step(axis.range(), ticks_across(axis));
+  double free = -1e9;  // right of the last text
   for (const double tick : ticks_in(axis.range(), step)) {
     const double x = axis.at(tick);
     draw_line(svg, {x, area.bottom()}, {x, area.bottom() + kTick}, kInk, 0.2);
-    svg.text({x, area.bottom() + kTick + kTextSize}, tick_text(tick, step),
-             ink(TextStyle::Anchor::Middle));
+    const std::string text = tick_text(tick, step);
+    const double half = text_width(text, kTextSize) / 2;
+    if (x - half < free) continue;  // a short axis has no room for it
+    free = x + half + 0.5;
+    svg.text({x, area.bottom() + kTick + kTextSize}, text, ink(TextStyle::Anchor::Middle));
   }
   if (label.empty()) return;
   svg.text({area.left + area.width / 2, area.bottom() + kTick + kTextSize + kLineHeight}, label,

@@ -135,8 +135,9 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
   }
 
   ParallelPlot plot{.title = title_of(*design), .width_mm = options.width_mm};
-  plot.details.push_back(fmt::format("{} elites of {}, iteration {}", drawn.elites.size(),
-                                     to_string(design->design), drawn.iteration));
+  plot.details.push_back(fmt::format("{} elite{} of {}, iteration {}", drawn.elites.size(),
+                                     drawn.elites.size() == 1 ? "" : "s", to_string(design->design),
+                                     drawn.iteration));
   plot.details.push_back(
       fmt::format("and {} of {} other candidates", drawn.others.size(), drawn.others_in_all));
   plot.caption = caption_of(drawn, options, chosen->size(), table->columns.size());

@@ -41,13 +41,13 @@ void draw_iterations(Svg& svg, const SamplingPlot& plot, const PlotArea& area) {
 std::vector<FlowingLegend> legends_of(const SamplingPlot& plot, const CategoryColors& colors) {
   std::vector<std::vector<LegendEntry>> paragraphs;
   for (const auto& family : colors.families()) {
-    std::string names;
-    for (const auto& panel : plot.panels) {
-      if (CategoryColors::belongs(panel.categories, family))
-        names += (names.empty() ? "" : ", ") + panel.name;
-    }
     auto& entries = paragraphs.emplace_back();
-    entries.push_back({"", names + ":"});
+    for (const auto& panel : plot.panels) {
+      if (!CategoryColors::belongs(panel.categories, family)) continue;
+      if (!entries.empty()) entries.back().text += ",";
+      entries.push_back({"", panel.name});
+    }
+    entries.back().text += ":";
     for (const auto& [value, color] : family)
       entries.push_back({color, value});
   }

@@ -14,8 +14,8 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kLeastColumn = 19;
-constexpr double kGap = 5;
+constexpr double kLeastColumn = 17;
+constexpr double kGap = 3.5;
 constexpr double kMostNamePart = 0.3;
 constexpr double kNameLine = 3.2;
 constexpr double kRow = 11;
@@ -103,7 +103,16 @@ class ScoreGrid {
 
  private:
   std::size_t bands() const { return (plot_.panels.size() + across_ - 1) / across_; }
-  double head() const { return 2 * kLineHeight + kTextSize; }
+  /// The mission's name, whole, over its column.
+  std::vector<std::string> title_lines(const std::string& title) const {
+    return whole_lines(title, kTextSize * kBolder, column_ + kGap - 1);
+  }
+  double head() const {
+    std::size_t most = 1;
+    for (const ScorePanel& panel : plot_.panels)
+      most = std::max(most, title_lines(panel.title).size());
+    return kLineHeight * static_cast<double>(most) + kTextSize;
+  }
   double band_height() const {
     return head() + (row_ + 1) * static_cast<double>(methods_.size()) + kAxisRoom;
   }
@@ -137,8 +146,7 @@ class ScoreGrid {
   }
 
   void draw_column(Svg& svg, const Column& column, double first, double left) const {
-    // The name, whole, on two lines over its column.
-    const auto lines = broken_text(column.panel->title, kTextSize * kBolder, column_ + kGap - 1, 2);
+    const auto lines = title_lines(column.panel->title);
     TextStyle bold = ink(TextStyle::Anchor::Start);
     bold.bold = true;
     double y = first - kLineHeight * static_cast<double>(lines.size()) + 1;
