@@ -433,6 +433,23 @@ TEST_F(DashboardTest, MoreHeavyQuestionsThanFitAreTurnedAway) {
   EXPECT_THAT(get("/api/v1/c1/designs/d1/race"), StartsWith("HTTP/1.1 200"));
 }
 
+TEST_F(DashboardTest, SeveralPagesOfAPersonAreNotTurnedAway) {
+  // A page of results asks for some twenty figures at once; three of them are open.
+  serve();
+  std::atomic<int> refused = 0;
+  {
+    std::vector<std::jthread> askers;
+    for (int i = 0; i < 60; ++i) {
+      askers.emplace_back([&, i] {
+        SiteRequest request{.path = "/api/v1/c1/figures/machine.svg"};
+        request.parameters["width"] = std::to_string(60 + i) + "mm";
+        refused += site_->answer(request).status == 503 ? 1 : 0;
+      });
+    }
+  }
+  EXPECT_EQ(refused, 0);
+}
+
 TEST_F(DashboardTest, MarkupInNamesStaysText) {
   const std::string hostile = (folder_ / "hostile.db").string();
   const std::string name = R"x(<img src=x onerror="alert(1)">)x";
