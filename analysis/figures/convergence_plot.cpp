@@ -143,8 +143,9 @@ void draw_curves(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
       if (line.group == group) all.push_back(points_of(line, &ConvergencePlot::Point::mean));
     }
     const auto median = median_of(all);
-    svg.line(on_page(has_steps(panel, group) ? stairs(median) : median, x, y),
-             stroked(distinct_color(group), 0.7));
+    if (median.size() > 1)
+      svg.line(on_page(has_steps(panel, group) ? stairs(median) : median, x, y),
+               stroked(distinct_color(group), 0.7));
     if (has_steps(panel, group)) continue;
     const StairPoint end = median_end(all);
     svg.circle({x.at(end.x), y.at(end.y)}, 1, filled(distinct_color(group)));

@@ -160,7 +160,29 @@ class ScoreGrid {
       area.top += row_ + 1;
     }
     area.top -= row_ + 1;
-    draw_horizontal_axis(svg, area, Axis(column.range(), area.left, area.right()), "");
+    draw_axis(svg, column.range(), area);
+  }
+
+  /// Thousands are short, and texts stay within the column: the next one begins beside it.
+  static void draw_axis(Svg& svg, ValueRange range, const PlotArea& area) {
+    constexpr double kThousand = 1000;
+    constexpr std::size_t kTicks = 3;
+    const Axis x(range, area.left, area.right());
+    const double step = tick_step(range, kTicks);
+    double free = area.left - 2;
+    for (const double tick : ticks_in(range, step)) {
+      const std::array<PagePoint, 2> mark = {PagePoint{x.at(tick), area.bottom()},
+                                             PagePoint{x.at(tick), area.bottom() + 1}};
+      svg.line(mark, stroked(kInk, 0.2));
+      const std::string text = step < kThousand
+                                   ? tick_text(tick, step)
+                                   : tick_text(tick / kThousand, step / kThousand) + "k";
+      const double half = text_width(text, kTextSize) / 2;
+      const double at = std::clamp(x.at(tick), area.left - 1 + half, area.right() + 1 - half);
+      if (at - half < free) continue;
+      free = at + half + 0.5;
+      svg.text({at, area.bottom() + 1 + kTextSize}, text, ink(TextStyle::Anchor::Middle));
+    }
   }
 
   void draw_cell(Svg& svg, const Column& column, const std::string& method,

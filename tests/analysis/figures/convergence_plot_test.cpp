@@ -102,7 +102,8 @@ TEST(ConvergencePlot, SearchesThatTellOnceAreNoVerticalLines) {
   ASSERT_NE(median, std::string::npos);
   const std::size_t begin = svg.rfind("d=\"M", median);
   const std::string path = svg.substr(begin, median - begin);
-  EXPECT_EQ(std::ranges::count(path, ' '), 4) << "two points, straight: " << path;
+  EXPECT_EQ(std::ranges::count(path, 'L'), 1) << path;  // straight, from point to point
+  EXPECT_EQ(path.find_first_of("HV"), std::string::npos) << path;
 }
 
 }  // namespace

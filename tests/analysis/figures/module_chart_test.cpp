@@ -103,6 +103,9 @@ TEST(ModuleChart, HasNoTextOverAnother) {
 TEST(ModuleChart, WhatDoesNotFitSideBySideContinuesBelow) {
   ModuleChart chart = thesis_tables();
   auto& columns = chart.blocks.front().columns;
+  chart.modules.resize(5);  // with all of them it would be higher than a page, and a grid
+  for (auto& column : columns)
+    column.cells.resize(5);
   const auto first = columns;
   columns.insert(columns.end(), first.begin(), first.end());
   chart.blocks.push_back({"chocolate", first});
