@@ -144,10 +144,10 @@ TEST_F(DashboardTest, CodeAndStyleStaySmall) {
     packed += file.packed.size();
     plain += gunzip(file.packed, 1 << 24).value().size();
   }
-  EXPECT_LE(plain, 105'000U);
+  EXPECT_LE(plain, 107'000U);
   EXPECT_GT(code, 0U);
-  EXPECT_LE(code, 35'000U);
-  EXPECT_LE(packed, 39'000U);
+  EXPECT_LE(code, 36'500U);
+  EXPECT_LE(packed, 40'500U);
 }
 
 TEST_F(DashboardTest, NoPathIsAFile) {

@@ -2,9 +2,9 @@
 
 import { h } from "preact";
 import { path_of } from "../api";
-import { Choice, choice_of, command, Copy, Panel, place_of, Quiet, save_as, Table } from "../components";
-import { Figure } from "../figure";
-import { duration, number, parse_csv, when, words } from "../format";
+import { Choice, choice_of, command, Copy, Panel, place_of, Table } from "../components";
+import { CsvTable, Figure } from "../figure";
+import { duration, when, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { Cell, Columns, Row } from "../types";
@@ -31,35 +31,15 @@ export function Results({ params: { c }, query, campaign: { designs } }: PagePro
       {choice_of("Mission", missions)}
       <Copy text={command("compare", `--by ${by}`)} />
     </div>
-    {several && <Methods c={c} version={version} />}
+    {several && <Methods c={c} version={version} of={query.of} />}
     {table("Leaderboard", "leaderboard", leaderboard)}
     <div class="grid"><Panel wide title={`Tests by ${by}`}><Get<string> path={path_of(`${c}/comparison/pairs.csv`, { by, mission })} version={version}
-      render={(text) => tests(text, by)} /></Panel></div>
+      render={(text) => <CsvTable text={text} name={`tests by ${by}`} id="pairs" first="mission source method first second n_first p_holm p mean_difference a12 magnitude" />} /></Panel></div>
     <div class="columns">
       {figures.map(([kind, title, compares]) => <Panel title={title}><Figure kind={kind} options={{ by: compares ? by : null, mission }} version={version} name={title} /></Panel>)}
     </div>
     {table("Real runs", "real-runs", real_runs)}
   </div>;
-}
-
-/// A p as it is printed.
-function shown_p(p: string | undefined): string { return !p ? "–" : Number(p) < 0.0001 ? "< 0.0001" : number(Number(p), 2); }
-
-/// What people decide by comes first; the CSV has all columns.
-function tests(text: string, by: string) {
-  const [head, ...lines] = parse_csv(text);
-  const rows = lines.map((line) => Object.fromEntries(line.map((value, i) => [head[i], value])) as Record<string, string>);
-  const n = (one: Record<string, string>) => one.n_first === one.n_second ? one.n_first : `${one.n_first}, ${one.n_second}`;
-  const as_number = (key: string) => (one: Record<string, string>) => one[key] === "" ? null : Number(one[key]);
-  return <div><div class="tools"><Quiet label={`CSV: all columns of the tests by ${by}`} act={() => save_as(`tests-by-${by}.csv`, text)}>All columns</Quiet></div>
-    <Table<Record<string, string>> name="t-pairs" caption={`tests by ${by}`} rows={rows} row_key={(one) => rows.indexOf(one)} columns={[
-      { key: "mission", show: (one) => words(one.mission) }, by === "method" ? "source" : "method", "first", "second", { key: "n", value: n },
-      { key: "p_holm", label: "Holm's p", title: "corrected for all these pairs", value: as_number("p_holm"), numeric: true, show: (one) => shown_p(one.p_holm) },
-      { key: "p", value: as_number("p"), numeric: true, show: (one) => shown_p(one.p) },
-      { key: "mean_difference", label: "difference", title: "of means, first - second, with its 95 % interval", value: as_number("mean_difference"), numeric: true,
-        show: (one) => [number(Number(one.mean_difference), 3), " ", <small>{number(Number(one.difference_low), 3)} to {number(Number(one.difference_high), 3)}</small>] },
-      { key: "a12", label: "A12", title: "chance that the first is larger", value: as_number("a12"), numeric: true, show: (one) => [number(Number(one.a12), 2), " ", <small>{one.magnitude}</small>] },
-      { key: "notes", value: (one) => one.notes || null }]} /></div>;
 }
 
 function leaderboard(rows: Row[]) {
