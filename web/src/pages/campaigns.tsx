@@ -24,7 +24,7 @@ export function told_mean({ test_mean, best_mean }: Design): number | null { ret
 
 /// What that mean is of.
 export function mean_of({ test_runs, best_mean }: Design): string {
-  return test_runs > 0 ? `in ${count(test_runs, "test")}` : best_mean === null ? "" : "in the race";
+  return test_runs > 0 ? "in tests" : best_mean === null ? "" : "in race";
 }
 
 function card(c: string, design: Design, leads: boolean) {
