@@ -43,6 +43,8 @@ struct ShownStream {
 Output standard_output() {
   static ShownStream out(std::cout);
   static ShownStream err(std::cerr);
+  // In one file or pipe the lines of both are whole, in the order in which they were written.
+  err.stream.tie(&out.stream);
   Output output{.out = out.stream, .err = err.stream};
   output.err_is_terminal = isatty(STDERR_FILENO) == 1 && !is_dumb();
   output.out_is_terminal = isatty(STDOUT_FILENO) == 1 && !is_dumb();

@@ -61,6 +61,13 @@ struct StoredTrust {
   bool distrusted = false;          ///< its scores are wrong, or may be
 };
 
+/// How the best of a design did in the campaign's own tests, as far as they are done.
+struct TestedDesign {
+  CandidateId winner;
+  double mean = 0;
+  std::int64_t runs = 0;
+};
+
 /// The one writer of a store: an SQLite file in WAL mode, synchronous=FULL, with its own thread,
 /// which commits all queued rows as one transaction (group commit). Holds the lock of the file
 /// under any name while it lives, so there is never a second writer. Existing rows are ignored, or
@@ -103,6 +110,8 @@ class Store {
   /// How far each design of the campaign is, in the order of their ids. Merged or imported designs
   /// are not included.
   virtual std::vector<DesignStateRow> design_states() = 0;
+  /// Of the same designs those with tests, but for those with a targetEvaluator.
+  virtual std::vector<TestedDesign> tested_designs() { return {}; }
   /// People's commands to the campaign, by number.
   virtual std::vector<CommandRow> commands() = 0;
   /// The number for the next worker, after all earlier ones.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +38,23 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
     pairs[i].p_holm = adjusted[i];
 }
 
+/// Designs are paired by source, and the two sources should be all that differs.
+void note_seeds(const std::vector<DesignScore>& scores, Comparison& comparison) {
+  if (comparison.unit == ScoreUnit::Run) return;  // only runs of one seed are paired
+  std::set<std::pair<std::string, std::string>> known;
+  for (ComparedPair& pair : comparison.pairs) {
+    std::vector<DesignScore> of_pair = scores;
+    std::erase_if(of_pair, [&](const DesignScore& score) {
+      return score.mission != pair.mission || score.method != pair.method;
+    });
+    if (auto note = seeds_differ(of_pair, pair.first, pair.second))
+      pair.notes.push_back(std::move(*note));
+    if (!known.insert({pair.first, pair.second}).second) continue;
+    if (auto note = seeds_differ(scores, pair.first, pair.second))
+      comparison.seeds.push_back(std::move(*note));
+  }
+}
+
 /// Nothing to compare is said, with what there is.
 void note_lonely(const ScoreTable& table, Comparison& comparison) {
   const bool by_source = comparison.options.by == CompareBy::Source;
@@ -46,7 +64,7 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   comparison.unranked.push_back(
       fmt::format("all scores have the same {} {}: there is nothing to compare{}",
                   by_source ? "source" : "method", *names.begin(),
-                  has_methods ? "; `--by method` compares the methods" : ""));
+                  has_methods ? "; its methods differ: compare by method" : ""));
   comparison.notes.push_back(comparison.unranked.back());
 }
 
@@ -150,11 +168,14 @@ Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptio
   ChosenScores taken = wanted(scores, options);
   const ScoreTable table = score_table(taken.scores);
   Comparison comparison{.options = options, .unit = taken.unit, .said = std::move(taken.said)};
+  const auto test = std::ranges::find(taken.scores, "test", &DesignScore::purpose);
+  if (test != taken.scores.end()) comparison.tested = test->source;
   add_groups(table, comparison);
   switch (options.by) {
     case CompareBy::Source:
       add_source_pairs(table, comparison);
       add_source_ranks(table, comparison);
+      note_seeds(taken.scores, comparison);
       note_lonely(table, comparison);
       break;
     case CompareBy::Method:

@@ -74,11 +74,13 @@ struct Comparison {
   ComparisonOptions options;
   ScoreUnit unit = ScoreUnit::Design;  ///< what one value is
   std::string said;                    ///< the same as a sentence
+  std::string tested;                  ///< the source of the campaign's own tests; empty: unknown
   std::vector<ComparedGroup> groups;   ///< by mission, method, source
   std::vector<ComparedPair> pairs;
   std::vector<ComparedRanks> ranks;
   std::vector<std::string> notes;     ///< what was left out, and why
   std::vector<std::string> unranked;  ///< those of the notes that say why there are no ranks
+  std::vector<std::string> seeds;     ///< sources whose designs ran on different seeds, in words
 };
 
 /// Of scores that were read already; the options' filters are applied to them.

@@ -91,7 +91,7 @@ std::string ranks_text(const ComparedRanks& ranks) {
                   .rows = {{"", "mean rank", "95 % interval"}}};
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
-    const auto interval = test.interval(i);
+    const auto interval = test.told_interval(i);
     table.rows.push_back(
         {ranks.names[i], fmt::format("{:.3f}", mean),
          interval ? fmt::format("[{:.3f}, {:.3f}]", interval->low, interval->high) : "-"});
@@ -103,7 +103,7 @@ std::string ranks_text(const ComparedRanks& ranks) {
       test.blocks,
       ranks.incomplete == 0 ? "" : fmt::format(", {} incomplete ones left out", ranks.incomplete),
       shown(test.statistic), test.degrees, test.degrees == 1 ? "" : "s", shown_p(test.p_value));
-  return text + aligned(std::move(table));
+  return fmt::format("{}{}{}\n", text, aligned(std::move(table)), test.reading());
 }
 
 std::string how_it_was_tested(const Comparison& comparison) {

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/drawing/figure_style.h"
+#include "base/shown_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -29,21 +31,6 @@ int decimals_of(double step) {
 void draw_line(Svg& svg, PagePoint a, PagePoint b, std::string_view color, double width) {
   const std::array<PagePoint, 2> ends = {a, b};
   svg.line(ends, stroked(color, width));
-}
-
-/// The most ticks of which the texts stand clear of each other.
-std::size_t ticks_across(const Axis& axis) {
-  const ValueRange range = axis.range();
-  std::size_t most = kUsualTicks;
-  for (; most > 2; --most) {
-    const double step = tick_step(range, most);
-    double widest = 0;
-    for (const double tick : ticks_in(range, step))
-      widest = std::max(widest, text_width(tick_text(tick, step), kTextSize));
-    const double apart = std::abs(axis.at(range.low + step) - axis.at(range.low));
-    if (widest + 1 <= apart) break;
-  }
-  return most;
 }
 
 double widest_word(std::string_view text, double size) {
@@ -118,6 +105,20 @@ std::string tick_text(double value, double step) {
   return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
+std::size_t ticks_across(const Axis& axis) {
+  const ValueRange range = axis.range();
+  std::size_t most = kUsualTicks;
+  for (; most > 2; --most) {
+    const double step = tick_step(range, most);
+    double widest = 0;
+    for (const double tick : ticks_in(range, step))
+      widest = std::max(widest, text_width(tick_text(tick, step), kTextSize));
+    const double apart = std::abs(axis.at(range.low + step) - axis.at(range.low));
+    if (widest + 1 <= apart) break;
+  }
+  return most;
+}
+
 double tick_room(ValueRange range, std::size_t most_ticks) {
   const double step = tick_step(range, most_ticks);
   double widest = 0;
@@ -158,12 +159,17 @@ void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,
                           std::string_view label) {
   draw_line(svg, {area.left, area.bottom()}, {area.right(), area.bottom()}, kInk, 0.2);
   const double step = tick_step(axis.range(), ticks_across(axis));
+  double free = -1e9;  // right of the last text
   for (const double tick : ticks_in(axis.range(), step)) {
     const double x = axis.at(tick);
     draw_line(svg, {x, area.bottom()}, {x, area.bottom() + kTick}, kInk, 0.2);
-    svg.text({x, area.bottom() + kTick + kTextSize}, tick_text(tick, step),
-             ink(TextStyle::Anchor::Middle));
+    const std::string text = tick_text(tick, step);
+    const double half = text_width(text, kTextSize) / 2;
+    if (x - half < free) continue;  // a short axis has no room for it
+    free = x + half + 0.5;
+    svg.text({x, area.bottom() + kTick + kTextSize}, text, ink(TextStyle::Anchor::Middle));
   }
+  if (label.empty()) return;
   svg.text({area.left + area.width / 2, area.bottom() + kTick + kTextSize + kLineHeight}, label,
            ink(TextStyle::Anchor::Middle));
 }
@@ -173,6 +179,15 @@ double band_axis_room(const Bands& bands, const std::vector<std::string>& names)
   for (const auto& lines : band_lines(bands, names))
     most = std::max(most, lines.size());
   return kTick + kLineHeight * static_cast<double>(most);
+}
+
+bool band_names_fit(const Bands& bands, const std::vector<std::string>& names) {
+  const double size = band_text_size(bands, names);
+  return std::ranges::all_of(names, [&](const std::string& name) {
+    const auto lines = broken_text(name, size, bands.width() - kBandGap, kBandLines);
+    return std::ranges::none_of(lines,
+                                [](const std::string& line) { return line.ends_with("\u2026"); });
+  });
 }
 
 void draw_band_axis(Svg& svg, const PlotArea& area, const Bands& bands,
@@ -210,6 +225,40 @@ std::vector<std::string> broken_text(std::string_view text, double size, double 
   if (!line.empty()) lines.push_back(line);
   for (std::string& finished : lines)
     finished = fitted_text(finished, size, width);
+  return lines;
+}
+
+std::vector<std::string> whole_lines(std::string_view name, double size, double width) {
+  std::vector<std::string> lines;
+  std::string line;
+  const auto end_line = [&] {
+    while (line.ends_with(' '))
+      line.pop_back();
+    if (!line.empty()) lines.push_back(std::exchange(line, ""));
+  };
+  while (!name.empty()) {
+    const std::size_t part_end = std::min(name.find_first_of(" -_"), name.size() - 1) + 1;
+    std::string_view part = name.substr(0, part_end);
+    name.remove_prefix(part_end);
+    const auto fits = [&](std::string_view longer) {
+      return text_width(line + std::string(longer.substr(0, longer.find_last_not_of(' ') + 1)),
+                        size) <= width;
+    };
+    if (!line.empty() && !fits(part)) end_line();
+    while (!fits(part)) {  // letter by letter, at least one of them
+      const auto after = [&](std::size_t at) {
+        return at + std::max<std::size_t>(1, character_length(part.substr(at)));
+      };
+      std::size_t letters = after(0);
+      while (letters < part.size() && fits(part.substr(0, after(letters))))
+        letters = after(letters);
+      if (letters >= part.size()) break;
+      lines.emplace_back(part.substr(0, letters));
+      part.remove_prefix(letters);
+    }
+    line += part;
+  }
+  end_line();
   return lines;
 }
 

@@ -96,7 +96,9 @@ double draw_heading(Svg& svg, std::string_view title, const std::vector<std::str
 /// empty.
 void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);
 
-/// The line below the area with ticks, their texts and the label below them.
+/// The most ticks of a horizontal axis of which the texts stand clear of each other.
+std::size_t ticks_across(const Axis& axis);
+/// The line below the area with ticks, their texts and the label below them, if there is one.
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);
 /// The room that it needs below the area.
 inline constexpr double kHorizontalAxisRoom = 9;
@@ -109,10 +111,16 @@ void draw_band_axis(Svg& svg, const PlotArea& area, const Bands& bands,
 inline constexpr std::size_t kBandLines = 3;
 /// The room that it needs below the area.
 double band_axis_room(const Bands& bands, const std::vector<std::string>& names);
+/// Whether none of the names is shortened.
+bool band_names_fit(const Bands& bands, const std::vector<std::string>& names);
 
 /// The words of a text on lines of at most `width`, `most` of them; what does not fit is shortened.
 std::vector<std::string> broken_text(std::string_view text, double size, double width,
                                      std::size_t most);
+
+/// All of a name on lines of at most `width`: broken at blanks, hyphens and underscores, and within
+/// a word only where that alone is wider.
+std::vector<std::string> whole_lines(std::string_view name, double size, double width);
 
 /// A figure's colour from pale yellow (0) to dark blue (1) that also reads in grey: viridis, turned
 /// round, sampled (van der Walt and Smith 2015).

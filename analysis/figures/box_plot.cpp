@@ -9,6 +9,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/box_marks.h"
+#include "analysis/figures/internal/box_rows.h"
 #include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/panel_grid.h"
 #include "analysis/figures/internal/score_groups.h"
@@ -25,9 +26,12 @@ constexpr double kMostBand = 24;     ///< boxes that are further apart are hard 
 constexpr double kLongestName = 19;  ///< longer words are cut
 constexpr double kAboveLine = 1.5;   ///< the lowest values
 constexpr double kRatio = 0.62;      ///< height of the area by its width, within limits
-constexpr std::string_view kLink = "#888888";
+constexpr double kPage = 240;        ///< higher than that is no page of a journal
 constexpr std::string_view kExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
+    "n: values, each a point";
+constexpr std::string_view kLyingExplanation =
+    "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box lengths; "
     "n: values, each a point";
 
 /// The room that counts need at the right of a box, which stands over its name and so needs as much
@@ -37,26 +41,6 @@ double counts_beside(const ScorePanel& panel) {
   for (const ScoreGroup& group : panel.groups)
     room = std::max(room, count_room(group.values));
   return room;
-}
-
-ValueRange range_of(const ScorePanel& panel) {
-  std::vector<double> all;
-  for (const ScoreGroup& group : panel.groups)
-    all.insert(all.end(), group.values.begin(), group.values.end());
-  return rounded(range_over(all), kUsualTicks);
-}
-
-/// Boxes come in pairs of one name, a narrow one and a wide one.
-bool has_pairs(const ScorePanel& panel) {
-  return !panel.groups.empty() && panel.groups.front().narrow;
-}
-
-/// Below the boxes, from left to right; of a pair one.
-std::vector<std::string> names_of(const ScorePanel& panel) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < panel.groups.size(); i += has_pairs(panel) ? 2U : 1U)
-    names.push_back(panel.groups[i].name);
-  return names;
 }
 
 /// The width that each group of a panel needs.
@@ -75,9 +59,18 @@ double least_width(const ScorePanel& panel) {
          least_band(panel) * static_cast<double>(panel.groups.size());
 }
 
+/// The room for the ticks' texts, the same in all panels: areas below each other begin at one
+/// place.
+double ticks_beside(const BoxPlot& plot) {
+  double room = 0;
+  for (const ScorePanel& panel : plot.panels)
+    room = std::max(room, tick_room(range_of(panel), kUsualTicks));
+  return room;
+}
+
 /// The panel's data area within its place in the grid; groups stand together, not spread over it.
-PlotArea area_of(const ScorePanel& panel, double left, double top, double width) {
-  PlotArea area{.left = left + tick_room(range_of(panel), kUsualTicks), .top = top};
+PlotArea area_of(const ScorePanel& panel, double left, double top, double width, double ticks) {
+  PlotArea area{.left = left + ticks, .top = top};
   area.width =
       std::min(left + width - area.left, kMostBand * static_cast<double>(panel.groups.size()));
   return area;
@@ -101,18 +94,12 @@ void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   const Bands bands = bands_of(panel, area);
   const double counts = counts_beside(panel);
   const double half = std::clamp((bands.width() / 2 - counts - 0.5) * 0.8, 0.8, 4.0);
-  for (const ScoreLink& link : panel.links) {
-    const std::vector<PagePoint> line = {
-        {bands.centre(link.from) + half + 0.6, y.at(link.from_value)},
-        {bands.centre(link.to) - half - 0.6, y.at(link.to_value)}};
-    svg.line(line, stroked(kLink, 0.15));
-  }
-  for (std::size_t i = 0; i < panel.groups.size(); ++i) {
-    const BoxPlace place{.x = bands.centre(i),
-                         .half = panel.groups[i].narrow ? kNarrow * half : half,
-                         .right = bands.centre(i) + bands.width() / 2};
-    draw_marks(svg, panel.groups[i], place, y);
-  }
+  std::vector<BoxPlace> places;
+  for (std::size_t i = 0; i < panel.groups.size(); ++i)
+    places.push_back({.middle = bands.centre(i),
+                      .half = panel.groups[i].narrow ? kNarrow * half : half,
+                      .end = bands.centre(i) + bands.width() / 2});
+  draw_marks(svg, panel, places, y);
   const Bands names = name_bands_of(panel, area);
   draw_band_axis(svg, area, names, names_of(panel));
   const double below = area.bottom() + band_axis_room(names, names_of(panel)) + kTextSize;
@@ -130,14 +117,15 @@ struct BoxLayout {
 
 BoxLayout layout_of(const BoxPlot& plot, const PanelGrid& grid, double top) {
   BoxLayout layout{.bottom = top};
+  const double ticks = grid.rows() > 1 ? ticks_beside(plot) : 0;
   for (std::size_t row = 0; row < grid.rows(); ++row) {
     const double height = std::clamp(kRatio * grid.width(), 36.0, 60.0);
     double below = 0;
     for (std::size_t i = 0; i < plot.panels.size(); ++i) {
       if (grid.row_of(i) != row) continue;
       const ScorePanel& panel = plot.panels[i];
-      PlotArea area =
-          area_of(panel, grid.left_of(i), layout.bottom + kPanelTitleRoom, grid.width());
+      PlotArea area = area_of(panel, grid.left_of(i), layout.bottom + kPanelTitleRoom, grid.width(),
+                              std::max(ticks, tick_room(range_of(panel), kUsualTicks)));
       area.height = height;
       below = std::max(below, band_axis_room(name_bands_of(panel, area), names_of(panel)));
       layout.areas.push_back(area);
@@ -147,26 +135,19 @@ BoxLayout layout_of(const BoxPlot& plot, const PanelGrid& grid, double top) {
   return layout;
 }
 
-/// Two sources of each method become pairs, as the field draws simulation beside another world: the
-/// first narrow, both with the method's name. True when all groups have a partner.
-bool pair_boxes(std::vector<ScorePanel>& panels) {
-  for (const ScorePanel& panel : panels) {
-    const std::vector<ScoreGroup>& groups = panel.groups;
-    if (groups.size() % 2 != 0) return false;
-    for (std::size_t i = 0; i < groups.size(); i += 2) {
-      const bool is_pair = groups[i].method == groups[i + 1].method &&
-                           groups[i].source == panels.front().groups[0].source &&
-                           groups[i + 1].source == panels.front().groups[1].source;
-      if (!is_pair) return false;
-    }
+/// Whether the boxes can stand side by side over their names: on the page, no name cut, and not
+/// lost in a wide figure.
+bool can_stand(const BoxPlot& plot, const PanelGrid& grid, const BoxLayout& layout) {
+  constexpr double kWide = 120;
+  constexpr double kFilled = 0.75;
+  bool is_filled = plot.width_mm < kWide;
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    const PlotArea& area = layout.areas[i];
+    if (!band_names_fit(name_bands_of(plot.panels[i], area), names_of(plot.panels[i])))
+      return false;
+    is_filled = is_filled || area.right() - grid.left_of(i) > kFilled * grid.width();
   }
-  for (ScorePanel& panel : panels) {
-    for (std::size_t i = 0; i < panel.groups.size(); ++i) {
-      panel.groups[i].name = panel.groups[i].method;
-      panel.groups[i].narrow = i % 2 == 0;
-    }
-  }
-  return true;
+  return is_filled && layout.bottom <= kPage;
 }
 
 }  // namespace
@@ -193,23 +174,33 @@ std::string draw(const BoxPlot& plot) {
     needed = std::max(needed, least_width(panel));
   const PanelGrid grid(plot.panels.size(), needed, plot.width_mm);
   const double heading = kMargin + (plot.title.empty() ? 0 : kTitleSize) +
-                         kLineHeight * static_cast<double>(plot.details.size()) + 2;
-  const BoxLayout layout = layout_of(plot, grid, heading + kLineHeight);
-  const auto explanation = broken_text(plot.explained ? kExplanation : std::string_view(),
-                                       kTextSize, plot.width_mm - 2 * kMargin, 6);
-  const double bottom = layout.bottom + kLineHeight * static_cast<double>(explanation.size());
-  Svg svg(plot.width_mm, bottom + kMargin, plot.title,
+                         kLineHeight * static_cast<double>(plot.details.size()) + 2 + kLineHeight;
+  const BoxLayout standing = layout_of(plot, grid, heading);
+  const bool stands = can_stand(plot, grid, standing);
+  std::vector<std::string> below;
+  for (const std::string_view text :
+       {std::string_view(plot.legend), !plot.explained ? ""
+                                       : stands        ? kExplanation
+                                                       : kLyingExplanation}) {
+    for (std::string& line : broken_text(text, kTextSize, plot.width_mm - 2 * kMargin, 6))
+      below.push_back(std::move(line));
+  }
+  const double below_height = kLineHeight * static_cast<double>(below.size());
+  const BoxRows rows(plot.panels, plot.width_mm, kPage - heading - below_height - kMargin);
+  const double bottom = stands ? standing.bottom : heading + rows.height();
+  Svg svg(plot.width_mm, bottom + below_height + kMargin, plot.title,
           fmt::format("Box plots with points in {} panels; {}", plot.panels.size(), plot.axis));
   const double top = draw_heading(svg, plot.title, plot.details);
   const TextStyle ink{.size = kTextSize, .fill = std::string(kInk)};
   svg.text({kMargin, top + kTextSize}, fitted_text(plot.axis, kTextSize, plot.width_mm - 4), ink);
-  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    draw_panel_title(svg, plot.panels[i].title, grid.left_of(i), layout.areas[i].top, grid.width());
-    draw_panel(svg, plot.panels[i], layout.areas[i]);
+  if (!stands) rows.draw(svg, heading);
+  for (std::size_t i = 0; stands && i < plot.panels.size(); ++i) {
+    draw_panel_title(svg, plot.panels[i].title, grid.left_of(i), standing.areas[i].top,
+                     grid.width());
+    draw_panel(svg, plot.panels[i], standing.areas[i]);
   }
-  for (std::size_t i = 0; i < explanation.size(); ++i) {
-    svg.text({kMargin, layout.bottom + kLineHeight * static_cast<double>(i) + kTextSize},
-             explanation[i], ink);
+  for (std::size_t i = 0; i < below.size(); ++i) {
+    svg.text({kMargin, bottom + kLineHeight * static_cast<double>(i) + kTextSize}, below[i], ink);
   }
   return svg.finish();
 }
@@ -218,14 +209,8 @@ Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options) {
   auto scores = grouped_scores(store, options);
   if (!scores) return Unexpected(scores.error());
   std::vector<std::string> details;
-  const bool has_two =
-      scores->by == "method" && scores->panels.front().groups.size() > 1 &&
-      scores->panels.front().groups[0].source != scores->panels.front().groups[1].source;
-  if (has_two && pair_boxes(scores->panels)) {
-    const std::vector<ScoreGroup>& groups = scores->panels.front().groups;
-    scores->details.push_back("narrow boxes: " + groups[0].source +
-                              "; wide boxes: " + groups[1].source);
-  }
+  std::string legend;
+  if (scores->by == "method") legend = pair_boxes(scores->panels);
   for (const std::string& detail : scores->details) {
     for (std::string& line : broken_text(detail, kTextSize, options.width_mm - 2 * kMargin, 3))
       details.push_back(std::move(line));
@@ -233,6 +218,7 @@ Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options) {
   const BoxPlot plot{.title = "Scores by " + scores->by,
                      .details = std::move(details),
                      .panels = std::move(scores->panels),
+                     .legend = std::move(legend),
                      .width_mm = options.width_mm};
   return Figure{.svg = draw(for_paper(plot, options)), .csv = std::move(scores->csv), .tex = {}};
 }

@@ -13,6 +13,7 @@ struct BoxPlot {
   std::vector<std::string> details;
   std::string axis = "score (higher is better)";
   std::vector<ScorePanel> panels;  ///< no group is empty
+  std::string legend{};            ///< what tells boxes of one name apart; stands in papers, too
   double width_mm = 84;
   bool explained = true;  ///< says below how to read it
 };
@@ -31,8 +32,10 @@ struct BoxNumbers {
 /// Of values in any order, not none.
 BoxNumbers box_numbers(std::vector<double> values);
 
-/// As SVG. Every value is a point; points stand side by side in an order that depends on the values
-/// alone. Where values repeat, their counts are written beside them, if there is room.
+/// As SVG. Boxes stand side by side; where their names would be cut, or the page is too low or too
+/// wide for that, they lie below each other. Every value is a point; points stand side by side in
+/// an order that depends on the values alone. Where values repeat, their counts are written beside
+/// them, if there is room.
 std::string draw(const BoxPlot& plot);
 
 }  // namespace swarmsmith

@@ -92,6 +92,10 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
     if (std::ranges::find(*all, design.design, &EliteRecord::design) != all->end())
       raced.push_back(design);
   }
+  // Panels in the order of all figures.
+  std::ranges::stable_sort(raced, {}, [&](const DesignRecord& design) {
+    return place_of(names->missions, design.mission);
+  });
   PlotOfDesigns made(raced, *names, options.width_mm);
   std::map<DesignId, const DesignRecord*> by_id;
   for (const DesignRecord& design : *known)

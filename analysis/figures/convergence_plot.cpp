@@ -97,12 +97,39 @@ void draw_band(Svg& svg, const Line& line, const Axis& x, const Axis& y) {
   svg.polygon(outline, filled(lightened(distinct_color(line.group), 0.75)));
 }
 
+/// Searches that say how good their best is once or twice have no steps: all of their risers would
+/// lie on each other at the end.
+bool has_steps(const Panel& panel, std::size_t group) {
+  constexpr std::size_t kFew = 2;
+  return std::ranges::any_of(panel.lines, [&](const Line& line) {
+    return line.group == group && line.points.size() > kFew;
+  });
+}
+
+/// Of the ends of the lines.
+StairPoint median_end(const std::vector<std::vector<StairPoint>>& lines) {
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (const auto& line : lines) {
+    if (line.empty()) continue;
+    xs.push_back(line.back().x);
+    ys.push_back(line.back().y);
+  }
+  std::ranges::sort(xs);
+  std::ranges::sort(ys);
+  const auto middle = [](const std::vector<double>& sorted) {
+    return (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2;
+  };
+  return {middle(xs), middle(ys)};
+}
+
 void draw_curves(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
   for (const Line& line : panel.lines) {
     const bool is_crowd = lines_of(panel, line.group) >= kCrowd;
     std::string color = distinct_color(line.group);
     if (is_crowd) color = lightened(color, 0.5);
-    const auto points = on_page(stairs(points_of(line, &ConvergencePlot::Point::mean)), x, y);
+    const auto values = points_of(line, &ConvergencePlot::Point::mean);
+    const auto points = on_page(has_steps(panel, line.group) ? stairs(values) : values, x, y);
     svg.line(points, stroked(color, is_crowd ? 0.15 : 0.4));
     if (!points.empty()) svg.circle(points.back(), is_crowd ? 0.4 : 0.7, filled(color));
   }
@@ -115,7 +142,13 @@ void draw_curves(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
     for (const Line& line : panel.lines) {
       if (line.group == group) all.push_back(points_of(line, &ConvergencePlot::Point::mean));
     }
-    svg.line(on_page(stairs(median_of(all)), x, y), stroked(distinct_color(group), 0.7));
+    const auto median = median_of(all);
+    if (median.size() > 1)
+      svg.line(on_page(has_steps(panel, group) ? stairs(median) : median, x, y),
+               stroked(distinct_color(group), 0.7));
+    if (has_steps(panel, group)) continue;
+    const StairPoint end = median_end(all);
+    svg.circle({x.at(end.x), y.at(end.y)}, 1, filled(distinct_color(group)));
   }
 }
 

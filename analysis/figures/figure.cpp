@@ -66,8 +66,10 @@ std::span<const FigureKind> figure_kinds() {
                  "mission method design parameter"},
       FigureKind{"importance", "How much of the candidates' scores goes with each parameter",
                  importance_figure, "mission method design"},
-      FigureKind{"ranks", "Mean ranks of methods or sources with Friedman's 95 % intervals",
-                 ranks_figure, "mission method by source purpose"},
+      FigureKind{
+          "ranks",
+          "Mean ranks of methods or sources, with intervals if Friedman's test finds a difference",
+          ranks_figure, "mission method by source purpose"},
   };
   return kKinds;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/records/chosen_scores.h"
 #include "analysis/records/records.h"
@@ -19,7 +20,12 @@ struct Figure {
   std::string csv;  ///< RFC 4180, header, a row a point, full precision: everything that was drawn
   std::string tex;  ///< TikZ, of machines alone; else empty
   std::string dot;  ///< GraphViz, of one controller alone; else empty
+  /// The same picture cut into pages, where it is higher than one; else empty.
+  std::vector<std::string> pages{};
 };
+
+/// What is higher fits on no page of a journal, mm.
+inline constexpr double kFigurePage_mm = 240;
 
 /// The narrowest and widest figures, mm.
 inline constexpr double kLeastFigureWidth_mm = 60;

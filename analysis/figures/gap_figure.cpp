@@ -11,6 +11,7 @@
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/box_plot.h"
 #include "analysis/figures/internal/for_paper.h"
+#include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/internal/store_names.h"
 #include "analysis/figures/makers.h"
 #include "analysis/records/chosen_scores.h"
@@ -76,12 +77,14 @@ void add_boxes(ScorePanel& panel, const GapGroup& group, const std::vector<std::
   std::map<DesignId, ScoreLink> open;
   for (const std::string& source : sources) {
     ScoreGroup box{.name = several_methods ? group.method + " " + source : source,
-                   .color = place_of(names.sources, source)};
+                   .color = place_of(names.sources, source),
+                   .method = group.method,
+                   .source = source};
     for (const auto& [design, values] : group.designs) {
       const ScoreValue* value = in_source(values, source);
       if (value == nullptr) continue;
+      const ScoreLink here{.from = panel.groups.size(), .from_value = box.values.size()};
       box.values.push_back(value->score.score);
-      const ScoreLink here{.from = panel.groups.size(), .from_value = value->score.score};
       if (const auto before = open.find(design); before != open.end()) {
         ScoreLink link = before->second;
         link.to = here.from;
@@ -176,14 +179,19 @@ Expected<Figure> gap_figure(StoreReader& store, const FigureOptions& options) {
                       "the winners have scores of " +
                           (sources.empty() ? std::string("no source")
                                            : "one source alone (" + sources.front() + ")") +
-                          "; `swarmsmith evaluate best --profile pseudo-reality --store STORE` "
-                          "adds those of another");
+                          "; `[tests] profiles` of a campaign file adds those of another on the "
+                          "same seeds, `swarmsmith evaluate best --profile pseudo-reality --store "
+                          "STORE` on others");
   }
   const GapGroups groups = grouped_by_method(values, *names);
   BoxPlot plot{
       .title = "From " + sources.front() + " to other sources",
       .details = {taken.said + "; lines join the values of one design", runs_text(values, sources)},
       .width_mm = options.width_mm};
+  for (std::size_t s = 1; s < sources.size(); ++s) {
+    if (auto note = seeds_differ(taken.scores, sources[0], sources[s]))
+      plot.details.push_back(std::move(*note));
+  }
   std::map<std::string, std::size_t> methods;
   for (const auto& [place, group] : groups)
     ++methods[group.method];
@@ -207,6 +215,7 @@ Expected<Figure> gap_figure(StoreReader& store, const FigureOptions& options) {
       lines.push_back(std::move(line));
   }
   plot.details = std::move(lines);
+  if (methods.size() > 1) plot.legend = pair_boxes(plot.panels);
   return Figure{.svg = draw(for_paper(plot, options)), .csv = csv_of(groups, sources), .tex = {}};
 }
 

@@ -258,7 +258,7 @@ Expected<Figure> importance_figure(StoreReader& store, const FigureOptions& opti
     csv +=
         fmt::format("{},{},{},{},{},{}\n", design->design.value, csv_field(column.name),
                     scores.size(), distinct.size(), importance.eta_squared, importance.by_chance);
-    plot.bars.push_back({column.name, importance});
+    plot.bars.push_back({column.words, importance});
   }
   if (plot.bars.empty()) {
     return unexpected(ErrorKind::NotFound,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -76,7 +77,7 @@ std::array<std::string, 2> words_of(const MachineRecord& record) {
 }
 
 /// "state machines", "behaviour trees", "neural networks", or of all kinds.
-std::string_view what_is_drawn(const std::vector<Drawn>& machines) {
+std::string_view what_is_drawn(std::span<const Drawn> machines) {
   const Architecture first = architecture_of(machines.front().stored.controller);
   for (const Drawn& machine : machines)
     if (architecture_of(machine.stored.controller) != first) return "controllers";
@@ -92,7 +93,7 @@ std::string_view what_is_drawn(const std::vector<Drawn>& machines) {
 }
 
 /// A sentence for each kind that is among them.
-std::string explanations(const std::vector<Drawn>& machines) {
+std::string explanations(std::span<const Drawn> machines) {
   std::set<Architecture> kinds;
   for (const Drawn& machine : machines)
     kinds.insert(architecture_of(machine.stored.controller));
@@ -102,10 +103,11 @@ std::string explanations(const std::vector<Drawn>& machines) {
   return text;
 }
 
+constexpr double kAbove = 2 * kLineHeight + 1;
+constexpr double kBelow = 4;
+
 /// Machines side by side, in rows, each below its name.
-std::string drawn_sheet(const std::vector<Drawn>& machines, std::size_t columns, double column) {
-  constexpr double kAbove = 2 * kLineHeight + 1;
-  constexpr double kBelow = 4;
+std::string drawn_sheet(std::span<const Drawn> machines, std::size_t columns, double column) {
   std::vector<double> rows;
   for (std::size_t i = 0; i < machines.size(); ++i) {
     if (i % columns == 0) rows.push_back(0);
@@ -128,6 +130,27 @@ std::string drawn_sheet(const std::vector<Drawn>& machines, std::size_t columns,
   return svg.finish();
 }
 
+/// The rows of a sheet on pages, as many on each as it holds.
+std::vector<std::string> drawn_pages(std::span<const Drawn> machines, std::size_t columns,
+                                     double column) {
+  std::vector<std::string> pages;
+  std::size_t first = 0;
+  double height = kMargin;
+  for (std::size_t i = 0; i < machines.size(); i += columns) {
+    double row = 0;
+    for (std::size_t k = i; k < std::min(i + columns, machines.size()); ++k)
+      row = std::max(row, machines[k].drawing.svg.height() + kAbove + kBelow);
+    if (i > first && height + row > kFigurePage_mm) {
+      pages.push_back(drawn_sheet(machines.subspan(first, i - first), columns, column));
+      first = i;
+      height = kMargin;
+    }
+    height += row;
+  }
+  if (first > 0) pages.push_back(drawn_sheet(machines.subspan(first), columns, column));
+  return pages;
+}
+
 /// The appendix of a paper: every machine, in rows.
 Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId>& candidates,
                                double width) {
@@ -147,7 +170,9 @@ Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId
     machines.push_back(std::move(*machine));
   }
   figure.csv = table.text();
-  figure.svg = drawn_sheet(machines, std::min(columns, machines.size()), column);
+  const std::size_t across = std::min(columns, machines.size());
+  figure.svg = drawn_sheet(machines, across, column);
+  figure.pages = drawn_pages(machines, across, column);
   return figure;
 }
 

@@ -9,6 +9,7 @@
 
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
+#include "analysis/figures/internal/module_grid.h"
 
 namespace swarmsmith {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kLeastColumn = 17.6;  ///< two numbers side by side, mm
 constexpr double kGap = 1.5;           ///< between columns, and within one
 constexpr double kRow = 7.5;
 constexpr double kBar = 1.5;
+constexpr double kPage = 240;  ///< what is higher becomes a grid
 constexpr std::string_view kTrack = "#e8e8e8";
 TextStyle ink_of_size(double size, TextStyle::Anchor anchor = TextStyle::Anchor::Start) {
   return {.size = size, .anchor = anchor, .fill = std::string(kInk)};
@@ -198,6 +200,7 @@ std::string draw(const ModuleChart& chart) {
   const double top = kMargin + (chart.title.empty() ? 0 : kTitleSize) +
                      kLineHeight * static_cast<double>(chart.details.size()) + 2;
   const double bottom = top + height * static_cast<double>(stripes.size());
+  if (chart.blocks.size() > 1 && bottom > kPage) return draw_module_grid(chart);
   Svg svg(chart.width_mm, bottom + kLineHeight * static_cast<double>(explanation.size()) + kMargin,
           chart.title, fmt::format("Table with bars: {} modules by mission", chart.modules.size()));
   draw_heading(svg, chart.title, chart.details);

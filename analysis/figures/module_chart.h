@@ -30,7 +30,8 @@ struct ModuleChart {
   bool explained = true;  ///< says below how to read it
 };
 
-/// As SVG. Columns that do not fit side by side continue below.
+/// As SVG. Columns that do not fit side by side continue below; what then is higher than a page is
+/// drawn as a grid of methods a mission.
 std::string draw(const ModuleChart& chart);
 
 }  // namespace swarmsmith

@@ -135,8 +135,9 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
   }
 
   ParallelPlot plot{.title = title_of(*design), .width_mm = options.width_mm};
-  plot.details.push_back(fmt::format("{} elites of {}, iteration {}", drawn.elites.size(),
-                                     to_string(design->design), drawn.iteration));
+  plot.details.push_back(fmt::format("{} elite{} of {}, iteration {}", drawn.elites.size(),
+                                     drawn.elites.size() == 1 ? "" : "s", to_string(design->design),
+                                     drawn.iteration));
   plot.details.push_back(
       fmt::format("and {} of {} other candidates", drawn.others.size(), drawn.others_in_all));
   plot.caption = caption_of(drawn, options, chosen->size(), table->columns.size());
@@ -148,8 +149,11 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
     plot.lines.push_back(line_of(*table, *chosen, row, false));
   for (const std::size_t row : drawn.elites)
     plot.lines.push_back(line_of(*table, *chosen, row, true));
-  return Figure{
-      .svg = draw(for_paper(plot, options)), .csv = csv_of(plot, design->design), .tex = {}};
+  Figure figure{.csv = csv_of(plot, design->design)};
+  for (std::size_t i = 0; i < chosen->size(); ++i)
+    plot.parameters[i].name = table->columns[(*chosen)[i]].words;
+  figure.svg = draw(for_paper(plot, options));
+  return figure;
 }
 
 }  // namespace swarmsmith

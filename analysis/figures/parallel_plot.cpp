@@ -17,6 +17,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kPaleness = 0.35;
+constexpr double kNameLine = 3.1;
 constexpr std::size_t kCaptionLines = 8;
 constexpr std::size_t kStripParts = 24;
 constexpr std::string_view kAxisColor = "#777777";
@@ -80,9 +81,12 @@ void draw_axes(Svg& svg, const ParallelPlot& plot, const ParallelLayout& at) {
     const bool has_inactive = std::ranges::any_of(
         plot.lines, [&](const ParallelPlot::Line& line) { return std::isnan(line.values[p]); });
     if (has_inactive) draw_rule(svg, at.inactive_left(), at.inactive_left() + kInactivePlace, y);
-    svg.text({kMargin, y + 0.36 * kTextSize},
-             fitted_text(plot.parameters[p].name, kTextSize, at.names()),
-             ink(TextStyle::Anchor::Start));
+    const auto lines = whole_lines(plot.parameters[p].name, kTextSize, at.names() + 0.01);
+    double base = y + 0.36 * kTextSize - kNameLine * static_cast<double>(lines.size() - 1) / 2;
+    for (const std::string& line : lines) {
+      svg.text({kMargin, base}, line, ink(TextStyle::Anchor::Start));
+      base += kNameLine;
+    }
     for (const auto& label : at.labels(p)) {
       draw_label(svg,
                  {label.x, y + 0.6 + kAxisText + kAxisTextLine * static_cast<double>(label.line)},

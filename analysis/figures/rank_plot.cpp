@@ -24,8 +24,6 @@ constexpr std::size_t kNameLines = 2;
 constexpr std::string_view kBand = "#e4e4e4";
 constexpr std::string_view kGuide = "#d0d0d0";
 constexpr std::string_view kRankLabel = "mean rank (1 is best)";
-constexpr std::string_view kHowToRead =
-    "Intervals of 95 %: two that do not overlap differ at 5 %. Grey: the best one's.";
 
 /// The best on top; of equal ones the first.
 std::vector<RankPlot::Row> by_rank(std::vector<RankPlot::Row> rows) {
@@ -36,8 +34,9 @@ std::vector<RankPlot::Row> by_rank(std::vector<RankPlot::Row> rows) {
 ValueRange range_of(const RankPlot::Panel& panel) {
   std::vector<double> ends = {1, static_cast<double>(panel.rows.size())};
   for (const RankPlot::Row& row : panel.rows) {
-    ends.push_back(row.low);
-    ends.push_back(row.high);
+    if (!row.interval) continue;
+    ends.push_back(row.interval->first);
+    ends.push_back(row.interval->second);
   }
   return rounded(range_over(ends), kUsualTicks);
 }
@@ -68,11 +67,13 @@ void draw_range(Svg& svg, PagePoint from, PagePoint to, std::string_view color, 
 }
 
 void draw_row(Svg& svg, const RankPlot::Row& row, double y, const Axis& x) {
-  const double low = x.at(row.low);
-  const double high = x.at(row.high);
-  draw_range(svg, {low, y}, {high, y}, kInk, 0.4);
-  for (const double end : {low, high})
-    draw_range(svg, {end, y - kCap}, {end, y + kCap}, kInk, 0.4);
+  if (row.interval) {
+    const double low = x.at(row.interval->first);
+    const double high = x.at(row.interval->second);
+    draw_range(svg, {low, y}, {high, y}, kInk, 0.4);
+    for (const double end : {low, high})
+      draw_range(svg, {end, y - kCap}, {end, y + kCap}, kInk, 0.4);
+  }
   svg.circle({x.at(row.mean), y}, kDot, filled(distinct_color(0)));
 }
 
@@ -117,12 +118,14 @@ double draw_panel(Svg& svg, const RankPlot::Panel& panel, double top, double nam
                       .height = kRowHeight * static_cast<double>(panel.rows.size())};
   const Axis x(range_of(panel), area.left, area.right());
   const std::vector<RankPlot::Row> rows = by_rank(panel.rows);
-  const double low = x.at(rows.front().low);
-  const double high = x.at(rows.front().high);
-  const std::array<PagePoint, 4> band = {PagePoint{low, area.top}, PagePoint{high, area.top},
-                                         PagePoint{high, area.bottom()},
-                                         PagePoint{low, area.bottom()}};
-  svg.polygon(band, filled(kBand));
+  if (rows.front().interval) {
+    const double low = x.at(rows.front().interval->first);
+    const double high = x.at(rows.front().interval->second);
+    const std::array<PagePoint, 4> band = {PagePoint{low, area.top}, PagePoint{high, area.top},
+                                           PagePoint{high, area.bottom()},
+                                           PagePoint{low, area.bottom()}};
+    svg.polygon(band, filled(kBand));
+  }
   draw_horizontal_axis(svg, area, x, kRankLabel);
   const Bands places(rows.size(), area.top, area.bottom());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -156,8 +159,9 @@ RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
           : "All values are tied: there is no test");
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
-    const auto interval = test.interval(i).value_or(FriedmanTest::Interval{mean, mean});
-    panel.rows.push_back({ranks.names[i], mean, interval.low, interval.high});
+    panel.rows.push_back({ranks.names[i], mean});
+    if (const auto interval = test.told_interval(i))
+      panel.rows.back().interval = {interval->low, interval->high};
   }
   return panel;
 }
@@ -183,7 +187,7 @@ Expected<Comparison> ranked(StoreReader& store, const FigureOptions& options) {
 std::string draw(const RankPlot& plot) {
   const double width = plot.width_mm - 2 * kMargin;
   const auto footer =
-      broken_text(plot.explained ? kHowToRead : std::string_view(), kTextSize, width, 3);
+      broken_text(plot.explained ? plot.reading : std::string(), kTextSize, width, 3);
   double height = kMargin + kTitleSize + 2 + kLineHeight * static_cast<double>(footer.size());
   for (const RankPlot::Panel& panel : plot.panels)
     height += height_of(panel, width);
@@ -211,8 +215,21 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
   RankPlot plot{.title = fmt::format("Ranks by {}", name_of(comparison->options.by)),
                 .width_mm = options.width_mm};
   const bool alone = comparison->ranks.size() == 1;
-  for (const ComparedRanks& ranks : comparison->ranks)
+  const FriedmanTest& first = comparison->ranks.front().test;
+  const bool read_alike = std::ranges::all_of(comparison->ranks, [&](const ComparedRanks& ranks) {
+    return ranks.test.reading() == first.reading();
+  });
+  if (read_alike) plot.reading = first.reading();
+  for (const ComparedRanks& ranks : comparison->ranks) {
     plot.panels.push_back(panel_of(ranks, comparison->options.by, alone));
+    std::vector<std::string>& details = plot.panels.back().details;
+    details.insert(details.end(), comparison->seeds.begin(), comparison->seeds.end());
+    if (!read_alike) details.emplace_back(ranks.test.reading());
+  }
+  const bool has_band = std::ranges::any_of(comparison->ranks, [](const ComparedRanks& ranks) {
+    return ranks.test.told_interval(0).has_value();
+  });
+  if (read_alike && has_band) plot.reading += " Grey: the best one's.";
   return Figure{.svg = draw(for_paper(plot, options)), .csv = ranks_csv(comparison->ranks)};
 }
 

@@ -156,8 +156,11 @@ Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& option
         "candidates (total variation).",
         plot.panels.size(), table->columns.size());
   }
-  return Figure{
-      .svg = draw(for_paper(plot, options)), .csv = csv_of(plot, design->design), .tex = {}};
+  Figure figure{.csv = csv_of(plot, design->design)};
+  for (std::size_t i = 0; i < chosen->size(); ++i)
+    plot.panels[i].name = table->columns[(*chosen)[i]].words;
+  figure.svg = draw(for_paper(plot, options));
+  return figure;
 }
 
 }  // namespace swarmsmith

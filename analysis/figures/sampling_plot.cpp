@@ -41,13 +41,13 @@ void draw_iterations(Svg& svg, const SamplingPlot& plot, const PlotArea& area) {
 std::vector<FlowingLegend> legends_of(const SamplingPlot& plot, const CategoryColors& colors) {
   std::vector<std::vector<LegendEntry>> paragraphs;
   for (const auto& family : colors.families()) {
-    std::string names;
-    for (const auto& panel : plot.panels) {
-      if (CategoryColors::belongs(panel.categories, family))
-        names += (names.empty() ? "" : ", ") + panel.name;
-    }
     auto& entries = paragraphs.emplace_back();
-    entries.push_back({"", names + ":"});
+    for (const auto& panel : plot.panels) {
+      if (!CategoryColors::belongs(panel.categories, family)) continue;
+      if (!entries.empty()) entries.back().text += ",";
+      entries.push_back({"", panel.name});
+    }
+    entries.back().text += ":";
     for (const auto& [value, color] : family)
       entries.push_back({color, value});
   }
@@ -110,7 +110,12 @@ std::string draw(const SamplingPlot& plot) {
   const double pitch = (width + kBetween) / static_cast<double>(across);
   const double area_width = pitch - kBetween - room;
   const double area_height = std::min(kTallestPanel, kSampleRatio * (pitch - kBetween));
-  const double line_height = kLineHeight + area_height + 0.6 + kLineHeight;
+  double names = kLineHeight;
+  for (const auto& panel : plot.panels) {
+    const auto name_lines = whole_lines(panel.name, kTextSize, pitch - 1).size();
+    names = std::max(names, 1 + kPanelNameLine * static_cast<double>(name_lines));
+  }
+  const double line_height = names + area_height + 0.6 + kLineHeight;
   const double head = head_of(plot);
   double legend_top = head + lines * line_height + kLineHeight + 1;
   const double caption_top = legend_top + legends_height + kTextSize;
@@ -122,7 +127,7 @@ std::string draw(const SamplingPlot& plot) {
     const SamplingPlot::Panel& panel = plot.panels[i];
     const std::size_t line = i / across;
     const PlotArea area{.left = kMargin + room + pitch * static_cast<double>(i % across),
-                        .top = head + kLineHeight + line_height * static_cast<double>(line),
+                        .top = head + names + line_height * static_cast<double>(line),
                         .width = area_width,
                         .height = area_height};
     SamplingPanel drawing(svg, panel, area);

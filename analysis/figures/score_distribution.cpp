@@ -14,6 +14,7 @@
 #include "analysis/drawing/legend.h"
 #include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/panel_grid.h"
+#include "analysis/figures/internal/score_grid.h"
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
 
@@ -244,10 +245,15 @@ Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options)
   plot.details.front() += "; higher is better";
   const std::size_t groups = give_each_a_color(plot);
   if (groups > kDistinctColors) {
-    return bad_input(
-        fmt::format("{} groups need {} different colours; choose a --method or a --source", groups,
-                    groups),
-        "figure scores");
+    const auto names = names_of(store);
+    if (!names) return Unexpected(names.error());
+    if (names->sources.size() > kDistinctColors)
+      return bad_input(
+          fmt::format("{} sources need as many colours; choose a --source", names->sources.size()),
+          "figure scores");
+    return Figure{.svg = draw_score_grid(for_paper(plot, options), names->sources),
+                  .csv = std::move(scores->csv),
+                  .tex = {}};
   }
   return Figure{.svg = draw(for_paper(plot, options)), .csv = std::move(scores->csv), .tex = {}};
 }

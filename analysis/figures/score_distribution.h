@@ -12,7 +12,8 @@ namespace swarmsmith {
 struct ScoreDistribution {
   std::string title;
   std::vector<std::string> details;
-  std::vector<ScorePanel> panels;   ///< at most kDistinctColors groups, each with its own colour
+  /// At most kDistinctColors groups, each with its own colour; a figure of more is a grid.
+  std::vector<ScorePanel> panels;
   std::vector<std::string> groups;  ///< what each colour stands for; empty for nothing here
   double width_mm = 84;
 };

@@ -20,15 +20,15 @@ struct ScoreGroup {
 struct ScoreLink {
   std::size_t from = 0;  ///< places of the groups
   std::size_t to = 0;
-  double from_value = 0;
-  double to_value = 0;
+  std::size_t from_value = 0;  ///< places of the values in them
+  std::size_t to_value = 0;
 };
 
 /// Groups on one axis: of one mission, since the scores of others have other units.
 struct ScorePanel {
   std::string title;  ///< the mission
   std::vector<ScoreGroup> groups;
-  std::vector<ScoreLink> links{};  ///< lines between the boxes
+  std::vector<ScoreLink> links{};  ///< lines between the points
 };
 
 }  // namespace swarmsmith

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "analysis/statistics/summary.h"
 
@@ -70,6 +73,32 @@ std::vector<ScoreValue> values_of(const ChosenScores& taken) {
   for (ScoreValue& value : values)
     value.score.score = mean_of(value.runs);
   return values;
+}
+
+std::optional<std::string> seeds_differ(const std::vector<DesignScore>& scores,
+                                        const std::string& first, const std::string& second) {
+  constexpr std::string_view kRobots = "real";
+  if (first == kRobots || second == kRobots) return std::nullopt;
+  using Seeds = std::multiset<std::pair<std::int64_t, std::int64_t>>;  // instance and seed
+  std::map<DesignId, std::pair<Seeds, Seeds>> designs;
+  for (const DesignScore& score : scores) {
+    if (score.source != first && score.source != second) continue;
+    auto& [of_first, of_second] = designs[score.design];
+    if (score.seed != 0)
+      (score.source == first ? of_first : of_second).insert({score.instance, score.seed});
+  }
+  std::size_t paired = 0;
+  std::size_t different = 0;
+  for (const auto& [design, seeds] : designs) {
+    if (seeds.first.empty() || seeds.second.empty()) continue;
+    ++paired;
+    different += seeds.first != seeds.second ? 1U : 0U;
+  }
+  if (different == 0) return std::nullopt;
+  return fmt::format(
+      "the seeds of {} and {} differ in {} of {} designs, so a part of the difference may be "
+      "theirs",
+      first, second, different, paired);
 }
 
 }  // namespace swarmsmith

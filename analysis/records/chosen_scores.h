@@ -48,4 +48,9 @@ struct ScoreValue {
 /// In the order of the scores.
 std::vector<ScoreValue> values_of(const ChosenScores& taken);
 
+/// A warning where designs have scores of two sources and ran on other seeds in the one than in the
+/// other: their difference then is one of seeds, too. None for robots, whose runs have no seeds.
+std::optional<std::string> seeds_differ(const std::vector<DesignScore>& scores,
+                                        const std::string& first, const std::string& second);
+
 }  // namespace swarmsmith

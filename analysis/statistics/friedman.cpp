@@ -67,4 +67,18 @@ std::optional<FriedmanTest::Interval> FriedmanTest::interval(std::size_t number)
                   std::min(static_cast<double>(treatments), mean + *half_width)};
 }
 
+std::optional<FriedmanTest::Interval> FriedmanTest::told_interval(std::size_t number) const {
+  if (!finds_a_difference() || !half_width || *half_width == 0) return std::nullopt;
+  return interval(number);
+}
+
+std::string_view FriedmanTest::reading() const {
+  if (!finds_a_difference())
+    return "No difference is found at 5 %, so there are no intervals: the order may be chance.";
+  if (!told_interval(0))
+    return "They differ at 5 %. All blocks have the same order, so there are no intervals to tell "
+           "which.";
+  return "Intervals of 95 %: two that do not overlap differ at 5 %.";
+}
+
 }  // namespace swarmsmith

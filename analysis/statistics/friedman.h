@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace swarmsmith {
@@ -28,12 +29,20 @@ struct FriedmanTest {
   /// fewer than two blocks.
   std::optional<double> half_width;
 
+  /// Whether treatments differ at 5 %. Without that no two of them are told apart, whatever their
+  /// intervals look like (Conover, the same section).
+  bool finds_a_difference() const { return p_value && *p_value < 0.05; }
+
   struct Interval {
     double low = 1;
     double high = 1;
   };
   /// Of the mean rank of treatment `number`, from 1 to k at most; none without a half width.
   std::optional<Interval> interval(std::size_t number) const;
+  /// The same for people: none where it would say more than the test.
+  std::optional<Interval> told_interval(std::size_t number) const;
+  /// A sentence: what the told intervals say, or why there are none.
+  std::string_view reading() const;
 };
 
 /// `values` has a row a block and a column a treatment, larger is better; at least one row, at

@@ -12,12 +12,14 @@ namespace {
 
 struct BackupArguments {
   std::vector<std::string> words;
+  std::string out;
   StoreArgument store;
 };
 
 /// `backup STORE COPY`, or `backup COPY` with the store from option or environment.
 ExitCode run_backup(BackupArguments& arguments, Output& output) {
   std::vector<std::string>& words = arguments.words;
+  if (!arguments.out.empty()) words.push_back(arguments.out);
   if (words.size() == 2 && arguments.store.option.empty()) {
     arguments.store.word = words.front();
     words.erase(words.begin());
@@ -64,8 +66,9 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
 
 CommandRun declare_backup(Options& options) {
   auto arguments = std::make_shared<BackupArguments>();
-  options.words("STORE_AND_COPY STORE", arguments->words, "The store's file, then the copy's",
-                Options::Need::Required);
+  options.words("STORE_AND_COPY STORE", arguments->words, "The store's file, then the copy's");
+  options.text("-o,--output STORE", arguments->out,
+               "The copy's file, if it is not the second word");
   arguments->store.declare(options, false);
   return [arguments](Output& output) { return run_backup(*arguments, output); };
 }

@@ -64,7 +64,7 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
   }
   output.out << "disk         about " << megabytes << " MB, and "
              << decimals(plan.log_bytes / 1e6, "%.1f") << " MB of log while it runs\n"
-             << "digest       " << campaign_digest(campaign) << "\n";
+             << "digest       " << campaign_digest(campaign) << " of what the file asks for\n";
 }
 
 /// The plan for programs.

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <memory>
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/comparison/comparison_text.h"
+#include "analysis/comparison/method_matrix.h"
 #include "analysis/comparison/paper_text.h"
 #include "analysis/statistics/effect_size.h"
 #include "base/text/json.h"
@@ -15,12 +17,13 @@ namespace {
 
 struct CompareArguments {
   StoreArgument store;
-  std::string by = "source";
+  std::string by;
   std::string purpose;
   std::string per;
   std::string table;
   std::string paper;
   bool csv = false;
+  bool matrix = false;
   ComparisonOptions options;
 };
 
@@ -32,6 +35,7 @@ CompareBy by_of(const std::string& word) {
 std::string csv_of(const Comparison& comparison, const std::string& table) {
   if (table == "groups") return groups_csv(comparison);
   if (table == "ranks") return ranks_csv(comparison.ranks);
+  if (table == "matrix") return matrices_csv(comparison);
   return pairs_csv(comparison);
 }
 
@@ -105,16 +109,46 @@ std::string comparison_json(const Comparison& comparison) {
       .text();
 }
 
+std::string matrix_json(const Comparison& comparison) {
+  return JsonObject()
+      .add("per", name_of(comparison.unit))
+      .add("purpose", comparison.options.choice.purpose)
+      .add("matrices", matrices_json(comparison))
+      .add("notes", comparison.notes)
+      .text();
+}
+
+/// What was asked for; else sources where there are several, and methods where there are not.
+Expected<Comparison> compared(StoreReader& store, const CompareArguments& arguments) {
+  ComparisonOptions options = arguments.options;
+  const bool is_matrix = arguments.matrix || arguments.table == "matrix";
+  options.by = is_matrix ? CompareBy::Method : by_of(arguments.by);
+  options.choice = score_choice(arguments.purpose, arguments.per);
+  auto comparison = compare(store, options);
+  if (!comparison || !arguments.by.empty() || options.by != CompareBy::Source) return comparison;
+  const auto differ = [&](std::string ComparedGroup::*part) {
+    return std::ranges::any_of(comparison->groups, [&](const ComparedGroup& group) {
+      return group.*part != comparison->groups.front().*part;
+    });
+  };
+  if (differ(&ComparedGroup::source) || !differ(&ComparedGroup::method)) return comparison;
+  options.by = CompareBy::Method;
+  return compare(store, options);
+}
+
 ExitCode run_compare(CompareArguments& arguments, Output& output) {
   if (!arguments.table.empty() && !arguments.csv)
     return fail(output, ExitCode::Usage, "--table says which table --csv writes: give both");
   if (!arguments.paper.empty() && (arguments.csv || output.json))
     return fail(output, ExitCode::Usage, "--paper writes sentences: leave --csv and --json out");
+  if (arguments.matrix && (arguments.csv || !arguments.paper.empty()))
+    return fail(output, ExitCode::Usage,
+                "--matrix is for people and --json; as a table it is --csv --table matrix");
+  if (arguments.matrix && !arguments.by.empty() && arguments.by != "method")
+    return fail(output, ExitCode::Usage, "--matrix compares methods: leave --by out");
   const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  arguments.options.by = by_of(arguments.by);
-  arguments.options.choice = score_choice(arguments.purpose, arguments.per);
-  const auto comparison = compare(**store, arguments.options);
+  const auto comparison = compared(**store, arguments);
   if (!comparison) {
     const bool not_there = comparison.error().kind == ErrorKind::NotFound;
     return fail(output, not_there ? ExitCode::NoSuchId : ExitCode::Usage, comparison.error());
@@ -128,9 +162,11 @@ ExitCode run_compare(CompareArguments& arguments, Output& output) {
     write_data(output, csv_of(*comparison, groups ? "groups" : arguments.table));
     for (const std::string& note : comparison->notes)
       print_note(output, note);
+  } else if (output.json) {
+    output.out << (arguments.matrix ? matrix_json(*comparison) : comparison_json(*comparison))
+               << "\n";
   } else {
-    output.out << (output.json ? comparison_json(*comparison) + "\n"
-                               : comparison_text(*comparison));
+    output.out << (arguments.matrix ? matrices_text(*comparison) : comparison_text(*comparison));
   }
   return ExitCode::Done;
 }
@@ -141,14 +177,16 @@ CommandRun declare_compare(Options& options) {
   auto arguments = std::make_shared<CompareArguments>();
   arguments->store.declare(options);
   options.choice("--by", arguments->by, {"source", "method", "mission"},
-                 "What to compare (default source)");
+                 "What to compare (default: source if there are several, else method)");
+  options.flag("--matrix", arguments->matrix,
+               "Which method wins where, by how much, how sure: methods by missions");
   options.texts("--mission MISSION", arguments->options.missions, "Only this mission; repeatable");
   options.text("--method METHOD", arguments->options.method, "Only this method");
   options.text("--source SOURCE", arguments->options.source, "Only scores of this source");
   options.choice("--purpose", arguments->purpose, {"test", "score", "all"}, kPurposeHelp);
   options.choice("--per", arguments->per, {"run", "design"}, kPerHelp);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
-  options.choice("--table", arguments->table, {"groups", "pairs", "ranks"},
+  options.choice("--table", arguments->table, {"groups", "pairs", "ranks", "matrix"},
                  "Table for --csv (default pairs; by mission groups)");
   options.choice("--paper", arguments->paper, {"text", "latex"},
                  "Write sentences for a paper: n, means, test, p, effect, interval");

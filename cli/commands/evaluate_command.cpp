@@ -148,10 +148,24 @@ class Evaluation {
     if (!written) return fail(output_, ExitCode::Failed, written.error());
     if (!output_.json && plan_.jobs.size() == 1 && !scores_.empty())
       write_summary(answer_, scores_);
+    if (!output_.json && plan_.jobs.size() > 1) write_summaries();
     return output_.out.good() && !conflicts_ && !rejected_ ? ExitCode::Done : ExitCode::Failed;
   }
 
  private:
+  /// A line a job: the runs above are too many to be looked at.
+  void write_summaries() {
+    answer_ << "\n";
+    for (const auto& [job, scores] : by_job_) {
+      if (const CandidateId candidate = job->candidate)
+        answer_ << to_string(design_of(candidate)) << "  " << to_string(candidate) << "  "
+                << job->profile.name << "  ";
+      else
+        answer_ << job->name << "  ";
+      write_summary(answer_, scores);
+    }
+  }
+
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
     Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
@@ -167,6 +181,9 @@ class Evaluation {
         std::chrono::steady_clock::now() - begin);
     if (!std::isfinite(result.score)) return reject(job, job.seeds[i], result.score);
     scores_.push_back(result.score);
+    if (by_job_.empty() || by_job_.back().first != &job)
+      by_job_.emplace_back(&job, std::vector<double>());
+    by_job_.back().second.push_back(result.score);
     Told told{.job = &job, .seed = job.seeds[i], .score = result.score, .kept = {}};
     if (keeper_) {
       const ScorePlace place{.candidate = job.candidate,
@@ -206,6 +223,7 @@ class Evaluation {
   std::int64_t of_;
   std::optional<ScoreKeeper> keeper_;
   std::vector<double> scores_;
+  std::vector<std::pair<const EvaluationJob*, std::vector<double>>> by_job_;
   bool conflicts_ = false;
   bool rejected_ = false;
 };

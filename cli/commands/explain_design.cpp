@@ -25,6 +25,7 @@ struct StoryPart {
   std::string line;
   std::string name;
   std::optional<EliteRecord> best;
+  std::int64_t spent = 0;  ///< experiments
   bool is_final = false;
 };
 
@@ -50,6 +51,7 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
   if (!best) return Unexpected(best.error());
   const auto all = iterations(store, id);
   if (!all) return Unexpected(all.error());
+  std::int64_t used = 0;
   for (const IterationRecord& begun : *all) {
     StoryPart part{.line = stages.round_line(name, begun.iteration),
                    .name = stages.round(name, std::to_string(begun.iteration)),
@@ -59,9 +61,14 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
     }
     // One that has just begun has no end to tell of.
     if (!part.best && begun.iteration == all->back().iteration) continue;
+    if (part.best) {
+      part.spent = part.best->experiments_used - used;
+      used = part.best->experiments_used;
+    }
+    // What races spend adds up to what the design used; what they may spend does not.
     if (search == nullptr)
-      part.line +=
-          fmt::format(": {} configurations, budget {}", begun.configurations, begun.budget);
+      part.line += fmt::format(": {} configurations, {} of at most {} experiments",
+                               begun.configurations, part.spent, begun.budget);
     story.parts.push_back(std::move(part));
   }
   if (!story.design.best) return story;
@@ -144,6 +151,7 @@ void write_json(Output& output, const Story& story, const StoredStages& stages) 
                                               .add("mean", part.best->mean)
                                               .add("runs", part.best->runs)
                                               .add("used", part.best->experiments_used)
+                                              .add("spent", part.spent)
                                               .text();
   }
   output.out << JsonObject()

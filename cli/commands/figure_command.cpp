@@ -69,12 +69,44 @@ ExitCode figure_exit_code(const Error& error) {
 /// The bytes of the file with this ending.
 Expected<std::string> bytes_of(Figure figure, const std::string& ending, const std::string& kind) {
   if (ending == ".csv") return std::move(figure.csv);
+  if (ending == ".pdf" && !figure.pages.empty()) return pdf_of_svgs(figure.pages);
   if (ending == ".pdf") return pdf_of_svg(figure.svg);
   if (ending == ".png") return png_of_svg(figure.svg);
   if (ending == ".svg") return std::move(figure.svg);
   if (!figure.tex.empty()) return std::move(figure.tex);
   return bad_input("the figure `" + kind + "` has no TeX form; write an .svg, .pdf, .png or .csv",
                    "-o");
+}
+
+/// "winners-3.png" of "winners.png".
+std::filesystem::path numbered(const std::filesystem::path& file, std::size_t number) {
+  std::filesystem::path page = file;
+  page.replace_filename(file.stem().string() + "-" + std::to_string(number) +
+                        file.extension().string());
+  return page;
+}
+
+/// Higher than these rsvg-convert draws no picture of 300 dots an inch: 32,767 of them.
+constexpr std::size_t kMostPagesOfPicture = 11;
+
+/// Each page as a picture of its own.
+ExitCode write_pages(const std::vector<std::string>& pages, const std::string& file,
+                     Output& output) {
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    const auto bytes = png_of_svg(pages[i]);
+    if (!bytes) return fail(output, ExitCode::Failed, bytes.error());
+    files.push_back(numbered(file, i + 1));
+    if (const auto written = write_whole_file(files.back(), *bytes); !written)
+      return fail(output, ExitCode::Failed, written.error());
+  }
+  if (output.json) {
+    output.out << JsonObject().add("files", files).text() << "\n";
+  } else {
+    print_note(output, std::to_string(files.size()) + " pages, from " + files.front() + " to " +
+                           files.back());
+  }
+  return ExitCode::Done;
 }
 
 ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, Output& output) {
@@ -86,10 +118,10 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (!seeds) return fail(output, ExitCode::Usage, seeds.error());
   const auto ending = figure_ending(arguments, output);
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
-  if ((*ending == ".csv" || *ending == ".tex") && (options->paper || !arguments.font.empty())) {
+  // What a paper leaves out, numbers never had: a script may name all its files with --paper.
+  if ((*ending == ".csv" || *ending == ".tex") && !arguments.font.empty()) {
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file",
-                      options->paper ? "--paper" : "--font"});
+                Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file", "--font"});
   }
   auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
@@ -103,6 +135,8 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
     if (!dressed) return fail(output, ExitCode::Usage, dressed.error());
     figure->svg = std::move(*dressed);
   }
+  if (*ending == ".png" && figure->pages.size() > kMostPagesOfPicture)
+    return write_pages(figure->pages, arguments.file, output);
   const std::size_t points = rows_of_csv(figure->csv);
   const auto bytes = bytes_of(std::move(*figure), *ending, arguments.kind);
   if (!bytes) {

@@ -22,9 +22,17 @@ struct Kind {
 };
 
 constexpr std::array<Kind, 6> kKinds = {{
-    {"designs", "v_designs",
+    {"designs",
+     "(SELECT d.*, t.test_mean, t.test_runs, s.score_mean, s.score_runs FROM v_designs AS d "
+     "LEFT JOIN v_leaderboard AS t ON t.design = d.design "
+     "LEFT JOIN (SELECT design, avg(score) AS score_mean, count(*) AS score_runs "
+     "FROM v_design_scores WHERE purpose = 'score' GROUP BY design "
+     "HAVING count(DISTINCT source) = 1) AS s ON s.design = d.design)",
      "design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
-     "best_mean",
+     "coalesce(test_mean, best_mean, score_mean) AS mean, "
+     "CASE WHEN test_mean IS NOT NULL THEN test_runs || iif(test_runs = 1, ' test', ' tests') "
+     "WHEN best_mean IS NOT NULL THEN 'race' "
+     "WHEN score_mean IS NOT NULL THEN score_runs || ' later' END AS mean_of",
      "design"},
     {"candidates", "v_candidates",
      "candidate, design, iteration, parent, n_states, n_transitions, runs, mean, eliminated_in",
@@ -33,10 +41,13 @@ constexpr std::array<Kind, 6> kKinds = {{
      "id, design, candidate, purpose, pair, seed, iteration, status, score, wall_ms, worker",
      "candidate, purpose, pair"},
     {"elites",
-     "(SELECT e.*, c.n_states, c.n_transitions, c.fsm_config FROM v_convergence AS e "
-     "JOIN v_candidates AS c ON c.candidate = e.candidate WHERE e.iteration = "
-     "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design))",
-     "design, iteration, rank, candidate, mean, n, n_states, n_transitions", "design, rank"},
+     "(SELECT e.*, c.n_states, c.n_transitions, c.fsm_config, t.test_mean, t.test_runs "
+     "FROM v_convergence AS e JOIN v_candidates AS c ON c.candidate = e.candidate "
+     "LEFT JOIN v_leaderboard AS t ON t.design = e.design AND t.candidate = e.candidate "
+     "WHERE e.iteration = (SELECT max(iteration) FROM v_convergence AS l WHERE l.design = "
+     "e.design))",
+     "design, iteration, rank, candidate, mean, n, test_mean, test_runs, n_states, n_transitions",
+     "design, rank"},
     {"runs", "v_real_runs",
      "id, name, mission, candidate, source, score, verdict, overridden_by, biased, robots, "
      "recorded",

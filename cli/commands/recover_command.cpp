@@ -17,6 +17,7 @@ namespace {
 struct RecoverArguments {
   std::string damaged;
   std::string out;
+  std::string second;  ///< the same as a word
   std::string campaign;
   std::string without_key;
 };
@@ -167,11 +168,15 @@ Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored
   return {};
 }
 
-ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
+ExitCode run_recover(RecoverArguments& arguments, Output& output) {
+  if (!arguments.out.empty() && !arguments.second.empty())
+    return fail(output, ExitCode::Usage,
+                "the new file is named twice: as the second word, and with -o");
+  if (arguments.out.empty()) arguments.out = arguments.second;
   if (arguments.out.empty()) {
-    return fail(
-        output, ExitCode::Usage,
-        "no new file given; name it with -o: `swarmsmith recover damaged.db -o rescued.db`");
+    return fail(output, ExitCode::Usage,
+                "no new file given; name it second, or with -o: `swarmsmith recover damaged.db "
+                "rescued.db`");
   }
   auto recovery = Recovery::begin(arguments.damaged, arguments.out);
   if (!recovery) {
@@ -213,7 +218,8 @@ CommandRun declare_recover(Options& options) {
   auto arguments = std::make_shared<RecoverArguments>();
   options.text("DAMAGED STORE", arguments->damaged, "The damaged store's file",
                Options::Need::Required);
-  options.text("-o,--output STORE", arguments->out, "The new store's file");
+  options.text("NEW STORE", arguments->second, "The new store's file");
+  options.text("-o,--output STORE", arguments->out, "The same");
   options.text("--without-key KEY", arguments->without_key,
                "Leave out what workers of that key said (the key's name; of workers without one "
                "their address), and never believe it again");

@@ -218,7 +218,7 @@ class Dashboard final : public HttpSite {
 
   static Expected<Answer> busy() {
     return unexpected(ErrorKind::Unavailable,
-                      "too much is being computed for others; ask again in a second");
+                      "too much is being computed already; ask again in a second");
   }
 
   Expected<Answer> ask(const SiteRequest& request, const DashboardStore& store,
@@ -363,8 +363,10 @@ class Dashboard final : public HttpSite {
   std::string user_;
   StoreReaders readers_;
   AnswerCache cache_{kCacheBytes};
-  Turnstile heavy_{2, 16};
-  Turnstile light_{6, 32};
+  // A page of results asks for some twenty pictures and tables at once, and a person has several
+  // pages open. Who waits costs a sleeping thread.
+  Turnstile heavy_{2, 128};
+  Turnstile light_{6, 128};
   Turnstile sql_{1, 4};
   mutable std::mutex mutex_;
   std::shared_ptr<const Published> published_;

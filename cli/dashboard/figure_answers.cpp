@@ -6,6 +6,7 @@
 
 #include "analysis/comparison/comparison.h"
 #include "analysis/comparison/comparison_tables.h"
+#include "analysis/comparison/method_matrix.h"
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
 #include "cli/arguments/score_words.h"
@@ -123,16 +124,25 @@ Expected<Answer> figure_answer(const Question& question) {
 
 Expected<Answer> comparison_answer(const Question& question) {
   const bool is_of_pairs = question.id == "pairs.csv";
-  if (!is_of_pairs && question.id != "groups.csv")
-    return unexpected(ErrorKind::NotFound, "there are pairs.csv and groups.csv", question.id);
+  const bool is_matrix = question.id == "matrix";
+  if (!is_of_pairs && !is_matrix && question.id != "groups.csv")
+    return unexpected(ErrorKind::NotFound, "there are matrix, pairs.csv and groups.csv",
+                      question.id);
   const auto by = word_of(question, "by", {"source", "method", "mission"});
   if (!by) return Unexpected(by.error());
   ComparisonOptions options;
-  if (*by == "method") options.by = CompareBy::Method;
+  if (*by == "method" || is_matrix) options.by = CompareBy::Method;
   if (*by == "mission") options.by = CompareBy::Mission;
   if (!question.text("mission").empty()) options.missions.push_back(question.text("mission"));
   const auto comparison = compare(question.store, options);
   if (!comparison) return nothing_or_error(comparison.error());
+  if (is_matrix) {
+    return json_answer(answer_object()
+                           .add("per", name_of(comparison->unit))
+                           .add("said", comparison->said)
+                           .add("matrices", matrices_json(*comparison))
+                           .add("notes", comparison->notes));
+  }
   if (is_of_pairs && comparison->pairs.empty()) {
     std::string why;
     for (const std::string& note : comparison->notes)

@@ -65,6 +65,8 @@ JsonObject design_json(const CampaignStatus& campaign, const DesignStatus& desig
       .add("alive", stored.alive)
       .add("best", design.best)
       .add("best_mean", has_best ? std::optional(design.best_mean) : std::nullopt)
+      .add("test_mean", design.is_tested() ? std::optional(design.test_mean) : std::nullopt)
+      .add("test_runs", design.is_tested() ? design.test_runs : 0)
       .add("paused", design.paused)
       .add("version", stored.version);
   if (is_merged) object.add("campaign", campaign.name);

@@ -67,8 +67,9 @@ class Paths {
 
   /// Of the store as a whole.
   Expected<void> add_store() {
-    for (const char* path : {"live", "workers", "c1", "c1/events", "c1/convergence", "c1/scores",
-                             "c1/leaderboard", "c1/modules", "c1/real-runs"})
+    for (const char* path :
+         {"live", "workers", "c1", "c1/events", "c1/convergence", "c1/scores", "c1/leaderboard",
+          "c1/modules", "c1/real-runs", "c1/comparison/matrix"})
       add({path});
     add_figure("convergence", {});
     const auto missions = column("SELECT DISTINCT mission FROM v_designs ORDER BY mission");

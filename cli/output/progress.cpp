@@ -68,8 +68,7 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
                          TimePoint now) {
   const ProgressModel& model = models_[campaign];
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-    add_line(name +
-             state_line(*state, model.design(state->design), mean_text(model, state->best_mean)));
+    add_line(name + state_line(*state, model.design(state->design), best_text(model, *state)));
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {
     add_line(name + command_line(*command));
   } else if (const auto* event = std::get_if<EventRow>(&row)) {

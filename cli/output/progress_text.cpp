@@ -118,6 +118,13 @@ std::string mean_text(const ProgressModel& model, double score) {
   return score_text(model.shows_costs() ? to_cost(score) : score);
 }
 
+std::string best_text(const ProgressModel& model, const DesignStateRow& state) {
+  const DesignProgress& design = model.design(state.design);
+  if (!design.is_tested()) return mean_text(model, state.best_mean);
+  return mean_text(model, design.test_mean) + " in " + std::to_string(design.test_runs) +
+         (design.test_runs == 1 ? " test" : " tests");
+}
+
 std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
                         std::size_t width) {
   std::vector<Piece> pieces = pieces_of(models, live);

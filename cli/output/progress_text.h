@@ -16,6 +16,8 @@ namespace swarmsmith::cli {
 std::string score_text(double score);
 /// A score of the campaign, or its cost if those are shown: the negative of it.
 std::string mean_text(const ProgressModel& model, double score);
+/// How good the best is, as people read it: the race's mean, or that of its tests, which says so.
+std::string best_text(const ProgressModel& model, const DesignStateRow& state);
 
 /// The line that is redrawn on a terminal, at most `width` columns wide:
 ///   designs 3/10  d4 iteration 5/~10  [####------]  52 418/100 000  best 2.71  ETA 1m55s

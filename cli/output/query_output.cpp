@@ -88,10 +88,11 @@ void as_costs(Rows& rows) {
     for (auto& cells : rows.cells)
       cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(column));
   }
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kCosts{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kCosts{
       {{"score", "cost"},
        {"mean", "mean_cost"},
        {"best_mean", "best_mean_cost"},
+       {"test_mean", "test_mean_cost"},
        {"lowest", "highest"},
        {"highest", "lowest"}}};
   constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kNames{

@@ -146,6 +146,13 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
   std::vector<std::string> lines;
   if (!status.campaigns) return lines;
   const bool several = status.campaigns->size() > 1;
+  const int best_width =
+      std::ranges::any_of(*status.campaigns,
+                          [](const CampaignStatus& campaign) {
+                            return std::ranges::any_of(campaign.designs, &DesignStatus::is_tested);
+                          })
+          ? 17
+          : 9;
   // Those that race first; what is over says its best, what waits says nothing.
   for (const bool racing : {true, false}) {
     for (const CampaignStatus& campaign : *status.campaigns) {
@@ -156,10 +163,12 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
         lines.push_back(
-            fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<9} {} {}{}{}", to_string(one.id),
+            fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<{}} {} {}{}{}", to_string(one.id),
                         shown_state(campaign, one), one.used, one.budget, part,
-                        one.best ? fmt::format("{:.4g}", one.best_mean) : "", one.mission,
-                        one.method, several ? "  " + campaign.name : "",
+                        one.best ? fmt::format("{:.4g}{}", one.told_mean(),
+                                               one.is_tested() ? " in tests" : "")
+                                 : "",
+                        best_width, one.mission, one.method, several ? "  " + campaign.name : "",
                         one.stage.empty() ? "" : "  " + one.stage) +
             (is_over(one.state) && !one.reason.empty() ? "  (" + one.reason + ")" : ""));
       }

@@ -12,8 +12,9 @@ namespace swarmsmith::cli {
 namespace {
 
 constexpr const char* kDesigns =
-    "SELECT design, campaign, mission, method, repetition, state, used, budget, iteration, "
-    "best_candidate, best_mean, reason FROM v_designs ORDER BY design";
+    "SELECT d.design, d.campaign, d.mission, d.method, d.repetition, d.state, d.used, d.budget, "
+    "d.iteration, d.best_candidate, d.best_mean, d.reason, t.test_mean, t.test_runs "
+    "FROM v_designs AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design ORDER BY d.design";
 
 }  // namespace
 
@@ -47,6 +48,8 @@ Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool 
                         .iteration = cells[8].integer(),
                         .best = cells[9].id<CandidateId>(),
                         .best_mean = cells[10].real(),
+                        .test_mean = cells[12].real(),
+                        .test_runs = cells[13].integer(),
                         .reason = cells[11].text};
     const auto command = paused.find(design.id);
     design.paused = command != paused.end() && command->second && !is_over(design.state);

@@ -139,13 +139,15 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
   return failed ? ExitCode::Failed : ExitCode::Done;
 }
 
-void print_next_steps(Output& output, const std::string& store) {
+void print_next_steps(Output& output, const std::string& store, bool is_demo) {
   if (output.quiet) return;
   output.err << "\nEverything is in " << store << ". How to continue:\n"
+             << "  swarmsmith dashboard " << store << "\n"
+             << "  swarmsmith report " << store << " -o report.html\n"
              << "  swarmsmith ls elites " << store << "\n"
              << "  swarmsmith export " << store << " --design d1 -o best.fsm\n"
-             << "  swarmsmith query " << store << "\n"
-             << "  swarmsmith init mine, to design for a mission of your own\n";
+             << "  swarmsmith query " << store << "\n";
+  if (is_demo) output.err << "  swarmsmith init mine, to design for a mission of your own\n";
 }
 
 }  // namespace swarmsmith::cli

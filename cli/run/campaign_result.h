@@ -14,6 +14,6 @@ namespace swarmsmith::cli {
 ExitCode write_result(Output& output, StoreReader& store, const std::string& name = {});
 
 /// Suggested commands for the store.
-void print_next_steps(Output& output, const std::string& store);
+void print_next_steps(Output& output, const std::string& store, bool is_demo);
 
 }  // namespace swarmsmith::cli

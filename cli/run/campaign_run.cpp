@@ -1,9 +1,12 @@
 #include "cli/run/campaign_run.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <memory>
 #include <set>
 #include <stop_token>
+#include <thread>
 #include <utility>
 
 #include "base/process_limits.h"
@@ -123,6 +126,7 @@ class CampaignRun {
           {std::filesystem::absolute(members_.campaign(place).store), served, served.has_value()});
     }
     dashboard.version = program_name();
+    dashboard.before_live = [asked = asked_] { asked->store(std::chrono::steady_clock::now()); };
     CoordinatorArgument coordinator;
     if (!options_.access.coordinator_file.empty())
       coordinator.coordinator = options_.access.coordinator_file;
@@ -247,6 +251,7 @@ class CampaignRun {
             },
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
+    let_pages_hear();
     // Their readers would keep the stores from being folded up.
     pages_.reset();
     dashboard_.reset();
@@ -257,6 +262,20 @@ class CampaignRun {
     members_.end(end, worker_trouble);
     if (!worker_trouble.empty()) fail(output_, ExitCode::Unreachable, worker_trouble);
     return ExitCode::Done;
+  }
+
+  /// A page that somebody looks at asks once a second, and should not be left behind at "97 %".
+  void let_pages_hear() const {
+    using Clock = std::chrono::steady_clock;
+    using std::chrono::milliseconds;
+    constexpr milliseconds kLooks{3000};     // who has asked within it
+    constexpr milliseconds kOldAnswer{600};  // an answer of before may still be given out
+    constexpr milliseconds kAtMost{2500};
+    const auto end = Clock::now();
+    if (!pages_ || !dashboard_ || end - asked_->load() > kLooks) return;
+    while (asked_->load() < end + kOldAnswer && Clock::now() < end + kAtMost)
+      std::this_thread::sleep_for(milliseconds(20));
+    std::this_thread::sleep_for(milliseconds(100));  // the answer goes out
   }
 
   /// Once for each: those who wait for workers should know who is turned away.
@@ -288,6 +307,9 @@ class CampaignRun {
   CampaignMembers members_;
   SystemClock clock_;
   LiveStatus last_;
+  /// When a page asked last.
+  std::shared_ptr<std::atomic<std::chrono::steady_clock::time_point>> asked_ =
+      std::make_shared<std::atomic<std::chrono::steady_clock::time_point>>();
   std::unique_ptr<DashboardSetup> dashboard_;
   std::unique_ptr<HttpServer> pages_;
   Access access_;
@@ -312,7 +334,7 @@ ExitCode show_result(Output& output, const Campaign& campaign, const std::string
   const auto reader = StoreReader::open(campaign.store);
   if (!reader) return fail(output, exit_code_of_store(reader.error()), reader.error());
   const ExitCode written = write_result(output, **reader, name);
-  if (!output.json) print_next_steps(output, campaign.store.string());
+  if (!output.json) print_next_steps(output, campaign.store.string(), campaign.name == "demo");
   return written;
 }
 

@@ -256,7 +256,16 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
 CampaignOrErrors read_campaign(const std::filesystem::path& file,
                                std::optional<std::int64_t> budget) {
   auto text = read_file(file, "campaign");
-  if (text) return parse_campaign(*text, file, budget);
+  if (text) {
+    auto campaign = parse_campaign(*text, file, budget);
+    if (campaign || !parse_mission(*text, file)) return campaign;
+    return tl::unexpected(std::vector<Error>{
+        {ErrorKind::BadInput,
+         "this is a mission, not a campaign: a campaign file names it, [[mission]] with name = \"" +
+             file.filename().string() +
+             "\", and with a method and a budget; `swarmsmith init` writes one",
+         file.string()}});
+  }
   Error error = std::move(text.error());
   if (error.kind == ErrorKind::NotFound) error.message += "; `swarmsmith init` writes one";
   if (std::error_code none; std::filesystem::is_directory(file, none)) {

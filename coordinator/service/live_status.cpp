@@ -45,6 +45,8 @@ void each_field(Like<DesignStatus> auto& design, const Visit& visit) {
   visit("iteration", design.iteration);
   visit("best", design.best.value);
   visit("best_mean", design.best_mean);
+  visit("test_mean", design.test_mean);
+  visit("test_runs", design.test_runs);
   visit("paused", design.paused);
   visit("reason", design.reason);
 }

@@ -108,11 +108,35 @@ void ProgressModel::add(DesignProgress& progress, const Row& row) {
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
     // What was evaluated ahead has no iteration until a step asks for it.
     progress.in_step += evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0;
+    add_test(progress, *evaluation);
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_state(progress, *state);
+    tell_tests(progress);
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {
     add_command(progress, *command);
   }
+}
+
+void ProgressModel::add_test(DesignProgress& progress, const EvaluationRow& row) {
+  progress.has_evaluator |= row.key.purpose == Purpose::Evaluator;
+  if (row.key.purpose != Purpose::Test || row.status != EvaluationStatus::Ok) return;
+  TestedDesign& tested = progress.tests[row.key.candidate];
+  ++tested.runs;
+  tested.mean += (row.score - tested.mean) / static_cast<double>(tested.runs);
+}
+
+void ProgressModel::tell_tests(DesignProgress& progress) {
+  const auto found = progress.tests.find(progress.best);
+  const bool are_known = found != progress.tests.end() && !progress.has_evaluator;
+  progress.test_mean = are_known ? found->second.mean : 0;
+  progress.test_runs = are_known ? found->second.runs : 0;
+}
+
+void ProgressModel::add(const TestedDesign& tested) {
+  const auto found = designs_.find(design_of(tested.winner));
+  if (found == designs_.end()) return;
+  found->second.tests[tested.winner] = tested;
+  tell_tests(found->second);
 }
 
 void ProgressModel::add_command(DesignProgress& progress, const CommandRow& row) {

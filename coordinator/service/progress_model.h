@@ -12,6 +12,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "irace_core/search/stage.h"
 #include "storage/rows.h"
+#include "storage/store.h"
 
 namespace swarmsmith {
 
@@ -27,7 +28,9 @@ struct DesignStatus {
   std::int64_t budget = 0;   ///< with what was given to it later
   std::int64_t iteration = 0;
   CandidateId best{};
-  double best_mean = 0;
+  double best_mean = 0;  ///< in the race
+  double test_mean = 0;  ///< of the winner's tests on fresh seeds, once the design is finished
+  std::int64_t test_runs = 0;
   bool paused = false;   ///< nothing of it is leased until a person resumes it
   std::string reason{};  ///< why it ended
   /// Where its search is, as people read it, and the search's name (irace_core/search/stage.h);
@@ -37,6 +40,9 @@ struct DesignStatus {
 
   /// What its race may still use. One that is over uses no more, whatever its budget has left.
   std::int64_t left() const;
+  /// How good the best is: as its tests say, since the race's pairs chose it; before them the race.
+  bool is_tested() const { return state == DesignState::Finished && test_runs > 0; }
+  double told_mean() const { return is_tested() ? test_mean : best_mean; }
 };
 
 /// Sums over designs: of a campaign, or of several. The only place where they are made.
@@ -67,6 +73,8 @@ struct DesignProgress : DesignStatus {
   std::int64_t wanted = 0;       ///< runs of the iteration
   std::int64_t used_before = 0;  ///< by the iterations before it
   std::int64_t step = 0;
+  std::map<CandidateId, TestedDesign> tests{};
+  bool has_evaluator = false;  ///< another program says what the tests' scores are
 };
 
 /// As the words of irace_core/search/stage.h take it; only of designs with a search of their own.
@@ -85,6 +93,8 @@ class ProgressModel {
                          const Searches& searches = {});
 
   void add(const Row& row);
+  /// Tests of before, of which no rows come.
+  void add(const TestedDesign& tested);
   /// The process ends: what steps had begun counts when they are done.
   void drop_open_steps();
 
@@ -100,6 +110,8 @@ class ProgressModel {
 
  private:
   void add(DesignProgress& progress, const Row& row);
+  static void tell_tests(DesignProgress& progress);
+  static void add_test(DesignProgress& progress, const EvaluationRow& row);
   static void add_state(DesignProgress& progress, const DesignStateRow& row);
   void add_command(DesignProgress& progress, const CommandRow& row);
 

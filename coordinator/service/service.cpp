@@ -39,6 +39,7 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
     all.push_back({.name = campaign.name,
                    .designs = campaign.designs,
                    .states = campaign.store->design_states(),
+                   .tested = campaign.store->tested_designs(),
                    .commands = campaign.store->commands(),
                    .searches = campaign.searches});
   return all;

@@ -25,6 +25,8 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
     ProgressModel progress(campaign.designs, false, campaign.searches);
     for (const DesignStateRow& row : campaign.states)
       progress.add(row);
+    for (const TestedDesign& tested : campaign.tested)
+      progress.add(tested);
     for (const CommandRow& row : campaign.commands)
       progress.add(row);
     campaigns_.push_back({.progress = std::move(progress)});

@@ -37,6 +37,7 @@ struct TelemetryCampaign {
   std::vector<DesignRow> designs;
   // Of its store.
   std::vector<DesignStateRow> states;
+  std::vector<TestedDesign> tested{};
   std::vector<CommandRow> commands{};
   Searches searches{};
 };

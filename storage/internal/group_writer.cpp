@@ -90,6 +90,11 @@ std::vector<DesignStateRow> GroupWriter::design_states() {
   return read_design_states(writer_.connection);
 }
 
+std::vector<TestedDesign> GroupWriter::tested_designs() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_tested_designs(writer_.connection);
+}
+
 std::vector<CommandRow> GroupWriter::commands() {
   const std::lock_guard guard(connection_mutex_);
   return read_commands(writer_.connection);

@@ -30,6 +30,7 @@ class GroupWriter final : public Store {
   std::vector<StoredScore> scores() override;
   std::vector<StoredStep> steps() override;
   std::vector<DesignStateRow> design_states() override;
+  std::vector<TestedDesign> tested_designs() override;
   std::vector<CommandRow> commands() override;
   std::int64_t next_worker() override;
   bool finished() override;

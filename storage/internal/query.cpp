@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/printed_ids.h"
 #include "storage/internal/schema.h"
 
 namespace swarmsmith {
@@ -293,13 +294,14 @@ Expected<StoreReader::QueryEnd> give_rows(
 }  // namespace
 
 Expected<StoreReader::QueryEnd> run_query(
-    sqlite::Connection& connection, const std::string& sql, const StoreReader::QueryLimits& limits,
+    sqlite::Connection& connection, const std::string& text, const StoreReader::QueryLimits& limits,
     const std::function<void(const std::vector<std::string>&)>& on_columns,
     const std::function<void(const std::vector<StoreReader::Cell>&)>& on_row) {
   // In memory there is a limit, on the disk there would be none. A change makes SQLite forget the
   // lent views, so that all statements of our own keep the same setting.
   connection.execute(limits.typed ? "PRAGMA temp_store = MEMORY" : "PRAGMA temp_store = DEFAULT");
   lend_views(connection);
+  const std::string sql = with_numbers_of_ids(text);
   const Rules rules(connection, limits);
   auto statement = prepare(connection, sql, limits);
   if (!statement) return Unexpected(statement.error());

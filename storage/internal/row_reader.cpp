@@ -307,6 +307,19 @@ std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connect
   return states;
 }
 
+std::vector<TestedDesign> read_tested_designs(const sqlite::Connection& connection) {
+  std::vector<TestedDesign> tested;
+  Statement row(connection,
+                "SELECT e.candidate, avg(e.score), count(*) FROM design AS d"
+                " JOIN evaluation AS e ON e.candidate = d.best AND e.purpose = 2"
+                " WHERE d.campaign = 1 AND e.score IS NOT NULL AND NOT EXISTS"
+                " (SELECT 1 FROM pair AS p WHERE p.design = d.id AND p.purpose = 5)"
+                " GROUP BY e.candidate ORDER BY e.candidate");
+  while (row.step())
+    tested.push_back({.winner = {row.integer(0)}, .mean = row.real(1), .runs = row.integer(2)});
+  return tested;
+}
+
 std::vector<CommandRow> read_commands(const sqlite::Connection& connection, const Part& part) {
   std::vector<CommandRow> commands;
   if (schema_of(connection) < 3) return commands;

@@ -28,6 +28,7 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection, const P
 Part first_campaign(const sqlite::Connection& connection);
 /// Of the first campaign, the one that runs in the store; of schema 4.
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection);
+std::vector<TestedDesign> read_tested_designs(const sqlite::Connection& connection);
 std::vector<CommandRow> read_commands(const sqlite::Connection& connection, const Part& part = {});
 std::int64_t read_next_worker(const sqlite::Connection& connection);
 /// Whether the rows of all campaigns say that they are finished.

@@ -60,6 +60,40 @@ TEST_F(Compare, ByMethodIsWithinASource) {
   EXPECT_THAT(ran.out, HasSubstr("aggregation  real    chocolate  watermelon  6+6"));
 }
 
+TEST_F(Compare, WithOneSourceComparesTheMethods) {
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 6, .tests = 4});
+  for (DesignRow& design : campaign.designs) {
+    design.mission = "aggregation";
+    design.method = design.id.value % 2 == 1 ? "chocolate" : "watermelon";
+  }
+  const std::string alone = (folder / "one.db").string();
+  {
+    auto store = open_store(alone, campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+  }
+  EXPECT_EQ(run({"compare", alone}).out, run({"compare", alone, "--by", "method"}).out);
+  EXPECT_THAT(run({"compare", alone}).out, HasSubstr("chocolate  watermelon  3+3"));
+}
+
+TEST_F(Compare, AMatrixSaysWhichMethodWinsWhere) {
+  const Ran text = run({"compare", store_, "--matrix"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("\nrvr\nmethod"));
+  EXPECT_THAT(text.out, HasSubstr("do\nnot differ at 5 %"));
+  const json answer = json::parse(run({"compare", store_, "--matrix", "--json"}).out);
+  ASSERT_EQ(answer["matrices"].size(), 2U);
+  EXPECT_EQ(answer["matrices"][1]["source"], "real");
+  const json& best = answer["matrices"][0]["methods"][0];
+  EXPECT_EQ(best["mean_rank"], 1);
+  EXPECT_EQ(best["cells"][0]["n"], 6);
+  EXPECT_EQ(best["cells"][0]["behind"], 0);
+  EXPECT_THAT(run({"compare", store_, "--csv", "--table", "matrix"}).out,
+              StartsWith("source,mission,method,n,runs,mean,low,high,rank,"));
+  EXPECT_EQ(run({"compare", store_, "--matrix", "--by", "source"}).code, 2);
+  EXPECT_EQ(run({"compare", store_, "--matrix", "--csv"}).code, 2);
+}
+
 TEST_F(Compare, WritesJson) {
   const Ran ran = run({"compare", store_, "--by", "method", "--source", "rvr", "--json"});
   EXPECT_EQ(ran.code, 0) << ran.err;

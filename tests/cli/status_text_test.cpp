@@ -64,6 +64,24 @@ TEST(StatusText, FitsAScreenWithTheWorstHostFirst) {
   EXPECT_THAT(joined(lines), AllOf(HasSubstr("... and"), HasSubstr("d21")));
 }
 
+TEST(StatusText, TellsTheMeanOfTheTestsOnceADesignIsFinished) {
+  CampaignStatus campaign{.name = "c", .state = "running"};
+  for (const DesignState state : {DesignState::Testing, DesignState::Finished})
+    campaign.designs.push_back({.id = {state == DesignState::Testing ? 1 : 2},
+                                .state = state,
+                                .best = {7},
+                                .best_mean = 3,
+                                .test_mean = 2.25,
+                                .test_runs = 50});
+  LiveStatus status;
+  status.campaigns =
+      std::make_shared<const std::vector<CampaignStatus>>(std::vector<CampaignStatus>{campaign});
+  const std::vector<std::string> lines = status_lines(status, {200, 100});
+  EXPECT_THAT(joined(lines), HasSubstr("2.25 in tests"));
+  EXPECT_THAT(*std::ranges::find_if(lines, [](auto& line) { return line.starts_with("d1 "); }),
+              AllOf(HasSubstr(" 3 "), Not(HasSubstr("tests"))));
+}
+
 TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {
   const std::string text = joined(status_lines(cluster(), {200, 100}));
   EXPECT_THAT(text, HasSubstr("last minute  busy 75 %  barrier 20 %  on the way 5 %\n"));

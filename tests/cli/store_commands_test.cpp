@@ -6,6 +6,7 @@
 #include "cli/output/query_output.h"
 #include "cli/run/campaign_result.h"
 #include "tests/cli/cli_support.h"
+#include "tests/storage/fixture.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -54,6 +55,40 @@ TEST_F(Ls, ListsWithLettersBeforeIds) {
   EXPECT_THAT(run({"ls", "evaluations", store_}).out, HasSubstr("e100001t"));
   EXPECT_THAT(run({"ls", "elites", store_}).out, HasSubstr("c1"));
   EXPECT_EQ(run({"ls", "workers", store_}).code, 0);
+}
+
+TEST_F(Ls, TellsTheMeanOfTheTestsOnceThereAreSome) {
+  EXPECT_THAT(run({"ls", "designs", store_}).out, testing::ContainsRegex("c1 +3 +1 tests?\n"));
+  EXPECT_THAT(run({"ls", "elites", store_}).out, testing::ContainsRegex("test_mean"));
+  const json design = json::parse(run({"ls", "designs", store_, "--json"}).out)["rows"][0];
+  EXPECT_EQ(design["best_mean"], 2.5);  // as ever: of the race
+  EXPECT_EQ(design["test_mean"], 3);
+  EXPECT_EQ(design["test_runs"], 1);
+}
+
+TEST_F(Ls, FindsIdsAsTheyArePrinted) {
+  const Ran ran = run({"ls", "candidates", store_, "--where", "candidate = 'c2'", "--json"});
+  EXPECT_EQ(json::parse(ran.out)["rows"].size(), 1U) << ran.err;
+  EXPECT_THAT(run({"query", "SELECT mission FROM v_designs WHERE design='d1'", store_}).out,
+              HasSubstr("aggregation"));
+}
+
+TEST(ExplainDesign, SpentExperimentsAddUpToThoseUsed) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "s.db").string();
+  const SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 4});
+  {
+    auto store = open_store(path, campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+  }
+  const json story = json::parse(run({"explain", "d1", path, "--json"}).out);
+  std::int64_t spent = 0;
+  for (const json& stage : story["stages"])
+    spent += stage["spent"].get<std::int64_t>();
+  EXPECT_EQ(story["stages"].size(), 4U);
+  EXPECT_EQ(spent, story["used"]);
+  EXPECT_THAT(run({"explain", "d1", path}).out, HasSubstr(" of at most "));
 }
 
 TEST_F(Ls, FiltersSortsAndLimits) {

@@ -157,6 +157,18 @@ class Rivals(Stores):
             self.assertLess(max(heights), 5 * line, width)
             page.close()
 
+    def test_p_values_and_the_matrix_are_seen_without_scrolling(self):
+        serving = self.dashboard(rival_store())
+        page = self.page(serving, "#/c1/results", "document.querySelector('[aria-label^=\"tests by\"] th') && document.querySelector('.matrix td button')", width=1280)
+        right = page.js("[...document.querySelectorAll('[aria-label^=\"tests by\"] th')].find(one => one.innerText.startsWith('p_holm')).getBoundingClientRect().right")
+        self.assertLess(right, 1280)
+        # Six methods in one mission: a mean, its rank and letters each, and a click leads to the designs.
+        rows = page.js("[...document.querySelectorAll('.matrix tbody tr')].map(one => one.innerText)")
+        self.assertEqual(len(rows), 6)
+        page.click(".matrix td button")
+        page.wait("document.querySelector('[aria-label^=\"designs of aggregation\"] td')")
+        page.close()
+
     def test_runs_of_a_tree_and_of_a_network_have_the_stored_bits(self):
         best = bests(rival_store())
         serving = self.dashboard(rival_store())
@@ -255,7 +267,7 @@ class Merged(Stores):
             self.assertEqual(card.count(one["campaign"]), 2, card)
         # A digest is of one campaign.
         self.assertEqual(cards.get("live")["campaigns"][0]["digest"], "")
-        self.assertEqual(page.js("[...document.querySelectorAll('.facts dt')].find(one => one.innerText === 'digest').nextSibling.innerText"), "–")
+        self.assertEqual(page.js("[...document.querySelectorAll('.facts dt')].find(one => one.innerText === \"campaign's digest\").nextSibling.innerText"), "–")
         # It is for reading: nothing is offered that would be refused.
         for name in ("campaigns", "network", "program"):
             for act in ("Extend", "Pause", "Cancel"):

@@ -125,6 +125,25 @@ class Dashboard(ProgramTest):
         self.assertNotEqual(again["boot"], first["boot"])
         self.assertEqual(again["campaigns"][0]["digest"], first["campaigns"][0]["digest"])
 
+    def test_who_looks_hears_of_the_end(self):
+        """A page asks once a second: its last answer says "finished", and the last words how to come back."""
+        self.file.write_text(self.file.read_text().replace(f"{self.budget}", "600"))
+        process = self.watch_campaign()
+        last = None
+        while process.poll() is None:
+            try:
+                last = self.live()
+            except (ConnectionError, http.client.HTTPException):
+                break  # it has gone
+            time.sleep(0.3)
+        self.assertEqual(process.wait(), 0)
+        self.assertEqual(last["campaigns"][0]["state"], "finished")
+        self.assertEqual(last["campaigns"][0]["left"], 0)
+        words = self.eventually(lambda: (text := "".join(self.said)).endswith("\n") and "How to continue" in text and text)
+        self.assertIn(f"swarmsmith dashboard {self.store}\n", words)
+        self.assertIn(f"swarmsmith report {self.store} -o report.html\n", words)
+        self.assertNotIn("init mine", words)  # it was a campaign of one's own
+
     def test_two_coordinators_have_two_ports(self):
         self.watch_campaign()
         port = self.port

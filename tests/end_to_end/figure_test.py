@@ -186,7 +186,7 @@ class Figure(unittest.TestCase):
         self.assertNotIn("Scores by", svg)
         for font in ("x'><script>", "a;b"):
             self.assertIn("a font's name", self.refused(2, "box", self.store, "--font", font))
-        self.assertIn("has no effect", self.refused(2, "box", self.store, "--paper", "-o", self.folder / "a.csv"))
+        self.assertIn("has no effect", self.refused(2, "box", self.store, "--font", "Carlito", "-o", self.folder / "a.csv"))
         if shutil.which("rsvg-convert") is None:
             self.skipTest("rsvg-convert (package librsvg2-bin) is not there")
         file = self.folder / "a.png"

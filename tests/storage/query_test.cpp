@@ -35,6 +35,28 @@ struct QueryTest : testing::Test {
   }
 };
 
+TEST_F(QueryTest, FindsIdsAsTheyArePrinted) {
+  const auto count = [&](const std::string& rest) {
+    EXPECT_TRUE(query("SELECT count(*) FROM v_candidates AS k WHERE " + rest)) << rest;
+    return rows.empty() ? std::string() : rows.front().front().text;
+  };
+  const std::string one = count("candidate = 3");
+  EXPECT_EQ(one, "1");
+  for (const char* same :
+       {"candidate='c3'", "k.candidate = 'c3'", "'c3' = k.candidate", "\"candidate\" == 'c3'",
+        "k.[candidate] IS 'c3'", "candidate IN ('c3')", "candidate IN ('c0', 'c3', 'c999999')",
+        "candidate BETWEEN 'c3' AND 'c3'", "candidate >= 'c3' AND candidate < 'c4'",
+        "/* 'c9' */ candidate = 'c3' -- 'c8'"})
+    EXPECT_EQ(count(same), one) << same;
+  EXPECT_EQ(count("design = 'd1' AND candidate NOT IN ('c3')"), count("candidate <> 3"));
+  EXPECT_EQ(count("candidate IS NOT 'c3'"), count("candidate <> 3"));
+  // Texts stay texts.
+  query("SELECT 'c3', 'it''s c3' FROM v_designs WHERE mission = 'd1' OR name = 'c3' OR 1");
+  EXPECT_EQ(rows.front()[0].text, "c3");
+  EXPECT_EQ(rows.front()[1].text, "it's c3");
+  EXPECT_EQ(count("design = 'c3'"), "0");
+}
+
 TEST_F(QueryTest, GivesColumnsAndCellsWithTheirTypes) {
   const auto end = query("SELECT 1 AS one, 0.1 AS tenth, 'it''s' AS text, NULL AS none;");
   ASSERT_TRUE(end);

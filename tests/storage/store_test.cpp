@@ -67,6 +67,25 @@ TEST_F(StoreTest, GivesBackEveryRowOfTheAnswer) {
   EXPECT_EQ(stored.size(), expected + static_cast<std::size_t>(absolute));
 }
 
+TEST_F(StoreTest, TellsTheTestsOfItsDesigns) {
+  write_all(campaign.batches);
+  const auto tested = open_store(path, campaign)->tested_designs();
+  const auto reader = open_reader(path);
+  ASSERT_EQ(tested.size(), campaign.designs.size());
+  for (const TestedDesign& one : tested) {
+    const auto end = reader->query(
+        "SELECT test_mean, test_runs FROM v_leaderboard WHERE candidate = " +
+            std::to_string(one.winner.value),
+        {}, [](const auto&) {},
+        [&](const auto& cells) {
+          EXPECT_DOUBLE_EQ(cells[0].real(), one.mean);
+          EXPECT_EQ(cells[1].integer(), one.runs);
+        });
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->rows, 1);
+  }
+}
+
 TEST_F(StoreTest, KeepsTheLastOfRowsWithAbsoluteValues) {
   write_all(campaign.batches);
   const auto rows = cells_of(*open_reader(path),

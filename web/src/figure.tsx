@@ -80,10 +80,12 @@ class Svg extends Component<SvgProps, {}> {
   render() { return <div class="svg" ref={(it: any) => (this.#box = it)} />; }
 }
 
-/// A table of the server as a table of the page.
-export function CsvTable({ text, name, id }: { text: string; name: string; id: string }) {
-  const [head, ...rows] = parse_csv(text);
-  return <Table<string[]> name={"t-" + id} caption={name} rows={rows} row_key={(row) => rows.indexOf(row)} columns={head.map((label, i) => {
+/// A table of the server as a table of the page. Columns whose names are in `first` come first, in its order; what is
+/// empty throughout is left out.
+export function CsvTable({ text, name, id, first = "" }: { text: string; name: string; id: string; first?: string }) {
+  const [head, ...rows] = parse_csv(text), order = first.split(" "), place = (label: string) => (order.indexOf(label) + 99) % 99;
+  const columns = head.map((label, i) => ({ label, i })).filter(({ i }) => !first || rows.some((row) => row[i])).sort((a, b) => place(a.label) - place(b.label));
+  return <Table<string[]> name={"t-" + id} caption={name} rows={rows} row_key={(row) => rows.indexOf(row)} columns={columns.map(({ label, i }) => {
     const numeric = rows.every((row) => row[i] === "" || isFinite(Number(row[i])));
     return { key: label, label, numeric, value: (row) => row[i] === "" ? null : numeric ? Number(row[i]) : row[i] };
   })} />;

@@ -60,14 +60,15 @@ function Head({ live }: { live: Live | null }) {
   const { status, campaigns, running, looks } = live;
   const sum = (what: "used" | "budget" | "left") => campaigns.reduce((total, one) => total + one[what], 0);
   const spent = { used: sum("used"), budget: sum("budget"), left: sum("left") };
-  const state = is_snapshot ? "a file" : running ? "running" : campaigns.every((one) => one.state === "finished") ? "finished" : "at rest";
+  const is_finished = campaigns.length > 0 && campaigns.every((one) => one.state === "finished");
+  const state = is_snapshot ? "a file" : is_finished ? "finished" : feed.failure?.unreachable ? "lost" : running ? "running" : "at rest";
   return <header class="head">
     <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map((one) => one.name).join(", ") || "Swarmsmith"}</a>
     <span class="faint" title={campaigns.map((one) => one.store).join("\n")}>{live.host && `${live.user}@${live.host}`}</span>
     {state_word({ state })}
     <span class="progress" title={`${whole(spent.used)} of ${whole(spent.budget)} experiments`}>
       <Bar of={spent} name="experiments used" /> {percent(part_of(spent))}</span>
-    {status && running && [<span><b>{number(status.evaluations_per_s, 3)}</b> evaluations/s</span>,
+    {status && running && !is_finished && [<span><b>{number(status.evaluations_per_s, 3)}</b> evaluations/s</span>,
       <span>ETA <b>{eta_of(live, status.eta_s)}</b></span>]}
     {looks.length > 0 && <details class="looks"><summary>{count(looks.length, "thing needs", "things need")} a look</summary>{look_list(looks, 12)}</details>}
     <span class="push faint" title={feed.at?.toISOString()}>{feed.at && `as of ${clock(feed.at)}`}</span>
@@ -82,9 +83,9 @@ function Connection() {
   const again_s = next_try ? Math.ceil((next_try.getTime() - Date.now()) / 1000) : 0;
   const command = `swarmsmith dashboard ${live?.campaigns.map((one) => shell_word(one.store)).join(" ") ?? "STORE"}`;
   if (live && failure.unreachable && !live.campaigns.some((one) => one.state === "running"))
-    return <p class="banner" role="status">Nothing runs any more, and the process that served this page has ended. See it again: <code>{command}</code></p>;
+    return <p class="banner" role="status">{live.campaigns.every((one) => one.state === "finished") ? "Finished" : "Nothing runs any more"}, and the process that served this page has ended. See it again: <code>{command}</code></p>;
   return <p class="banner warn" role="status">{failure.unreachable
-    ? `No answer since ${at ? clock(at) : "the page was opened"}, trying again ${again_s > 0 ? `in ${again_s} s` : "now"}. The numbers below are old. If the process has ended, see them again: ${command}`
+    ? `No answer since ${at ? clock(at) : "the page was opened"}, trying again ${again_s > 0 ? `in ${again_s} s` : "now"}. The numbers below are old. If the process has ended, the command that began it goes on where it was, and this shows what there is: ${command}`
     : `${failure.where && failure.where + ": "}${failure.message}`}</p>;
 }
 

@@ -14,7 +14,11 @@ export interface Design {
   iteration: number;
   alive: number | null;
   best: string | null;
+  /// In its race.
   best_mean: number | null;
+  /// Of the winner's tests; null before they are done, and where there are none.
+  test_mean: number | null;
+  test_runs: number;
   paused: boolean;
   /// Moves when something of the design is new.
   version: number;

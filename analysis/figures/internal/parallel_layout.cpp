@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNamePart = 0.3;  ///< of the figure's width, at most
 constexpr double kFan = 0.065;     ///< of the figure's width: free height between two axes
-constexpr std::size_t kMostLabelLines = 3;
+constexpr std::size_t kMostLabelLines = 5;
 
 ValueRange range_of(const ParallelPlot::Parameter& parameter) {
   return range_over({parameter.low, parameter.high});
@@ -69,7 +69,7 @@ std::vector<ParallelLayout::Label> ParallelLayout::number_labels(
   return labels;
 }
 
-/// All categories, in as few lines by turns as they fit in, at most three, and shortened where that
+/// All categories, in as few lines by turns as they fit in, at most five, and shortened where that
 /// is not enough.
 std::vector<ParallelLayout::Label> ParallelLayout::labels_of(
     const ParallelPlot::Parameter& parameter) const {

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/figures/internal/parameter_words.h"
+
 #include "sim/control/controller.h"
 
 namespace swarmsmith {
@@ -143,6 +145,15 @@ Expected<ParameterTable> read_parameter_table(StoreReader& store, DesignId desig
     return unexpected(ErrorKind::NotFound,
                       fmt::format("{} has no candidates with parameters yet", to_string(design)));
   }
+  const auto all_designs = designs(store, {.design = design});
+  if (!all_designs) return Unexpected(all_designs.error());
+  const auto flavours = all_flavours();
+  const auto flavour = std::ranges::find_if(flavours, [&](const Flavour* known) {
+    return !all_designs->empty() && known->name == all_designs->front().flavour;
+  });
+  for (ParameterColumn& column : table.columns)
+    column.words =
+        flavour == flavours.end() ? column.name : words_of_parameter(column.name, **flavour);
   return table;
 }
 

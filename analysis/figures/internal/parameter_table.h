@@ -13,6 +13,7 @@ namespace swarmsmith {
 /// A parameter over all candidates of a design.
 struct ParameterColumn {
   std::string name;
+  std::string words{};  ///< the name as people read it
   /// Of a parameter that is drawn value by value: words in their order, or at most seven whole
   /// numbers in theirs. Empty for one that is drawn along an axis.
   std::vector<std::string> categories;

@@ -93,7 +93,10 @@ void SamplingPanel::frame(PagePoint name, double width) {
                                              {area_.right(), area_.bottom()},
                                              {area_.left, area_.bottom()}}};
   svg_.polygon(corners, stroked(kFrame, 0.12));
-  svg_.text(name, fitted_text(panel_.name, kTextSize, width), ink(TextStyle::Anchor::Start));
+  const auto lines = whole_lines(panel_.name, kTextSize, width);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    svg_.text({name.x, name.y - kPanelNameLine * static_cast<double>(lines.size() - 1 - i)},
+              lines[i], ink(TextStyle::Anchor::Start));
 }
 
 void SamplingPanel::elites() {

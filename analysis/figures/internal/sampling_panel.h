@@ -10,6 +10,9 @@
 
 namespace swarmsmith {
 
+/// A line of a panel's name, mm.
+inline constexpr double kPanelNameLine = 3.2;
+
 /// Densities from which a shade begins, 1 being an even spread over the range.
 inline constexpr std::array<double, 4> kDensities = {0, 1, 2, 4};
 std::string density_color(std::size_t shade);

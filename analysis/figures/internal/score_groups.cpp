@@ -114,6 +114,29 @@ GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::s
   return result;
 }
 
+std::string pair_boxes(std::vector<ScorePanel>& panels) {
+  if (panels.empty() || panels.front().groups.size() < 2) return "";
+  const std::string first = panels.front().groups[0].source;
+  const std::string second = panels.front().groups[1].source;
+  if (first == second) return "";
+  for (const ScorePanel& panel : panels) {
+    const std::vector<ScoreGroup>& groups = panel.groups;
+    if (groups.size() % 2 != 0) return "";
+    for (std::size_t i = 0; i < groups.size(); i += 2) {
+      const bool is_pair = groups[i].method == groups[i + 1].method && groups[i].source == first &&
+                           groups[i + 1].source == second;
+      if (!is_pair) return "";
+    }
+  }
+  for (ScorePanel& panel : panels) {
+    for (std::size_t i = 0; i < panel.groups.size(); ++i) {
+      panel.groups[i].name = panel.groups[i].method;
+      panel.groups[i].narrow = i % 2 == 0;
+    }
+  }
+  return fmt::format("narrow boxes: {}; wide boxes: {}", first, second);
+}
+
 Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& options) {
   auto scores = design_scores(store, options.filter);
   if (!scores) return Unexpected(scores.error());

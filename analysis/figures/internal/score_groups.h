@@ -24,6 +24,11 @@ struct GroupedScores {
 /// of their own. Colours and order are the store's.
 GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::string_view by);
 
+/// Two sources of each method become pairs, as the field draws simulation beside another world: the
+/// first narrow, both with the method's name. Returns what tells them apart, in words; nothing, and
+/// changes nothing, where a group has no partner.
+std::string pair_boxes(std::vector<ScorePanel>& panels);
+
 /// Of a store. Errors: NotFound when no finished design has such a score.
 Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& options);
 

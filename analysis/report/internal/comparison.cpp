@@ -63,14 +63,14 @@ HtmlTable ranks_table(const ComparedRanks& ranks) {
   HtmlTable table{
       .caption = fmt::format(
           "Mean ranks{} over {} blocks of {}, 1 is best. Friedman's chi-squared {}, degrees of "
-          "freedom {}, p {}. Intervals of two that do not overlap differ at 5 %.",
+          "freedom {}, p {}. {}",
           ranks.source.empty() ? "" : " in " + ranks.source, test.blocks,
           as_words(fmt::format("{}", fmt::join(ranks.missions, ", "))),
-          shown_number(test.statistic), test.degrees, shown_p(test.p_value)),
+          shown_number(test.statistic), test.degrees, shown_p(test.p_value), test.reading()),
       .columns = {{"name"}, {"mean rank", true}, {"95 % interval", true}}};
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
-    const auto interval = test.interval(i);
+    const auto interval = test.told_interval(i);
     table.rows.push_back({ranks.names[i], shown_number(mean),
                           interval ? fmt::format("[{}, {}]", shown_number(interval->low),
                                                  shown_number(interval->high))
@@ -100,7 +100,8 @@ void write_comparison(ReportDraft& draft, const std::vector<DesignScore>& scores
     for (const std::string& note : comparison.notes)
       page.paragraph(note);
   }
-  draft.figure("ranks", {.width_mm = 84}, "Mean ranks with the interval of Friedman's test.");
+  draft.figure("ranks", {.width_mm = 84},
+               "Mean ranks, with intervals where Friedman's test finds a difference.");
 }
 
 }  // namespace swarmsmith

@@ -26,8 +26,9 @@ struct ScoreGroup {
   std::vector<double> values;
 };
 
-/// Mission, method, source, purpose.
-using Key = std::tuple<std::string, std::string, std::string, std::string>;
+/// Mission, method, whether it is no test, source, purpose: the world that designs were made in
+/// comes before the others.
+using Key = std::tuple<std::string, std::string, bool, std::string, std::string>;
 
 /// A row a mission, method, source and purpose: number, mean, standard deviation, and the five
 /// numbers of a box plot (analysis/statistics/summary.h).
@@ -40,12 +41,13 @@ HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
   }
   std::map<Key, ScoreGroup> found;
   for (const auto& [score, runs] : values_of(taken)) {
-    ScoreGroup& group = found[{score.mission, score.method, score.source, score.purpose}];
+    ScoreGroup& group =
+        found[{score.mission, score.method, score.purpose != "test", score.source, score.purpose}];
     group.designs.insert(score.design);
     group.values.push_back(score.score);
   }
   for (const auto& [key, group] : found) {
-    const auto& [mission, method, source, purpose] = key;
+    const auto& [mission, method, is_later, source, purpose] = key;
     const Summary summary = summary_of(group.values);
     std::vector<std::string> row = {as_words(mission),
                                     method,
@@ -206,12 +208,14 @@ void write_races(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
        {"budget (experiments)", Show::Count},
        {"used", Show::Count},
        {"iterations", Show::Count},
-       {"mean of the best", Show::Number},
+       {"its race's mean", Show::Number},
+       {"mean of its tests", Show::Number},
        {"state"},
        {"why it ended"}},
-      "SELECT design, mission, method, repetition, budget, used, iteration, best_mean, state, "
-      "iif(reason LIKE 'not enough budget%', 'budget used up', reason) "
-      "FROM v_designs ORDER BY design",
+      "SELECT d.design, d.mission, d.method, d.repetition, d.budget, d.used, d.iteration, "
+      "d.best_mean, t.test_mean, d.state, "
+      "iif(d.reason LIKE 'not enough budget%', 'budget used up', d.reason) "
+      "FROM v_designs AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design ORDER BY d.design",
       1000);
   if (!draft.options().page_of_design) {
     page.paragraph(

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "analysis/comparison/paper_text.h"
 #include "tests/analysis/comparison/scores.h"
 
 namespace swarmsmith {
@@ -11,6 +12,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// Six designs of two missions, each in simulation and reality; real ones are worse.
 std::vector<DesignScore> in_two_sources() {
@@ -76,6 +78,35 @@ TEST(Comparison, RunsArePairedBySeed) {
   EXPECT_THAT(comparison.pairs.front().notes,
               Contains("runs left out, since only one of the two sources has them: 6"));
   EXPECT_THAT(comparison.notes, Contains(HasSubstr("not independent")));
+}
+
+/// Six designs under two profiles, the second on seeds of its own from `first_seed` on.
+std::vector<DesignScore> under_two_profiles(std::int64_t first_seed) {
+  std::vector<Scored> designs;
+  for (int i = 1; i <= 6; ++i) {
+    designs.push_back({.design = i, .repetition = i, .scores = {1.0 * i, 2.0 * i}});
+    designs.push_back({.design = i,
+                       .repetition = i,
+                       .source = "pseudo-reality",
+                       .scores = {0.5 * i, 1.5 * i},
+                       .purpose = "score",
+                       .first_seed = first_seed});
+  }
+  return records_of(designs);
+}
+
+TEST(Comparison, SaysThatPairedDesignsRanOnOtherSeeds) {
+  const std::string note =
+      "the seeds of pseudo-reality and rvr differ in 6 of 6 designs, so a part of the difference "
+      "may "
+      "be theirs";
+  const Comparison other = compare(under_two_profiles(2), {.by = CompareBy::Source});
+  EXPECT_THAT(other.pairs.front().notes, Contains(note));
+  EXPECT_THAT(other.seeds, ElementsAre(note));
+  EXPECT_THAT(paper_sentences(other).front().text, HasSubstr(note));
+  const Comparison same = compare(under_two_profiles(1), {.by = CompareBy::Source});
+  EXPECT_THAT(same.pairs.front().notes, Not(Contains(HasSubstr("seeds"))));
+  EXPECT_THAT(same.seeds, IsEmpty());
 }
 
 TEST(Comparison, DesignsInOneSourceAloneAreLeftOutAndCounted) {

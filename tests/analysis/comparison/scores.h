@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// Scores of a design's winner in a source, on the seeds 1, 2, ...
+/// Scores of a design's winner in a source, on the seeds `first_seed` and on.
 struct Scored {
   std::int64_t design = 1;
   std::string mission = "aggregation";
@@ -17,6 +17,7 @@ struct Scored {
   std::string source = "rvr";
   std::vector<double> scores;
   std::string purpose = "test";
+  std::int64_t first_seed = 1;
 };
 
 inline std::vector<DesignScore> records_of(const std::vector<Scored>& designs) {
@@ -33,7 +34,7 @@ inline std::vector<DesignScore> records_of(const std::vector<Scored>& designs) {
                          .purpose = design.purpose,
                          .pair = number,
                          .instance = 1,
-                         .seed = number,
+                         .seed = design.first_seed + number - 1,
                          .score = design.scores[i]});
     }
   }

@@ -20,6 +20,11 @@ std::vector<std::string> words_of(const std::string& svg) {
   return words;
 }
 
+double height_of(const std::string& svg) {
+  const std::size_t at = svg.find("height=\"") + 8;
+  return std::stod(svg.substr(at));
+}
+
 /// The thesis' kind: small integers and large ones, by source.
 BoxPlot three_missions(double width_mm) {
   BoxPlot plot{.title = "Scores by source", .details = {"60 scores of 30 designs"}};
@@ -115,6 +120,89 @@ TEST(BoxPlot, PairsHaveOneNameBelowTwoBoxesAndTheFirstOneIsNarrow) {
   EXPECT_EQ(std::ranges::count(words_of(svg), "4"), 4) << "an n a box";
 }
 
+/// Seven methods in three missions under two profiles, ten designs each, with a line a design.
+BoxPlot study(double width_mm, bool with_links) {
+  BoxPlot plot{.title = "Scores by method", .details = {"42000 scores of 210 designs"}};
+  plot.width_mm = width_mm;
+  plot.legend = "narrow boxes: rvr; wide boxes: pseudo-reality";
+  for (const char* mission : {"aggregation (robots)", "color selection (reward)", "grid"}) {
+    ScorePanel panel{.title = mission, .groups = {}};
+    for (const char* method :
+         {"cma-es", "evostick", "icepop", "irace", "maple", "random", "vanilla"}) {
+      for (const bool narrow : {true, false}) {
+        ScoreGroup group{.name = method, .color = 0, .values = {}, .narrow = narrow};
+        for (int i = 0; i < 10; ++i)
+          group.values.push_back(0.37 * i + static_cast<double>(panel.groups.size() % 3));
+        panel.groups.push_back(group);
+      }
+      const std::size_t last = panel.groups.size() - 1;
+      for (std::size_t i = 0; with_links && i < 10; ++i)
+        panel.links.push_back({.from = last - 1, .to = last, .from_value = i, .to_value = i});
+    }
+    plot.panels.push_back(panel);
+  }
+  return plot;
+}
+
+TEST(BoxPlot, OfAStudyFitsOnAPageWithWholeNames) {
+  for (const double width : {84.0, 85.0, 174.0, 254.0}) {
+    for (const bool with_links : {false, true}) {
+      const std::string svg = draw(study(width, with_links));
+      EXPECT_THAT(text_problems(svg), IsEmpty()) << width;
+      EXPECT_THAT(shape_problems(svg), IsEmpty()) << width;
+      EXPECT_LE(height_of(svg), 240) << width;
+      EXPECT_EQ(dots_in(svg), 420U);
+      EXPECT_THAT(words_of(svg), Not(Contains(testing::HasSubstr("\u2026")))) << width;
+      for (const char* method : {"cma-es", "evostick", "vanilla"})
+        EXPECT_EQ(std::ranges::count(words_of(svg), method), 3) << width;
+    }
+  }
+}
+
+TEST(BoxPlot, WhatTellsBoxesOfANameApartStandsInAPaper) {
+  BoxPlot plot = study(84, false);
+  plot.explained = false;
+  EXPECT_THAT(words_of(draw(plot)), Contains(plot.legend));
+}
+
+TEST(BoxPlot, LinesBeginAndEndAtTheirPoints) {
+  for (const double width : {84.0, 174.0}) {
+    BoxPlot plot{.title = "gap"};
+    plot.width_mm = width;
+    plot.panels = {{"m",
+                    {{"rvr", 0, {1, 4, 2}}, {"real", 1, {3, 1.5, 2.5}}},
+                    {{.from = 0, .to = 1, .from_value = 1, .to_value = 0}}}};
+    const std::string svg = draw(plot);
+    // The line's ends are places of dots, which the file has as "Mx yh0".
+    const std::size_t line = svg.find("stroke=\"#888888\"");
+    const std::size_t begin = svg.rfind("d=\"M", line) + 4;
+    const std::string path = svg.substr(begin, svg.find('"', begin) - begin);
+    const std::string from = path.substr(0, path.find('L'));
+    const std::string to = path.substr(path.find('L') + 1);
+    EXPECT_NE(svg.find(from + "h0"), std::string::npos) << path;
+    EXPECT_NE(svg.find(to + "h0"), std::string::npos) << path;
+  }
+}
+
+TEST(BoxPlot, FillsAWideFigure) {
+  BoxPlot plot = study(174, false);
+  plot.panels.resize(1);
+  plot.panels[0].groups.resize(4);
+  double right = 0;
+  for (const TextBox& box : texts_of(draw(plot)))
+    right = std::max(right, box.text == "10" ? box.right : 0);
+  EXPECT_GT(right, 165);
+}
+
+TEST(BoxPlot, PanelsBelowEachOtherBeginAtOnePlace) {
+  BoxPlot plot = three_missions(84);
+  std::vector<double> lefts;
+  for (const TextBox& box : texts_of(draw(plot)))
+    if (box.text == "n") lefts.push_back(box.right);
+  ASSERT_EQ(lefts.size(), 3U);
+  EXPECT_TRUE(lefts[0] == lefts[1] || lefts[1] == lefts[2] || lefts[0] == lefts[2]);
+}
+
 TEST(BoxPlot, LongNamesAndManyGroupsStayOnThePage) {
   BoxPlot plot{.title = "A title that is much longer than any column of any paper could ever be",
                .details = {}};
@@ -127,6 +215,10 @@ TEST(BoxPlot, LongNamesAndManyGroupsStayOnThePage) {
   const std::string svg = draw(plot);
   EXPECT_THAT(text_problems(svg), IsEmpty());
   EXPECT_THAT(shape_problems(svg), IsEmpty());
+  EXPECT_EQ(std::ranges::count_if(
+                words_of(svg), [](const std::string& word) { return word.ends_with("kinds 8"); }),
+            2)
+      << "to its last letter";
 }
 
 }  // namespace

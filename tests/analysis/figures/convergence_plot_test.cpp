@@ -85,5 +85,26 @@ TEST(Stairs, MedianIsWhereAllAre) {
   EXPECT_THAT(median_of({}), IsEmpty());
 }
 
+TEST(ConvergencePlot, SearchesThatTellOnceAreNoVerticalLines) {
+  ConvergencePlot plot = plot_of(1, 6);
+  plot.groups = {"random"};
+  for (auto& line : plot.panels.front().lines) {
+    line.group = 0;
+    line.points = {{100000, line.points[0].mean, 0, 0}};
+  }
+  // Ends, a median among them, and no line.
+  const DrawnPage page = drawn_page(draw(plot));
+  EXPECT_EQ(shapes(page, "stroke=\"" + distinct_color(0) + "\" stroke-width=\"0.7\""), 0U);
+  for (auto& line : plot.panels.front().lines)
+    line.points.insert(line.points.begin(), {50000, line.points[0].mean - 1, 0, 0});
+  const std::string svg = draw(plot);
+  const std::size_t median = svg.find("stroke-width=\"0.7\"");
+  ASSERT_NE(median, std::string::npos);
+  const std::size_t begin = svg.rfind("d=\"M", median);
+  const std::string path = svg.substr(begin, median - begin);
+  EXPECT_EQ(std::ranges::count(path, 'L'), 1) << path;  // straight, from point to point
+  EXPECT_EQ(path.find_first_of("HV"), std::string::npos) << path;
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -103,6 +103,9 @@ TEST(ModuleChart, HasNoTextOverAnother) {
 TEST(ModuleChart, WhatDoesNotFitSideBySideContinuesBelow) {
   ModuleChart chart = thesis_tables();
   auto& columns = chart.blocks.front().columns;
+  chart.modules.resize(5);  // with all of them it would be higher than a page, and a grid
+  for (auto& column : columns)
+    column.cells.resize(5);
   const auto first = columns;
   columns.insert(columns.end(), first.begin(), first.end());
   chart.blocks.push_back({"chocolate", first});
@@ -113,6 +116,27 @@ TEST(ModuleChart, WhatDoesNotFitSideBySideContinuesBelow) {
   EXPECT_EQ(times(svg, "chocolate"), 1);
   EXPECT_THAT(text_problems(svg), IsEmpty());
   EXPECT_THAT(shape_problems(svg), IsEmpty());
+}
+
+TEST(ModuleChart, OfAStudyIsAGridAMissionOnOnePage) {
+  ModuleChart chart = thesis_tables();
+  const auto columns = chart.blocks.front().columns;
+  chart.blocks.clear();
+  for (const char* method : {"cma-es", "evostick", "icepop", "irace", "maple", "random", "vanilla"})
+    chart.blocks.push_back({method, columns});
+  chart.blocks[1].columns[0].cells[3] = std::nullopt;
+  for (const double width : {84.0, 85.0, 174.0, 254.0}) {
+    chart.width_mm = width;
+    const std::string svg = draw(chart);
+    EXPECT_THAT(text_problems(svg), IsEmpty()) << width;
+    EXPECT_THAT(shape_problems(svg), IsEmpty()) << width;
+    EXPECT_LE(std::stod(svg.substr(svg.find("height=\"") + 8)), 240) << width;
+    for (const char* method : {"cma-es", "evostick", "vanilla"})
+      EXPECT_EQ(times(svg, method), 3) << width;
+    EXPECT_EQ(times(svg, "2.5"), 7) << width;  // black floor for aggregation, of each method
+    EXPECT_EQ(times(svg, "-"), 1);
+    EXPECT_THAT(words_of(svg), HasSubstr("-: the method has no such module"));
+  }
 }
 
 }  // namespace

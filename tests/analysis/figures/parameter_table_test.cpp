@@ -2,15 +2,22 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/figures/internal/category_colors.h"
+#include "analysis/figures/internal/parameter_words.h"
 
 namespace swarmsmith {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+const Flavour* find_flavour_named(std::string_view name) {
+  const auto all = all_flavours();
+  return *std::ranges::find_if(all, [&](const Flavour* one) { return one->name == name; });
+}
 
 /// Six candidates; `size` is 1, 1, 2, 10, 3, 3 as text would sort it wrongly, `s0` moves from stop
 /// to attraction, `tau` is a number that only some have, `same` never changes.
@@ -105,6 +112,24 @@ TEST(CategoryColors, ListsThatShareAValueShareAPalette) {
   EXPECT_NE(colors.color("a"), colors.color("b"));
   EXPECT_TRUE(CategoryColors::belongs({"c"}, colors.families()[0]));
   EXPECT_FALSE(CategoryColors::belongs({"1"}, colors.families()[0]));
+}
+
+TEST(ParameterWords, NameModulesAndPlaces) {
+  const Flavour& flavour = *find_flavour_named("watermelon");
+  for (const auto& [name, words] : std::vector<std::pair<std::string, std::string>>{
+           {"NumStates", "states"},
+           {"S0", "behaviour 0"},
+           {"RWM2", "exploration tau 2"},
+           {"ATT1", "attraction alpha 1"},
+           {"NumConnections3", "edges of 3"},
+           {"N1x0", "target 1.0"},
+           {"C1x0", "condition 1.0"},
+           {"P0x1", "beta 0.1"},
+           {"BI0x3", "inverted neighbour count xi 0.3"},
+           {"speed", "speed"},
+           {"weight12", "weight12"},
+           {"x", "x"}})
+    EXPECT_EQ(words_of_parameter(name, flavour), words);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 RankPlot plot_of(std::size_t rows) {
   RankPlot plot{.title = "Ranks by method"};
@@ -20,8 +21,8 @@ RankPlot plot_of(std::size_t rows) {
                   "Friedman: \u03c7\u00b2 = 8.373, df 2, p = 0.0152"}};
   for (std::size_t i = 0; i < rows; ++i) {
     const auto rank = static_cast<double>(i + 1);
-    panel.rows.push_back(
-        {"a method with a long name " + std::to_string(i), rank, rank - 0.6, rank + 0.6});
+    panel.rows.push_back({"a method with a long name " + std::to_string(i), rank,
+                          std::pair(rank - 0.6, rank + 0.6)});
   }
   plot.panels = {panel, panel};
   return plot;
@@ -40,8 +41,7 @@ TEST(RankPlot, TextsStandClearOfEachOtherAtEveryWidth) {
 }
 
 TEST(RankPlot, TheBestStandsOnTop) {
-  RankPlot plot{.title = "t",
-                .panels = {{.rows = {{"worse", 1.8, 1.7, 1.9}, {"better", 1.2, 1.1, 1.3}}}}};
+  RankPlot plot{.title = "t", .panels = {{.rows = {{"worse", 1.8}, {"better", 1.2}}}}};
   const std::string svg = draw(plot);
   EXPECT_LT(svg.find("better"), svg.find("worse"));
 }
@@ -78,6 +78,13 @@ TEST_F(RanksFigureTest, RanksMethodsWhereThereAreSeveral) {
   EXPECT_THAT(figure->csv, HasSubstr("\nrvr,chocolate,"));
   EXPECT_THAT(text_problems(figure->svg), IsEmpty());
   EXPECT_EQ(figure->svg, make(*store, {})->svg);
+}
+
+TEST_F(RanksFigureTest, SaysNothingOfADifferenceThatTheTestDoesNotShow) {
+  const auto store = store_with("chocolate", "watermelon");  // two missions: p is 0.157 at least
+  const std::string svg = make(*store, {})->svg;
+  EXPECT_THAT(svg, HasSubstr("No difference is found at 5 %"));
+  EXPECT_THAT(svg, Not(HasSubstr("do not overlap")));
 }
 
 TEST_F(RanksFigureTest, SaysWhyThereIsNothingToRank) {

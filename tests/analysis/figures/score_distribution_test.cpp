@@ -2,6 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
+#include "analysis/drawing/svg.h"
+#include "analysis/figures/internal/score_grid.h"
+
 #include "tests/analysis/support/svg_texts.h"
 
 namespace swarmsmith {
@@ -79,6 +84,35 @@ TEST(ScoreDistribution, HistogramsSayTheWidthOfTheirBins) {
     EXPECT_THAT(words_of(svg), Contains("-440000"));
     EXPECT_THAT(text_problems(svg), IsEmpty()) << width;
     EXPECT_THAT(shape_problems(svg), IsEmpty()) << width;
+  }
+}
+
+TEST(ScoreDistribution, OfManyGroupsIsAGridOfMethodsByMissions) {
+  ScoreDistribution plot{.title = "Distribution of scores", .details = {"630 scores"}};
+  for (const char* mission : {"aggregation (robots)", "color selection (reward)", "grid (s)"}) {
+    ScorePanel panel{mission, {}};
+    for (const char* method :
+         {"cma-es", "evostick", "icepop", "irace", "maple", "random", "vanilla"}) {
+      for (const char* source : {"rvr", "pseudo-reality"}) {
+        panel.groups.push_back({.name = std::string(method) + " " + source,
+                                .color = 0,
+                                .values = {-425812, -355359, -371000, -380000, -400000, -360000},
+                                .method = method,
+                                .source = source});
+      }
+    }
+    plot.panels.push_back(panel);
+  }
+  for (const double width : {84.0, 85.0, 174.0}) {
+    plot.width_mm = width;
+    const std::string svg = draw_score_grid(plot, {"pseudo-reality", "rvr"});
+    EXPECT_THAT(text_problems(svg), IsEmpty()) << width;
+    EXPECT_THAT(shape_problems(svg), IsEmpty()) << width;
+    EXPECT_LE(std::stod(svg.substr(svg.find("height=\"") + 8)), 240) << width;
+    for (const char* word : {"cma-es", "evostick", "vanilla", "rvr", "pseudo-reality"})
+      EXPECT_EQ(std::ranges::count(words_of(svg), word), 1) << width;
+    // Bars of equal shares in both colours: a swatch more.
+    EXPECT_EQ(bars_of_color(svg, distinct_color(0)), bars_of_color(svg, distinct_color(1)));
   }
 }
 

@@ -194,6 +194,18 @@ TEST_F(StoreFigures, TrainingHasAPointAWinner) {
   EXPECT_THAT(figure.csv, HasSubstr(fmt::format("{},rvr,4,", *all->front().best_mean)));
 }
 
+TEST_F(StoreFigures, AxesHaveTheNamesOfModules) {
+  for (const char* kind : {"sampling", "parallel"}) {
+    const Figure figure = made(kind, {.filter = {.design = {{1}}}, .parameter = "S0,RWM0"});
+    std::string texts;
+    for (const auto& text : drawn_page(figure.svg).texts)
+      texts += text.text + "\n";
+    EXPECT_THAT(texts, HasSubstr("behaviour 0")) << kind;
+    EXPECT_THAT(texts, testing::ContainsRegex("exploration[ \n]tau 0")) << kind;
+    EXPECT_THAT(figure.csv, HasSubstr(",RWM0,")) << kind;  // as the store has them
+  }
+}
+
 TEST_F(StoreFigures, GapSaysWhatIsMissing) {
   const auto none = make("gap", {});
   ASSERT_FALSE(none);

@@ -53,6 +53,33 @@ TEST_F(MachineFigureTest, OfSeveralDesignsIsASheetInTheirOrder) {
   EXPECT_THAT(sheet->csv, testing::StartsWith("design,candidate,state,behaviour,"));
 }
 
+TEST_F(MachineFigureTest, OfManyDesignsHasPagesThatHoldEachOnce) {
+  const SyntheticCampaign many = synthetic_campaign({.designs = 12, .iterations = 1});
+  {
+    auto store = open_store(folder / "many.db", many);
+    for (const auto& batch : many.batches)
+      store->append(batch);
+  }
+  reader = open_reader(folder / "many.db");
+  for (const double width : {85.0, 174.0}) {
+    const auto figure = make({.width_mm = width});
+    ASSERT_TRUE(figure) << to_string(figure.error());
+    ASSERT_GT(figure->pages.size(), 1U);
+    std::string all;
+    for (const std::string& page : figure->pages) {
+      EXPECT_LE(std::stod(page.substr(page.find("height=\"") + 8)), kFigurePage_mm);
+      all += page;
+    }
+    for (int design = 1; design <= 12; ++design) {
+      const std::string name = ">d" + std::to_string(design) + " c";
+      const std::size_t at = all.find(name);
+      ASSERT_NE(at, std::string::npos) << name;
+      EXPECT_EQ(all.find(name, at + 1), std::string::npos) << name;
+    }
+  }
+  EXPECT_THAT(make({.filter = {.design = DesignId{2}}})->pages, testing::IsEmpty());
+}
+
 TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
   EXPECT_EQ(make({.candidate = CandidateId{999'999'999}}).error().kind, ErrorKind::NotFound);
   EXPECT_EQ(make({.filter = {.mission = "gone"}}).error().kind, ErrorKind::NotFound);

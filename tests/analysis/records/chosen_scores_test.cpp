@@ -25,6 +25,27 @@ std::vector<double> numbers(const ChosenScores& taken) {
   return numbers;
 }
 
+DesignScore run_of(std::int64_t design, const std::string& source, std::int64_t seed) {
+  DesignScore run = score_of(design, "score", 1, source);
+  run.instance = 1;
+  run.seed = seed;
+  return run;
+}
+
+TEST(ChosenScores, SaysWhereSourcesHaveOtherSeeds) {
+  std::vector<DesignScore> scores = {run_of(1, "rvr", 1), run_of(1, "rvr", 2),
+                                     run_of(1, "argos3", 2), run_of(1, "argos3", 1)};
+  EXPECT_FALSE(seeds_differ(scores, "rvr", "argos3"));  // in whatever order
+  scores.push_back(run_of(2, "rvr", 1));
+  scores.push_back(run_of(2, "argos3", 7));
+  scores.push_back(run_of(3, "rvr", 1));  // in one source alone
+  scores.push_back(run_of(3, "real", 9));
+  EXPECT_EQ(*seeds_differ(scores, "rvr", "argos3"),
+            "the seeds of rvr and argos3 differ in 1 of 2 designs, so a part of the difference may "
+            "be theirs");
+  EXPECT_FALSE(seeds_differ(scores, "rvr", "real"));  // robots have no seeds
+}
+
 TEST(ChosenScores, LaterScoresChangeNothingWhereThereAreTests) {
   const std::vector<DesignScore> scores = {score_of(1, "test", 1), score_of(1, "test", 3),
                                            score_of(1, "score", 90), score_of(2, "test", 7)};

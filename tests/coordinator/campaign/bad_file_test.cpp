@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -323,6 +326,20 @@ TEST(CampaignFile, ThatIsNotThereIsNotFound) {
 
 TEST(CampaignFile, WithABudgetThatFitsHasNoComplaints) {
   EXPECT_THAT(complaints(FileText{}.text()), IsEmpty());
+}
+
+TEST(BadCampaign, AMissionFileIsToldToBeOne) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "dispersion.toml";
+  std::ofstream(file) << "format = 1\nname = \"dispersion\"\nrobots = 5\nduration = \"60 s\"\n"
+                         "[arena]\nshape = \"square\"\nside = 3.0\n"
+                         "[score]\nkind = \"formula\"\nvalue = \"nearest\"\nof = \"robots\"\n"
+                         "over = \"mean\"\nat = \"end\"\n";
+  const auto campaign = read_campaign(file);
+  ASSERT_FALSE(campaign);
+  ASSERT_EQ(campaign.error().size(), 1U);
+  EXPECT_THAT(to_string(campaign.error().front()),
+              HasSubstr("this is a mission, not a campaign: a campaign file names it"));
 }
 
 }  // namespace

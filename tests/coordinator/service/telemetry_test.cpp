@@ -65,6 +65,44 @@ TEST_F(Telemetries, BeginWithTheCommandsOfTheStore) {
   EXPECT_TRUE(campaign.designs[1].paused);
 }
 
+TEST_F(Telemetries, TestsOfAFinishedDesignSayHowGoodItsBestIs) {
+  const CandidateId winner{1'000'001};
+  const auto test = [&](std::int64_t number, double score) {
+    return EvaluationRow{.key = {winner, Purpose::Test, number}, .score = score};
+  };
+  const auto state = [&](DesignState now_in) {
+    return DesignStateRow{
+        .design = {2}, .state = now_in, .used = 90, .best = winner, .best_mean = 5};
+  };
+  telemetry.on_rows(0, std::vector<Row>{state(DesignState::Testing), test(1, 2), test(2, 4)}, now);
+  EXPECT_EQ(status().campaigns->front().designs[1].told_mean(), 5) << "not all are done";
+  telemetry.on_rows(0, std::vector<Row>{test(3, 3), state(DesignState::Finished)}, now);
+  const DesignStatus design = status().campaigns->front().designs[1];
+  EXPECT_EQ(design.test_runs, 3);
+  EXPECT_DOUBLE_EQ(design.told_mean(), 3);
+  EXPECT_EQ(design.best_mean, 5);
+}
+
+TEST_F(Telemetries, TestsOfBeforeCountOn) {
+  std::vector<TelemetryCampaign> stored = campaigns();
+  const CandidateId winner{1};
+  stored.front().states = {
+      {.design = {1}, .state = DesignState::Testing, .used = 90, .best = winner, .best_mean = 5}};
+  stored.front().tested = {{.winner = winner, .mean = 2, .runs = 3}};
+  Telemetry resumed(stored, now);
+  resumed.on_rows(0,
+                  std::vector<Row>{EvaluationRow{.key = {winner, Purpose::Test, 4}, .score = 6},
+                                   DesignStateRow{.design = {1},
+                                                  .state = DesignState::Finished,
+                                                  .used = 90,
+                                                  .best = winner,
+                                                  .best_mean = 5}},
+                  now);
+  const auto campaign = resumed.status(coordinator, now, true).campaigns->front();
+  EXPECT_EQ(campaign.designs[0].test_runs, 4);
+  EXPECT_DOUBLE_EQ(campaign.designs[0].told_mean(), 3);
+}
+
 TEST_F(Telemetries, TheEndIsToldFromTheRecentRateOrNotAtAll) {
   EXPECT_LT(seconds_left(status()), 0);
   for (int i = 1; i <= 10; ++i) {

@@ -19,13 +19,21 @@ export function stage_of({ stage, iteration }: Design): string {
   return stage ?? (iteration > 0 ? `iteration ${iteration}` : "not begun");
 }
 
+/// How good the best is: as its tests say, since the race's pairs chose it; before them the race.
+export function told_mean({ test_mean, best_mean }: Design): number | null { return test_mean ?? best_mean; }
+
+/// What that mean is of.
+export function mean_of({ test_runs, best_mean }: Design): string {
+  return test_runs > 0 ? "in tests" : best_mean === null ? "" : "in race";
+}
+
 function card(c: string, design: Design, leads: boolean) {
   const { id, method, repetition, state, alive, campaign } = design;
   return <a key={id} class={leads ? "card leads" : "card"} href={href([c, id])}
     aria-label={`${id}, ${words(design.mission)}, ${method}, repetition ${repetition}${campaign ? `, of ${campaign}` : ""}: ${design.paused ? "paused" : state}`}>
     <span class="card-head"><b>{id}</b>{state_word(design)}</span>
     <Bar of={design} name={`${id}: experiments used`} />
-    <span><b>{number(design.best_mean)}</b>{leads && <span class="faint"> best</span>}</span>
+    <span><b>{number(told_mean(design))}</b> <span class="faint">{mean_of(design)}{leads && ", best"}</span></span>
     {campaign && <small>{campaign}</small>}
     <small>{is_over(design) ? `${whole(design.used)} used` : stage_of(design)}{state === "racing" && alive !== null && `, ${whole(alive)} alive`}</small>
   </a>;
@@ -36,14 +44,16 @@ function grid({ c, designs }: Campaign) {
   const wide = designs.some((one) => one.repetition > 3);
   return <div class={wide ? "" : "missions"}>{in_order(designs.map((one) => one.mission)).map((mission) => {
     const here = designs.filter((one) => one.mission === mission);
-    // Scores of missions differ in their units.
-    const best = Math.max(...here.map((one) => one.best_mean ?? -Infinity));
+    // Scores of missions differ in their units, and a race's mean flatters beside one of tests.
+    const tested = here.filter((one) => one.test_runs > 0);
+    const compared = tested.length > 0 ? tested : here;
+    const best = Math.max(...compared.map((one) => told_mean(one) ?? -Infinity));
     return <div class="mission">
-      <h3>{words(mission)} <small>mean score of the best so far; higher is better</small></h3>
+      <h3>{words(mission)} <small>mean score of the best so far, in its tests once it has them; higher is better</small></h3>
       {in_order(here.map((one) => one.method)).map((method) => <div class="method">
         <div class="method-name">{method}</div>
         <div class="cards">{here.filter((one) => one.method === method).sort((a, b) => a.repetition - b.repetition)
-          .map((one) => card(c, one, here.length > 1 && one.best_mean === best))}</div>
+          .map((one) => card(c, one, compared.length > 1 && compared.includes(one) && told_mean(one) === best))}</div>
       </div>)}
     </div>;
   })}</div>;
@@ -98,7 +108,7 @@ function campaign_panels(live: Live, campaign: Campaign) {
         ["experiments", used_of(campaign)],
         state === "running" && live.running && ["ETA", eta_of(live, campaign.eta_s), "the rest of the budgets at the rate of the last minute"],
         ["store", <span class="small">{store}</span>],
-        ["digest", <code class="small">{campaign.digest.slice(0, 12) || "–"}</code>, "of all that decides the answer"]])}
+        ["campaign's digest", <code class="small">{campaign.digest.slice(0, 12) || "–"}</code>, "of all that decides the answer; swarmsmith digest prints that of the answer"]])}
       {state === "interrupted" && <Empty>It is not finished, and no process works on it here. {run} continues it.</Empty>}
       {designs.length ? grid(campaign)
         : <Empty>This store holds no design yet. {run} begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>}

@@ -72,8 +72,8 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
       ["experiments", [<Bar of={design} name="experiments used" />, used_of(design)]],
       [stage ? "search" : "iteration", [stage ?? whole(design.iteration), !over && alive !== null && <small> {whole(alive)} alive</small>]],
       ["best", best ? link(best) : "none yet"],
-      ["mean score", number(design.best_mean), "over the pairs that the best has met; higher is better"],
-      ["tests on fresh seeds", tests ? [number(tests.mean), " ", <small>{number(tests.low)} to {number(tests.high)}, {count(tests.n, "run")}</small>]
+      ["mean in the race", number(design.best_mean), "over the pairs that the best has met, which chose it; higher is better"],
+      ["mean in tests on fresh seeds", tests ? [number(tests.mean), " ", <small>{number(tests.low)} to {number(tests.high)}, {count(tests.n, "run")}</small>]
         : <small>{over ? "none" : "after the race"}</small>, "mean and its 95 % interval"],
       row.reason && ["why it ended", <span class="small">{row.reason}</span>]])}
     <div class="grid">

@@ -3,7 +3,7 @@
 import { h } from "preact";
 import { choice_of, Empty, link, Panel } from "../components";
 import { Machine } from "../figure";
-import { number, words } from "../format";
+import { count, number, words } from "../format";
 import { PageProps } from "../page";
 import { set_query } from "../route";
 
@@ -21,9 +21,9 @@ export function Machines({ query, campaign: { designs } }: PageProps) {
       <span class="faint" role="status">{drawn.length} of {designs.length} designs</span>
     </div>}
     {drawn.length === 0 && <Empty>{shown.length > 0 ? "No design has a best candidate yet: it comes with the first iteration's end." : "No design is of this mission and method."}</Empty>}
-    <div class="columns">{drawn.slice(0, most).map(({ id, mission, method, repetition, best, best_mean, state }) =>
+    <div class="columns">{drawn.slice(0, most).map(({ id, mission, method, repetition, best, state, ...one }) =>
       <Panel title={`${id}: ${words(mission)}, ${method}, ${repetition}`}>
-        <p>{link(best!)} <span class="faint">mean {number(best_mean)} in its races (higher is better), {state}</span></p>
+        <p>{link(best!)} <span class="faint">mean {number(one.test_mean ?? one.best_mean)} {one.test_runs > 0 ? `in ${count(one.test_runs, "test")}` : "in its races"} (higher is better), {state}</span></p>
         <Machine of={best!} version={best!} />
       </Panel>)}</div>
     {drawn.length > most && <div class="tools"><button onClick={() => set_query({ all: 1 })}>Show all {drawn.length}</button></div>}

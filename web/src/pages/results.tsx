@@ -10,12 +10,14 @@ import { PageProps } from "../page";
 import { Cell, Columns, Row } from "../types";
 import { version_of } from "./campaigns";
 import { rows_of } from "./design";
+import { Methods } from "./matrix";
 
 export function Results({ params: { c }, query, campaign: { designs } }: PageProps) {
   const version = version_of(designs);
   const missions = designs.map((one) => one.mission);
   const ways = ["method", "source"];
-  const by = ways.includes(query.by) ? query.by : new Set(designs.map((one) => one.method)).size > 1 ? "method" : "source";
+  const several = new Set(designs.map((one) => one.method)).size > 1;
+  const by = ways.includes(query.by) ? query.by : several ? "method" : "source";
   const mission = missions.includes(query.mission) ? query.mission : null;
   const figures: [string, string, boolean][] = [["box", `Winners' scores by ${by}`, true], ["ranks", `Mean ranks by ${by}`, true],
     ["scores", "How often each score occurred", true], ["training", "In the race, and tested", false],
@@ -29,10 +31,11 @@ export function Results({ params: { c }, query, campaign: { designs } }: PagePro
       {choice_of("Mission", missions)}
       <Copy text={command("compare", `--by ${by}`)} />
     </div>
+    {several && <Methods c={c} version={version} of={query.of} />}
     {table("Leaderboard", "leaderboard", leaderboard)}
+    <div class="grid"><Panel wide title={`Tests by ${by}`}><Get<string> path={path_of(`${c}/comparison/pairs.csv`, { by, mission })} version={version}
+      render={(text) => <CsvTable text={text} name={`tests by ${by}`} id="pairs" first="mission source method first second n_first p_holm p mean_difference a12 magnitude" />} /></Panel></div>
     <div class="columns">
-      <Panel title={`Tests by ${by}`}><Get<string> path={path_of(`${c}/comparison/pairs.csv`, { by, mission })} version={version}
-        render={(text) => <CsvTable text={text} name={`tests by ${by}`} id="pairs" />} /></Panel>
       {figures.map(([kind, title, compares]) => <Panel title={title}><Figure kind={kind} options={{ by: compares ? by : null, mission }} version={version} name={title} /></Panel>)}
     </div>
     {table("Real runs", "real-runs", real_runs)}
