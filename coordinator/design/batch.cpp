@@ -22,6 +22,7 @@ Batch::Batch(std::vector<Experiment> experiments)
     : experiments_(std::move(experiments)), scores_(experiments_.size()) {}
 
 void Batch::await(std::size_t position, const EvaluationKey& key) {
+  SWARMSMITH_ASSERT(position < experiments_.size(), "what is awaited is one of the batch");
   awaited_.emplace(packed_key(key), position);
 }
 

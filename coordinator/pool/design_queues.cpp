@@ -150,6 +150,7 @@ void DesignQueues::forget(std::uint32_t campaign) {
 
 bool DesignQueues::is_urgent(const Design& design, std::size_t free,
                              std::uint64_t allowance_us) const {
+  SWARMSMITH_ASSERT(!by_had_.empty(), "both orders have the ready designs");
   return design.wanted.size() <= free && design.had_us <= by_had_.begin()->rank + allowance_us;
 }
 

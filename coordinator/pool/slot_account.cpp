@@ -4,6 +4,8 @@
 #include <numeric>
 #include <optional>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -101,6 +103,7 @@ void SlotAccount::settle(Worker& worker, const WorkerEntry& entry, TimePoint now
   const double busy =
       std::clamp(static_cast<double>(entry.busy_us - worker.busy_us) * 1e-6, 0.0, slots);
   const double idle = slots - busy;
+  SWARMSMITH_ASSERT(busy >= 0 && idle >= 0, "slot time is busy time and idle time");
   const double unleased = std::accumulate(worker.unleased.begin(), worker.unleased.end(), 0.0);
   const double share = unleased > idle ? idle / unleased : 1.0;
   for (std::size_t i = 0; i < kIdleCauses; ++i)

@@ -229,6 +229,7 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   if (principal.claims >= Principal::kMostClaims) most = 0;
   const bool is_new = !book_->options.evaluates_programs && !principal.is_proven();
   if (is_new) most = std::min(most, book_->now < principal.waits_until ? 0 : kRoomOnTrial);
+  SWARMSMITH_ASSERT(most <= entry.credit, "a worker never gets more than it asked for");
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
   book_->leases.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
 }

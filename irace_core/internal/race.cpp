@@ -29,11 +29,18 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
       quality_(contestants_.size()),
       quantiles_((1 - settings_.confidence) / 2) {
   SWARMSMITH_ASSERT(!settings_.capping || settings_.bound_max > 0, "capping has a largest bound");
+  SWARMSMITH_ASSERT(settings_.new_pairs >= 0 && settings_.past_pairs >= 0 &&
+                        settings_.new_pairs + settings_.past_pairs <=
+                            static_cast<std::int64_t>(settings_.pairs.size()),
+                    "new and past pairs lead the list");
+  SWARMSMITH_ASSERT(settings_.pairs_between_tests >= 1, "tests come again");
   const auto new_pairs = static_cast<std::size_t>(settings_.new_pairs);
   for (std::size_t c = 0; c < contestants_.size(); ++c) {
     const std::vector<double>& past = contestants_[c].past;
     const std::vector<double>& past_times = contestants_[c].past_times;
     SWARMSMITH_ASSERT(settings_.elitist || past.empty(), "only elitist races know past results");
+    SWARMSMITH_ASSERT(past.empty() || past.size() == static_cast<std::size_t>(settings_.past_pairs),
+                      "an elite has a cost, or none, on each past pair");
     SWARMSMITH_ASSERT(!settings_.capping || past.size() == past_times.size(),
                       "capping needs the elites' times");
     alive_.push_back(c);
@@ -182,6 +189,8 @@ void Race::close_task() {
   const std::vector<std::size_t> ran = std::move(open_->ran);
   const bool only_elites = open_->only_elites;
   open_.reset();
+  SWARMSMITH_ASSERT(progress_.task == static_cast<std::size_t>(step.task) - 1,
+                    "tasks come in turn");
   pass(progress_, ran);  // 9.3.4; rejections (9.3.5) were taken out as their costs came
   used_ = progress_.used;
   step.experiments_used = used_;

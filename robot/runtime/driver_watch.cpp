@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -47,6 +49,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 DriverWatch::DriverWatch(Limits limits) : limits_(limits) {
+  SWARMSMITH_ASSERT(limits_.hold <= limits_.give_up, "treads are held before a run is given up");
+  SWARMSMITH_ASSERT(limits_.hold / kDelayStep + 1 < static_cast<int>(Follows::kDelays),
+                    "a driver that is late beyond what is held can be told");
   forget_changes();
 }
 
@@ -64,6 +69,7 @@ bool DriverWatch::is_quiet(TimePoint now) const {
 }
 
 void DriverWatch::commanded(TimePoint at, double left_mps, double right_mps) {
+  SWARMSMITH_ASSERT(std::isfinite(left_mps) && std::isfinite(right_mps), "a command is two speeds");
   while (commands_.size() > 1 && at - commands_[1].from > kMemory)
     commands_.pop_front();
   const bool is_new = commands_.empty() || commands_.back().left_mps != left_mps ||
@@ -107,6 +113,7 @@ void DriverWatch::compare_changes(const DrivenMessage& driven) {
 /// When its changes follow those that were commanded so much better.
 std::string DriverWatch::why_behind(const Follows& follows) const {
   constexpr double kSure = 0.9;
+  SWARMSMITH_ASSERT(follows.changes <= follows.most, "older changes are forgotten");
   if (follows.changes < follows.least) return {};
   const auto& share = follows.share;
   const auto late = share.begin() + limits_.hold / kDelayStep + 1;
@@ -258,6 +265,7 @@ std::string DriverWatch::why_not_obeyed(TimePoint now) const {
                ? second_->name + " drives the treads in place of " + driver_
                : driver_ + " does not say what the treads do";
   }
+  SWARMSMITH_ASSERT(last_, "a driver that is not quiet has said something");
   const Commanded wanted = commands_.empty() ? Commanded{} : commands_.back();
   const std::string told = driver_ + " says that they do " +
                            speeds(last_->left_mps, last_->right_mps) + ", and " +
