@@ -50,8 +50,6 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 DriverWatch::DriverWatch(Limits limits) : limits_(limits) {
   SWARMSMITH_ASSERT(limits_.hold <= limits_.give_up, "treads are held before a run is given up");
-  SWARMSMITH_ASSERT(limits_.hold / kDelayStep + 1 < static_cast<int>(Follows::kDelays),
-                    "a driver that is late beyond what is held can be told");
   forget_changes();
 }
 
@@ -110,13 +108,19 @@ void DriverWatch::compare_changes(const DrivenMessage& driven) {
   }
 }
 
+std::ptrdiff_t DriverWatch::prompt_delays() const {
+  const auto delays = static_cast<std::ptrdiff_t>(limits_.hold / kDelayStep) + 1;
+  return std::min<std::ptrdiff_t>(delays, Follows::kDelays);
+}
+
 /// When its changes follow those that were commanded so much better.
 std::string DriverWatch::why_behind(const Follows& follows) const {
   constexpr double kSure = 0.9;
   SWARMSMITH_ASSERT(follows.changes <= follows.most, "older changes are forgotten");
   if (follows.changes < follows.least) return {};
   const auto& share = follows.share;
-  const auto late = share.begin() + limits_.hold / kDelayStep + 1;
+  const auto late = share.begin() + prompt_delays();
+  if (late == share.end()) return {};  // that late is not remembered
   const double prompt = *std::max_element(share.begin(), late);
   const auto best = std::max_element(late, share.end());
   if (*best < kSure || *best - prompt < follows.better) return {};
@@ -392,7 +396,7 @@ std::vector<std::string> DriverWatch::doubts() const {
   }
   constexpr double kFollows = 0.6;
   const Follows& soon = follows_.front();
-  const auto late = soon.share.begin() + limits_.hold / kDelayStep + 1;
+  const auto late = soon.share.begin() + prompt_delays();
   if (soon.changes == soon.most && *std::max_element(soon.share.begin(), late) < kFollows)
     doubts.push_back(driver_ +
                      " says changes of speed that do not follow those that are commanded");
