@@ -250,7 +250,7 @@ void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
 // --- time ---
 
 void WorkerProtocol::on_tick(TimePoint now) {
-  // This process was stopped or starved: no wonder that nobody was heard.
+  // This process was stopped or starved, so it could hear nothing.
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
   if (state_ != State::Left) begin_alone(now);

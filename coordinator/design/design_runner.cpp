@@ -156,7 +156,7 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
   for (const EvaluationKey& key : unused) {
     if (key.purpose == Purpose::Race) recorder_.record_unused(key);
   }
-  // Tasks that nobody has taken yet go at once, the others are let go.
+  // Tasks that were not taken yet go at once, the others are let go.
   std::erase_if(tasks, [&](const Task& task) {
     if (design_of(task.key.candidate) != id()) return false;
     const bool was_awaited = batch_.let_go(task.key);

@@ -86,7 +86,7 @@ void DesignQueues::erase(Design& design, bool ahead, Place place) {
   change(design, [&] { (ahead ? design.ahead : design.wanted).erase(place); });
 }
 
-/// Look-ahead is not charged: it takes what nobody else wants. `had_us_` is the virtual time of
+/// Look-ahead is not charged: it takes slots that would idle. `had_us_` is the virtual time of
 /// start-time fair queueing, which never goes back.
 void DesignQueues::on_leased(Design& design, bool ahead, std::uint64_t cost_us) {
   if (!ahead && !by_had_.empty()) had_us_ = std::max(had_us_, by_had_.begin()->rank);

@@ -20,7 +20,7 @@ double seconds(Duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// Why nothing is ready: look-ahead that nobody took is no work that is held back.
+/// Why nothing is ready: look-ahead that was not taken is not work that is held back.
 IdleCause cause_without_ready(const LeaseTable& leases) {
   IdleCause cause = IdleCause::Barrier;
   for (const PoolDesign& held : leases.queues().held()) {
@@ -65,7 +65,7 @@ void SlotAccount::sample(const Scheduler& scheduler, Holding holding, TimePoint 
   }
   for (const auto& [number, entry] : scheduler.workers().all()) {
     if (!entry.usable()) {
-      // Since its last heartbeat nobody knows what it did.
+      // What it did since its last heartbeat is unknown.
       workers_.erase(number);
       continue;
     }

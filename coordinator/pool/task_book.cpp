@@ -73,7 +73,7 @@ void TaskBook::reject(TaskRecord& record, WorkerNumber worker, const std::string
                       const FailureDetails& details) {
   const EvaluationKey key = record.task.key;
   if (policy_of(record).stop_on_failure && record.task.ahead) {
-    // Nobody may ever ask for it: no reason to stop before somebody does.
+    // It may never be needed: no reason to stop before it is.
     if (record.lease_of(worker) != nullptr) leases.requeue(record, worker);
     if (!record.lease) leases.shelve(record);
     return;

@@ -213,7 +213,7 @@ void Trust::update_room(Principal& principal) {
 
 void Trust::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
   if (leases == 0 || principal.is_proven()) return;
-  // Who is alone does not wait: there is nobody whose turn it takes.
+  // A worker that is alone does not wait: it takes no other's turn.
   principal.astray += static_cast<std::int64_t>(leases);
   if (principal.astray < kMostAstray || proven_present() == 0) return;
   principal.waits_until =
@@ -266,7 +266,7 @@ std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,
   return sum;
 }
 
-/// Its word is wrong. What it said before and nobody made again cannot be believed either.
+/// Its word is wrong. Its earlier results that were not made again cannot be believed either.
 void Trust::convict(Principal& principal, WorkerNumber worker, const std::string& evidence,
                     TimePoint now) {
   if (principal.quarantined) return;
@@ -330,7 +330,7 @@ void Trust::quarantine_process(Principal& principal, WorkerNumber worker, const 
                {"made again", standing.confirmed}},
               std::nullopt, nullptr, worker);
   if (principal.liars.size() >= Principal::kMostLiars) {
-    // Whoever comes back under ever new ids would have the referee for itself.
+    // A worker that comes back under ever new ids would have the referee for itself.
     const std::string all = std::to_string(principal.liars.size()) +
                             " of its processes are, the last one because " + reason;
     book_->note("error", "workers in quarantine", {{"who", principal.name}, {"reason", all}});

@@ -54,7 +54,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
     progress_.results.push_back(known);
   }
   find_uncovered();
-  // Tasks on which nobody has to be run need no answer: the race may be past them at once.
+  // Tasks without runs need no answer: the race may be past them at once.
   tell({});
 }
 
@@ -76,8 +76,8 @@ void Race::tell(std::span<const Measurement> measurements) {
   if (!stop_) plan();
 }
 
-/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not looked at where nobody has to be run:
-/// such a task costs nothing.
+/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not looked at for a task without runs, which
+/// costs nothing.
 bool Race::open_task() {
   if (progress_.task == settings_.pairs.size()) {
     stop_ = "no pairs left";
@@ -122,8 +122,7 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
     }
   }
   if (stop_) return;
-  // Asked for were all who were alive then, of whom those rejected since are left out on both
-  // sides.
+  // All that were alive then were asked for. Those rejected since are left out on both sides.
   SWARMSMITH_ASSERT(answered == open_->due, "all that is due was asked for");
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;

@@ -30,7 +30,7 @@ void Race::eliminate(RaceStep& step) {
   if (tests) worse = worse_by_test(step);
   // Capping comes first in irace's loop (rule 9.3.6, before 9.3.7), but both look at the same rows,
   // those of the task with all who are alive: neither sees what the other dropped.
-  // Where nobody passes both, capping alone counts (irace facts, 17).
+  // Where none passes both, capping alone counts (irace facts, 17).
   std::vector<std::size_t> losers = united(worse, slower);
   if (losers.size() == alive_.size()) losers = slower;
   SWARMSMITH_ASSERT(losers.size() < alive_.size(), "the best one is never dropped");
@@ -119,7 +119,7 @@ std::vector<double> Race::means() const {
   return means;
 }
 
-/// Whoever is alive has a cost here, known or run: the ranks of a row are those among all of them.
+/// Each one alive has a cost here, known or run: the ranks of a row are those among all of them.
 void Race::add_ranked_row(std::size_t task) {
   std::vector<Entry> row;
   row.reserve(alive_.size());
@@ -151,7 +151,7 @@ void Race::drop(const std::vector<std::size_t>& columns) {
 }
 
 /// A rejection can take away the only results on past pairs (irace facts, 9.3.2: they must have a
-/// result of somebody alive before a race may stop).
+/// result of one that is alive before a race may stop).
 void Race::find_uncovered() {
   uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
   const auto anybody_has = [&](std::size_t task) {

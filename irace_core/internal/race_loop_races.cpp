@@ -43,7 +43,7 @@ irace::RaceSettings IteratedRace::State::settings_of(const irace::RacePlan& plan
   return settings;
 }
 
-/// Elitist: first pairs that nobody has seen, so that elites cannot live on luck with the past
+/// Elitist: first pairs that none has seen, so that elites cannot live on luck with the past
 /// ones; then the past ones, on which new configurations must beat them; then the other unused
 /// ones. Otherwise: the unused ones; of a deterministic target all, from the first (irace
 /// facts, 9.1).
@@ -161,7 +161,7 @@ Experiment IteratedRace::State::experiment_of(const irace::RaceRun& run) const {
 
 std::vector<Experiment> IteratedRace::State::ahead(std::int64_t pairs) const {
   std::vector<Experiment> experiments;
-  // With max_time what is left, and so what is asked, depends on times that nobody knows yet.
+  // With max_time the rest of the budget, and so the questions, depend on times to come.
   if (finished || !race || time) return experiments;
   for (const irace::RaceRun& run : race->ahead(pairs)) {
     if (!is_known(run)) experiments.push_back(experiment_of(run));

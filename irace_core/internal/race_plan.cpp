@@ -103,7 +103,7 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
 
 /// Counts a task on which `ran` (ascending) were run; protected ones that were not have used up a
 /// known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never grows: behind the last past
-/// pair nobody is protected.
+/// pair none is protected.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   SWARMSMITH_ASSERT(std::ranges::is_sorted(ran), "columns are looked up by halving");
   for (const std::size_t c : alive_) {

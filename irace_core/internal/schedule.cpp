@@ -174,7 +174,7 @@ std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::
           "not enough budget to race more than the minimum number of configurations"};
     }
     if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
-    // Asked for by the iteration, a budget may be more than what is left, and irace spends it.
+    // Asked for by the iteration, a budget may be more than the rest, and irace spends it.
     if (needed(size, elites) > std::min(budget, remaining)) {
       return NoMoreRaces{"not enough budget for the first test of a race"};
     }

@@ -295,7 +295,7 @@ Decision RobotNode::decide(const Now& now) {
   last_tick_ = now.clock;
   if (phase_ == Phase::Idle || phase_ == Phase::Ready) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
-    return {};  // whoever carries or drives the robot to its place may do so
+    return {};  // the robot may be carried or driven to its place
   }
   if (is_on() && settings_.operator_gone > Duration::zero() &&
       now.clock - operator_heard_ > settings_.operator_gone) {

@@ -171,7 +171,7 @@ void RunStarter::interrupt(const Now& now) {
     complaints_.emplace_back("interrupted before the start");
     stage_ = Stage::Over;
   } else if (stage_ == Stage::Ordered || stage_ == Stage::Watching) {
-    give_up("interrupted: all robots are told to stop", now);
+    give_up("interrupted: stopping all robots", now);
   }
 }
 
@@ -225,7 +225,7 @@ std::vector<Order> RunStarter::tick(const Now& now) {
   } else if (none || now.clock - stopping_ > kStopPatience) {
     for (const RolledRobot& robot : roll_.robots()) {
       if (is_in_run(robot))
-        complaints_.push_back(robot.name + ": did not say that it stopped: look after it");
+        complaints_.push_back(robot.name + ": did not confirm that it stopped; check the robot");
     }
     stage_ = Stage::Over;
   }

@@ -138,7 +138,7 @@ SightingsByTag sightings_of(const Observations& observations,
   SightingsByTag found;
   for (std::size_t i = 0; i < observations.sightings.size(); ++i) {
     const Sighting& seen = observations.sightings[i];
-    // What is left of a damaged store may name a camera that is lost.
+    // A damaged store may name a camera that is lost.
     if (seen.camera < 0 || seen.camera >= static_cast<int>(cameras.size())) continue;
     const auto camera = static_cast<std::size_t>(seen.camera);
     const std::vector<bool>& again = repeats[camera].again;

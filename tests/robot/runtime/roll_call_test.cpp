@@ -180,7 +180,7 @@ TEST(RunStarter, StopsAllWhenOneFallsSilent) {
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
   EXPECT_THAT(
       bench.starter->complaints(),
-      ElementsAre("rvr2: is silent for 1 s", HasSubstr("rvr2: did not say that it stopped")));
+      ElementsAre("rvr2: is silent for 1 s", HasSubstr("rvr2: did not confirm that it stopped")));
 }
 
 TEST(RunStarter, StopsAllWhenOneFails) {

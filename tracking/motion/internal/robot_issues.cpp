@@ -135,7 +135,7 @@ std::optional<double> check_end(const RobotTrack& track, const FrameReport& fram
   return gap_s;
 }
 
-/// Cycles of which the pose is a guess: across a long gap, or held where no sample is near. That a
+/// Cycles whose pose is a guess: across a long gap, or held where no sample is near. That a
 /// video ends a frame before the run's last instant is no guess worth a word, and that it covers
 /// less than the run is said elsewhere.
 std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
