@@ -43,7 +43,7 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 /// - A design never runs more than its budget: a race ends before a task that would (irace goes
 /// over
 ///   it for pairs that elites miss, and by nb_experiments_per_iteration).
-/// - A Friedman test of a single pair drops nobody: it has no degree of freedom.
+/// - A Friedman test of a single pair drops none: it has no degree of freedom.
 /// - Post-selection never ends a design without its elites.
 /// - The cap of 1024 configurations a race is an option.
 /// - Runs of a rejected configuration on later tasks of a batch are void, so that the answer does

@@ -38,8 +38,8 @@ Expected<std::vector<int>> find_levels(const std::vector<std::vector<std::size_t
     }
     if (!changed) return levels;
   }
-  // Whoever waits for a circle without being in it has a larger level than the circle's members at
-  // some point, so we follow the dependencies until one comes twice.
+  // A parameter that waits for a circle without being in it has a larger level than the circle's
+  // members at some point, so we follow the dependencies until one comes twice.
   std::vector<bool> seen(n, false);
   auto at =
       static_cast<std::size_t>(std::max_element(levels.begin(), levels.end()) - levels.begin());

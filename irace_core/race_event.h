@@ -26,7 +26,7 @@ struct IterationStarted {
   std::int64_t remaining = 0;         ///< experiments of the whole design that are left
   std::int64_t budget = 0;            ///< of them for this iteration
   std::int64_t n_configurations = 0;  ///< in the race, elites included
-  std::int64_t new_pairs = 0;         ///< pairs that come first since nobody has seen them
+  std::int64_t new_pairs = 0;         ///< pairs that come first since they are new
   std::vector<std::int64_t> elites;   ///< that the race starts with, best first
   bool soft_restart = false;
   bool postselection = false;      ///< the last race; all who take part are its elites
@@ -54,8 +54,8 @@ struct RaceStep {
   std::int64_t iteration = 0;
   std::int64_t task = 0;  ///< from 1 in each race
   std::int64_t pair = 0;
-  /// x no test, = nobody dropped, - some dropped, ! only protected elites would have been, c
-  /// capping alone dropped some, . nobody had to be run, : only elites had to be (capping)
+  /// x no test, = none dropped, - some dropped, ! only protected elites would have been, c
+  /// capping alone dropped some, . none had to be run, : only elites had to be (capping)
   char marker = 'x';
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;

@@ -52,7 +52,7 @@ struct Scenario {
   /// Blocks of new instances, first in each later race.
   std::int64_t elitist_new_instances = 1;
   std::int64_t elitist_limit =
-      2;  ///< a race ends after so many tests in a row that drop nobody; 0 = none
+      2;  ///< a race ends after so many tests in a row without a drop; 0 = none
   bool soft_restart = true;
   double soft_restart_threshold = 1e-4;
   bool postselection = true;  ///< a last race with what is left; elitist only, not with max_time

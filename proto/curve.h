@@ -38,7 +38,7 @@ struct ListedClient {
   friend bool operator==(const ListedClient&, const ListedClient&) = default;
 };
 
-/// What a server needs to admit clients by their keys, and nobody else.
+/// What a server needs to admit the clients with these keys alone.
 struct ServerKeys {
   std::string secret_key;
   std::vector<ListedClient> clients;

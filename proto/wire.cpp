@@ -88,7 +88,8 @@ bool has_too_many_parts(std::string_view payload) {
 template <class Message>
 Expected<const Message*> parse(std::string_view frame, std::size_t most,
                                google::protobuf::Arena& arena) {
-  // What is wrong with a frame is told by value; the library would write it to standard error.
+  // What is wrong with a frame is returned as a value; the library would write it to standard
+  // error.
   [[maybe_unused]] static auto* const kLoud = google::protobuf::SetLogHandler(nullptr);
   const Expected<std::string_view> payload = payload_of(frame, most);
   if (!payload) return Unexpected(payload.error());

@@ -213,7 +213,7 @@ Expected<Recovery::Without> SqliteRecovery::drop_words_of(const std::string& key
         " pair FROM evaluation WHERE worker IN {}) OR {} IN {}",
         table, theirs, std::string_view(table) == "conflict" ? "other_worker" : "worker", theirs));
   }
-  // Nor can what nobody answers for be believed now.
+  // Nor can rows without a worker be believed now.
   without.evaluations = run("DELETE FROM evaluation WHERE worker IN " + theirs +
                             " OR worker <> 0 AND worker NOT IN (SELECT id FROM worker)");
   const std::string reason =

@@ -17,7 +17,7 @@ struct SalvagedTable {
   std::string name;
   std::int64_t rows = 0;        ///< whole ones
   std::int64_t lost_pages = 0;  ///< that held more of them, and cannot be read
-  std::int64_t broken = 0;      ///< rows of which a part is lost
+  std::int64_t broken = 0;      ///< rows that lost a part
   bool tree_is_lost = false;    ///< where it began is not known: there may have been more
 };
 
@@ -28,7 +28,7 @@ struct Salvaged {
   std::int64_t schema = 0;
   bool header_is_damaged = false;  ///< sizes and schema were concluded from the pages
   std::int64_t pages = 0;
-  std::int64_t unplaced = 0;  ///< rows of which it cannot be told to which table they belong
+  std::int64_t unplaced = 0;  ///< rows whose table is unknown
   std::vector<SalvagedTable> tables;
 };
 

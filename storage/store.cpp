@@ -58,7 +58,7 @@ std::string differing_keys(const Connection& connection, const std::string& here
 Expected<void> check_campaign(const Connection& connection, const fs::path& path,
                               const CampaignRow& wanted) {
   const std::vector<StoredCampaign> all = read_campaigns(connection);
-  // Imported designs stand beside those of a campaign, and hinder nobody.
+  // Imported designs stand beside those of a campaign, and hinder none.
   const auto run_here = std::ranges::count_if(
       all, [](const StoredCampaign& each) { return each.state != "imported"; });
   if (run_here > 1) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "proto/task_messages.h"
 #include "proto/wire.pb.h"
 
@@ -17,7 +18,10 @@ WorkerProtocol::WorkerProtocol(WorkerIdentity identity, WorkerOptions options, R
     : identity_(std::move(identity)),
       options_(options),
       jitter_(jitter),
-      backoff_(options_.first_backoff) {}
+      backoff_(options_.first_backoff) {
+  SWARMSMITH_ASSERT(identity_.slots >= 1, "a worker evaluates something");
+  SWARMSMITH_ASSERT(options_.first_backoff <= options_.longest_backoff, "pauses grow");
+}
 
 std::vector<WorkerAction> WorkerProtocol::take_actions() {
   return std::exchange(actions_, {});
@@ -32,6 +36,8 @@ void WorkerProtocol::start(TimePoint now) {
 // --- the connection ---
 
 void WorkerProtocol::send(pb::ToCoordinator& message, TimePoint) {
+  SWARMSMITH_ASSERT(state_ == State::Greeting || state_ == State::Active,
+                    "messages go over a connection that is there");
   message.set_incarnation(incarnation_);
   message.set_sequence(++sequence_);
   actions_.emplace_back(SendToCoordinator{encode(message)});
@@ -39,6 +45,7 @@ void WorkerProtocol::send(pb::ToCoordinator& message, TimePoint) {
 
 /// Opens a connection, unless it was asked for on the one that there is.
 void WorkerProtocol::greet(TimePoint now) {
+  SWARMSMITH_ASSERT(state_ != State::Left, "a worker that has left stays away");
   if (state_ == State::Waiting) actions_.emplace_back(OpenConnection{});
   if (state_ == State::Active) alone_since_ = now;
   state_ = State::Greeting;
@@ -72,6 +79,7 @@ void WorkerProtocol::on_connection_lost(TimePoint now) {
 }
 
 void WorkerProtocol::lose(TimePoint now) {
+  SWARMSMITH_ASSERT(state_ == State::Greeting || state_ == State::Active, "there is one to lose");
   if (state_ == State::Active) alone_since_ = now;
   state_ = State::Waiting;
   // Jitter, so that a thousand workers do not come back in step.
@@ -192,6 +200,7 @@ void WorkerProtocol::on_bad_scenario(const std::string& reason) {
 
 /// Connected, with a scenario: what the coordinator may not have is sent, and work asked for.
 void WorkerProtocol::be_ready(TimePoint now) {
+  SWARMSMITH_ASSERT(state_ == State::Active && has_scenario_, "work follows welcome and scenario");
   for (auto& [key, finished] : finished_)
     queue_result(key, finished, now);
   flush(now);
@@ -218,6 +227,7 @@ void WorkerProtocol::on_drain(TimePoint now) {
 /// Leaves when nothing runs and everything is on the coordinator's disk, or the time is over.
 void WorkerProtocol::finish_draining(TimePoint now) {
   if (state_ != State::Active) return;
+  SWARMSMITH_ASSERT(drain_until_, "only a worker that drains finishes draining");
   flush(now);
   const bool late = now >= *drain_until_;
   if (!late && !(held_.empty() && finished_.empty())) return;
@@ -240,7 +250,7 @@ void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
 // --- time ---
 
 void WorkerProtocol::on_tick(TimePoint now) {
-  // This process was stopped or starved: no wonder that nobody was heard.
+  // This process was stopped or starved, so it could hear nothing.
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
   if (state_ != State::Left) begin_alone(now);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "proto/task_messages.h"
 #include "proto/wire.pb.h"
 
@@ -90,6 +91,7 @@ void WorkerProtocol::on_evaluated(Result result, TimePoint now) {
 }
 
 void WorkerProtocol::queue_result(PackedKey key, Finished& finished, TimePoint now) {
+  SWARMSMITH_ASSERT(finished_.contains(key), "a result is kept until it is acknowledged");
   if (finished.queued) return;
   finished.queued = true;
   if (unsent_.empty()) oldest_unsent_ = now;
@@ -114,6 +116,7 @@ void WorkerProtocol::flush(TimePoint now) {
 }
 
 void WorkerProtocol::send_results(std::span<const PackedKey> keys, TimePoint now) {
+  SWARMSMITH_ASSERT(keys.size() <= options_.results_per_message, "a message has a limit");
   auto& message = *google::protobuf::Arena::CreateMessage<pb::ToCoordinator>(&arena_);
   pb::Results& results = *message.mutable_results();
   results.set_scenario(scenario_);

@@ -6,7 +6,7 @@
 namespace swarmsmith {
 
 /// Evaluates for the coordinator that started this process, one task after the other, until `input`
-/// ends; returns the exit code. No network, and nobody to believe but the pipes.
+/// ends; returns the exit code. No network: it believes the pipes alone.
 ///
 /// What goes through them is framed as on the wire, each frame behind its length (four bytes,
 /// little-endian). Out: Hello, once the self test is done. In: ScenarioReply, then Tasks. Out, for

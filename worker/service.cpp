@@ -104,7 +104,7 @@ class Loop {
         " refuses this worker's key: it is not in the coordinator's clients.toml, or has expired");
   }
 
-  /// Once each time that nobody answers.
+  /// Once each time that no coordinator answers.
   void tell_when_alone(TimePoint now) {
     if (std::exchange(connected_, protocol_.active()) != protocol_.active() && on_connected_)
       on_connected_(connected_);

@@ -78,8 +78,6 @@ WorkerIdentity identity_of_this_process(int slots, std::string build) {
     id += static_cast<char>(device() & 0xffU);
   return {.id = std::move(id),
           .build = std::move(build),
-          .engine_version = 0,
-          .self_test = {},
           .slots = slots,
           .host = host_of_this_process(),
           .pid = getpid(),

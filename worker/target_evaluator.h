@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// The programs that a worker may run, whoever asks: a coordinator could name any.
+/// The programs that a worker may run: a coordinator could name any.
 struct AllowedPrograms {
   std::vector<std::string> programs;  ///< canonical absolute paths
   bool shell = false;                 ///< command lines that only a shell understands are run too

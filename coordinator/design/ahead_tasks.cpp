@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "coordinator/design/known_scores.h"
 
 namespace swarmsmith {
@@ -33,6 +34,7 @@ void AheadTasks::want(const EvaluationKey& key) {
 }
 
 void AheadTasks::end_step(std::span<const std::int64_t> alive) {
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(alive), "it is looked up by halving");
   expected_.clear();
   pairs_ = 0;
   seen_ = 0;

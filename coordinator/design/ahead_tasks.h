@@ -28,7 +28,7 @@ class AheadTasks {
 
   void add(const EvaluationKey& key, double bound);
   bool contains(const EvaluationKey& key) const;
-  /// Its outcome is there, or nobody has taken it: the bound, if it was here.
+  /// Its outcome is there, or it was never taken: the bound, if it was here.
   std::optional<double> remove(const EvaluationKey& key);
   /// The race waits for it now, and it is not dropped.
   void want(const EvaluationKey& key);
@@ -46,7 +46,7 @@ class AheadTasks {
   struct Ahead {
     EvaluationKey key;
     double bound;
-    bool dropped;  ///< nobody wants it any more
+    bool dropped;  ///< it is no longer needed
   };
 
   std::map<std::uint64_t, Ahead> tasks_;

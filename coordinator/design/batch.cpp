@@ -22,12 +22,13 @@ Batch::Batch(std::vector<Experiment> experiments)
     : experiments_(std::move(experiments)), scores_(experiments_.size()) {}
 
 void Batch::await(std::size_t position, const EvaluationKey& key) {
+  SWARMSMITH_ASSERT(position < experiments_.size(), "what is awaited is one of the batch");
   awaited_.emplace(packed_key(key), position);
 }
 
 StoredScore Batch::answer(const Outcome& outcome) {
   const auto found = awaited_.find(packed_key(outcome.key));
-  SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome is told once, and only when wanted");
+  SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome comes once, and only when wanted");
   const std::size_t position = found->second;
   awaited_.erase(found);
   put(position, score_of(outcome, experiments_[position].bound));
@@ -47,7 +48,7 @@ std::vector<Experiment> Batch::let_go() {
 }
 
 std::vector<Measurement> Batch::measurements() const {
-  SWARMSMITH_ASSERT(is_complete(), "a search is told a batch as a whole");
+  SWARMSMITH_ASSERT(is_complete(), "a search gets a batch as a whole");
   std::vector<Measurement> measurements;
   measurements.reserve(scores_.size());
   for (const StoredScore& score : scores_) {

@@ -40,7 +40,7 @@ std::vector<Task> CampaignRunner::take_tasks() {
   return std::exchange(tasks_, {});
 }
 
-/// One pair ahead costs little, since most tests drop nobody; a further design costs nothing but
+/// One pair ahead costs little, since most tests drop none; a further design costs nothing but
 /// memory; more pairs ahead may be for nothing.
 std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();

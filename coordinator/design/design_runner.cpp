@@ -78,6 +78,7 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
     }
     if (!batch_.is_complete()) return {};
     if (fault_) return Unexpected(*fault_);
+    SWARMSMITH_ASSERT(search_, "only a search races");
     if (search_->finished()) return finish_race(tasks);
     if (auto told = tell_race(); !told) return told;
     want_batch(tasks);
@@ -118,6 +119,7 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
       return bad_input("its race is over; only the tests of its elites are left", name);
     }
   } else if (state() == DesignState::Finished) {
+    SWARMSMITH_ASSERT(search_, "a design without a search takes no commands");
     const auto least = search_->least_extension();
     if (!least) return Unexpected(least.error());
     if (command.budget < *least) {
@@ -154,7 +156,7 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
   for (const EvaluationKey& key : unused) {
     if (key.purpose == Purpose::Race) recorder_.record_unused(key);
   }
-  // Tasks that nobody has taken yet go at once, the others are let go.
+  // Tasks that were not taken yet go at once, the others are let go.
   std::erase_if(tasks, [&](const Task& task) {
     if (design_of(task.key.candidate) != id()) return false;
     const bool was_awaited = batch_.let_go(task.key);
@@ -432,6 +434,7 @@ void DesignRunner::count_used(const std::vector<std::pair<std::int64_t, std::int
 
 /// Costs that replace those of earlier tasks.
 void DesignRunner::count_judged() {
+  SWARMSMITH_ASSERT(batch_.scores().size() == batch_.experiments().size(), "each call has a word");
   for (std::size_t i = 0; i < batch_.experiments().size(); ++i) {
     const Experiment& experiment = batch_.experiments()[i];
     const StoredScore& score = batch_.scores()[i];

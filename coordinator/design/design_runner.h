@@ -59,7 +59,7 @@ class DesignRunner {
   /// comes by `advance`, as any other.
   void look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,
                   std::vector<Row>& rows);
-  /// Tasks that were given and that nobody wants any more. Outcomes that come all the same are
+  /// Tasks that were given and are no longer needed. Outcomes that come all the same are
   /// taken.
   std::vector<EvaluationKey> take_dropped() { return ahead_.take_dropped(); }
   /// Tasks that were given without being wanted and have no outcome, with their bounds: what may

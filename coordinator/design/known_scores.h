@@ -52,7 +52,7 @@ class KnownScores {
  public:
   explicit KnownScores(StoredDesign stored) : stored_(std::move(stored)) {}
 
-  /// One that the store gave and nobody has asked for; null if there is none.
+  /// One of the store that was not asked for; null if there is none.
   const StoredScore* stored(const EvaluationKey& key) const;
   /// The score, if it is known.
   std::optional<StoredScore> take(const EvaluationKey& key);
@@ -60,10 +60,10 @@ class KnownScores {
   void keep(StoredScore score);
   /// Whether `take` would give one of the race.
   bool contains(const EvaluationKey& key) const;
-  /// Nobody will ask for the stored ones of the race any more; their keys.
+  /// The stored ones of the race are no longer needed; their keys.
   std::set<EvaluationKey> discard_race();
 
-  /// What the store gave and nobody has asked for (yet), scores that were computed ahead included.
+  /// Scores of the store that were not asked for (yet), those computed ahead included.
   const StoredDesign& unasked() const { return stored_; }
 
  private:

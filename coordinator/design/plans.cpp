@@ -15,7 +15,7 @@ namespace {
 /// Shared by the plans of one method, which may outlive each other.
 using SharedSpace = std::shared_ptr<const MethodSpace>;
 
-/// Control software that nobody searched for, in place of a search.
+/// Given control software, in place of a search.
 Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
   if (method.baseline.empty()) return {};
   plan.only_test = true;

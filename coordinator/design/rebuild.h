@@ -16,7 +16,7 @@ struct Rebuilt {
     DesignState state = DesignState::Waiting;
     std::int64_t used = 0;     ///< experiments, as far as the scores go
     std::int64_t ahead = 0;    ///< scores that were found of what comes later
-    std::int64_t unasked = 0;  ///< scores of tests that nobody asked for again
+    std::int64_t unasked = 0;  ///< scores of tests that were not asked for again
     std::size_t missing = 0;   ///< evaluations that it waits for
   };
   std::vector<Design> designs;

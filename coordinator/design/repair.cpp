@@ -11,7 +11,12 @@ namespace swarmsmith {
 namespace {
 
 std::string how_it_failed(const ProcessEnd& end) {
-  if (end.signal != 0) return "the program was killed by signal " + std::to_string(end.signal);
+  // The shell gives the signal that killed the program as 128 more.
+  constexpr int kShells = 128;
+  constexpr int kMostSignals = 64;
+  const bool is_shells = end.exit_code > kShells && end.exit_code <= kShells + kMostSignals;
+  const int signal = is_shells ? end.exit_code - kShells : end.signal;
+  if (signal != 0) return "the program was killed by signal " + std::to_string(signal);
   return "the program ended with exit status " + std::to_string(end.exit_code) + ", which is not 0";
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 
 std::optional<Task> TargetCalls::next() {
@@ -14,6 +16,7 @@ std::optional<Task> TargetCalls::next() {
 }
 
 std::int64_t TargetCalls::pair_in_race(std::int64_t task) {
+  SWARMSMITH_ASSERT(task >= 1 && tests_ >= 0, "calls count from 1, and never back");
   const std::int64_t pair = task + tests_;
   last_ = std::max(last_, pair);
   return pair;

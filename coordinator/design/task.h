@@ -12,7 +12,7 @@ struct Task : EvaluationInput {
   EvaluationKey key;
   /// Place of the campaign among those of the coordinator, which sets it.
   std::uint32_t campaign = 0;
-  /// Nobody waits for it yet: it keeps a slot busy that would idle (WorkSource::take_more).
+  /// No design waits for it yet: it keeps a slot busy that would idle (WorkSource::take_more).
   bool ahead = false;
 };
 

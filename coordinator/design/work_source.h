@@ -19,7 +19,7 @@ struct PassedCandidates {
 
 /// Where tasks come from and outcomes go: a campaign. Pure: no clock, no sockets, no store; what
 /// must be written comes out as rows. An abstract class because the cluster's tests put a small
-/// campaign of their own behind it; as it stands, a source looks ahead of nothing and obeys nobody.
+/// campaign of their own behind it; as it stands, a source has no look-ahead and no commands.
 class WorkSource {
  public:
   virtual ~WorkSource() = default;
@@ -34,19 +34,19 @@ class WorkSource {
   /// (Task::ahead). Their outcomes change nothing of the answer.
   virtual std::vector<Task> take_more(std::size_t /*count*/, std::size_t /*slots*/) { return {}; }
 
-  /// Tasks of `take_more` that nobody will want any more: they need not be run.
+  /// Tasks of `take_more` that are no longer needed: they need not be run.
   virtual std::vector<EvaluationKey> take_dropped() { return {}; }
 
-  /// Designs, since the last call, of which nothing will be wanted any more, whatever is commanded:
-  /// second results of theirs need not be recognised. Tasks that were given may still be told.
+  /// Designs that have ended for good since the last call; no command can restart them. Their
+  /// second results need not be recognised. Outcomes of tasks that were given may still come.
   virtual std::vector<DesignId> take_ended() { return {}; }
 
-  /// Candidates, since the last call, of which results are no longer waited for: second ones of
-  /// theirs need not be recognised. Tasks of theirs may still be given, and are told.
+  /// Candidates whose results no design has waited for since the last call: their second results
+  /// need not be recognised. Their tasks may still be given, and their outcomes come.
   virtual std::vector<PassedCandidates> take_passed() { return {}; }
 
   /// Carries out "cancel" or "extend"; its row comes by `take_rows`, with the step at which it
-  /// acts. Errors: no such design, or one of which it cannot be asked, with what can.
+  /// acts. Errors: no such design, or one that cannot do it, with what it can do.
   virtual Expected<void> carry_out(const CommandRow& command) {
     return bad_input("this campaign knows no such command", std::string(word_of(command.kind)));
   }
@@ -55,7 +55,7 @@ class WorkSource {
   /// any more.
   virtual std::optional<Task> task_of(const EvaluationKey& /*key*/) const { return std::nullopt; }
 
-  /// The first outcome of a task that was taken; each task is told once.
+  /// The first outcome of a task that was taken; called once for each task.
   virtual void tell(const Outcome& outcome) = 0;
 
   /// Rows that became due since the last call, in the order in which they must be stored: an

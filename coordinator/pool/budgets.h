@@ -14,8 +14,8 @@
 
 namespace swarmsmith {
 
-/// How much others can make a coordinator write, do and send. A stranger is a principal of which no
-/// result was ever taken; a thousand workers of one that come at once are within all of these.
+/// How much others can make a coordinator write, do and send. A stranger is a principal without
+/// an accepted result; a thousand workers of one that come at once are within all of these.
 struct BudgetOptions {
   // Bytes of rows and of their lines in the log.
   Rate rows_of_stranger{.burst = 128 << 10, .per_second = 512};
@@ -28,7 +28,7 @@ struct BudgetOptions {
   Rate answers_of_peer{.burst = 20, .per_second = 2};
   Rate answer_bytes{.burst = 16 << 20, .per_second = 128 << 20};
   Rate commands{.burst = 1000, .per_second = 10};
-  /// What was left out becomes an event this often.
+  /// How often an event reports what was left out.
   Duration tell_every = std::chrono::minutes(1);
 };
 

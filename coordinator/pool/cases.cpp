@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "coordinator/pool/task_key.h"
 
 namespace swarmsmith {
@@ -26,6 +27,7 @@ void Cases::open(Task task, std::optional<Said> said, bool audit) {
 std::optional<Task> Cases::next() {
   std::deque<PackedKey>& queue = urgent_.empty() ? audits_ : urgent_;
   if (out_ || queue.empty()) return std::nullopt;
+  SWARMSMITH_ASSERT(open_.contains(queue.front()), "what waits for the referee is a case");
   out_ = queue.front();
   queue.pop_front();
   return open_.at(*out_).task;

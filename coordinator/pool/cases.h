@@ -45,8 +45,8 @@ struct Dispute {
   std::uint64_t signature = 0;  ///< of the lease of `other`
 };
 
-/// An evaluation that is before the referee, and who said what of it; nobody, when it was lost with
-/// strangers only.
+/// An evaluation that is before the referee, and who said what of it; no worker, when it was lost
+/// with strangers only.
 struct Case {
   Task task;
   std::vector<Said> said;
@@ -72,7 +72,7 @@ class Cases {
   bool empty() const { return open_.empty(); }
   std::size_t size() const { return open_.size(); }
   std::size_t audits() const { return audits_.size(); }
-  /// Cases of nobody.
+  /// Cases without a word of a worker.
   std::size_t of_nobody() const;
   /// Of a campaign that is stopped; those that were open.
   std::vector<Case> forget(std::uint32_t campaign);

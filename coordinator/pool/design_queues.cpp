@@ -86,7 +86,7 @@ void DesignQueues::erase(Design& design, bool ahead, Place place) {
   change(design, [&] { (ahead ? design.ahead : design.wanted).erase(place); });
 }
 
-/// Look-ahead is not charged: it takes what nobody else wants. `had_us_` is the virtual time of
+/// Look-ahead is not charged: it takes slots that would idle. `had_us_` is the virtual time of
 /// start-time fair queueing, which never goes back.
 void DesignQueues::on_leased(Design& design, bool ahead, std::uint64_t cost_us) {
   if (!ahead && !by_had_.empty()) had_us_ = std::max(had_us_, by_had_.begin()->rank);
@@ -150,6 +150,7 @@ void DesignQueues::forget(std::uint32_t campaign) {
 
 bool DesignQueues::is_urgent(const Design& design, std::size_t free,
                              std::uint64_t allowance_us) const {
+  SWARMSMITH_ASSERT(!by_had_.empty(), "both orders have the ready designs");
   return design.wanted.size() <= free && design.had_us <= by_had_.begin()->rank + allowance_us;
 }
 

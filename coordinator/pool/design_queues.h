@@ -38,7 +38,7 @@ constexpr PoolDesign pool_design_of(PackedKey key) {
 /// any lease, and a design that got more than `allowance_us` above the others because of it is not
 /// urgent before they have caught up.
 ///
-/// Look-ahead has queues of its own, of which the one with the fewest leased tasks comes first.
+/// Look-ahead has its own queues; the one with the fewest leased tasks comes first.
 class DesignQueues {
  public:
   using Place = std::list<PackedKey>::iterator;

@@ -26,6 +26,7 @@ DoneEntry DoneTable::entry_of(PackedKey key, EvaluationStatus status, double sco
 }
 
 std::size_t DoneTable::Outcomes::place_of(PackedKey key) const {
+  SWARMSMITH_ASSERT(size < entries.size(), "a search for a place ends at a free one");
   const std::size_t mask = entries.size() - 1;
   std::size_t at = static_cast<std::size_t>(mix64(key)) & mask;
   while (entries[at].key != 0 && entries[at].key != key)
@@ -65,6 +66,7 @@ DoneTable::Outcomes& DoneTable::at(std::uint32_t campaign, DesignId design) {
 
 const DoneEntry* DoneTable::insert(PackedKey key, EvaluationStatus status, double score,
                                    std::uint64_t state_digest) {
+  SWARMSMITH_ASSERT(key != 0, "0 marks a free place");
   Outcomes& outcomes = at(campaign_of(key), design_of_key(key));
   if (outcomes.closed) return nullptr;
   if (4 * (outcomes.size + 1) > 3 * outcomes.entries.size()) outcomes.grow();

@@ -30,7 +30,7 @@ class DoneTable {
   const DoneEntry* insert(PackedKey key, EvaluationStatus status, double score,
                           std::uint64_t state_digest);
   const DoneEntry* find(PackedKey key) const;
-  /// Forgets the design's outcomes: nobody will want any more of it, whatever comes.
+  /// Forgets the design's outcomes: it needs no more of them, whatever comes.
   void close(std::uint32_t campaign, DesignId design);
   /// The same for the design's candidates that are out of its race.
   void close_candidates(std::uint32_t campaign, const PassedCandidates& passed);

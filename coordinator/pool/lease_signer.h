@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// 16 bytes that nobody but the coordinator knows.
+/// 16 bytes that only the coordinator knows.
 using LeaseSecret = std::array<unsigned char, 16>;
 
 /// Signs leases, so that a result can show that its sender was given the task: by this process or,
@@ -29,7 +29,7 @@ class LeaseSigner {
                std::string_view principal) const;
   /// Whether one of ours is of a lease of this very task.
   bool is_of(std::uint64_t signature, const EvaluationInput& task) const;
-  /// A number of 64 uniform bits that nobody can foretell who does not know the secret.
+  /// A number of 64 uniform bits that cannot be foretold without the secret.
   std::uint64_t draw(PackedKey key) const;
 
  private:

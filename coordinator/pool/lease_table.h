@@ -40,11 +40,11 @@ struct TaskRecord {
   int deaths = 0;                      ///< worker processes that died while it ran alone
   std::vector<std::string> died_with;  ///< the principals of these
   int losses = 0;                      ///< workers that fell silent, or died, while it may have run
-  int strays = 0;                      ///< the same of workers of which nothing is known
+  int strays = 0;                      ///< the same of unknown workers
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
-  /// The referee has it, or somebody's word on it waits for the referee: nobody else gets it.
+  /// The referee has it, or somebody's word on it waits for the referee: no worker gets it.
   bool parked = false;
   /// Look-ahead that would end its campaign: not tried again before it is wanted.
   bool troubled = false;

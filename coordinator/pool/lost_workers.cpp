@@ -42,7 +42,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
   // From the last one, since each goes to the front of its queue: they are leased again in order.
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *book_->leases.find(keys[i]);
-    // What was merely queued there is nobody's affair.
+    // A task that was only queued there is not to blame, nor is the worker.
     const bool may_have_run = i < suspects && loss != Loss::Left;
     if (may_have_run) book_->note_attempt(record, entry.number, AttemptOutcome::Lost, now);
     // While another worker has it too, nothing is held against the task: if it kills, it will do so

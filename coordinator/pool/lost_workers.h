@@ -16,7 +16,7 @@ enum class Loss {
 
 /// What follows when a worker is lost: its tasks go to others, and those that may have killed it
 /// are found (orchestration facts, 5 "Poison tasks"). Only what ran can be to blame, never what was
-/// queued behind it, and nobody is blamed for what a stranger's worker did.
+/// queued behind it, and no task is blamed for what a stranger's worker did.
 ///
 /// Workers start tasks in the order of their leases and report 64 results at most at a time, so
 /// what ran is among the first (slots + 64) leases. After a death of a worker that has proved

@@ -95,7 +95,7 @@ struct Principal {
   bool is_stranger() const { return !local && (taken == 0 || quarantined); }
 };
 
-/// All principals by name. Those of which nothing is known any more are forgotten.
+/// All principals by name. Those without workers or history are forgotten.
 class Principals {
  public:
   Principal& at(const std::string& name);
@@ -103,7 +103,7 @@ class Principals {
   Principal& of(const WorkerHello& hello);
   Principal* find(const std::string& name);
   const Principal* find(const std::string& name) const;
-  /// Forgets those of which nobody is there, and nothing is to be remembered.
+  /// Forgets those without workers or history.
   void forget_idle();
 
   std::map<std::string, Principal>& all() { return principals_; }

@@ -291,7 +291,7 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
     TaskRecord* record = book_->leases.find(*key);
     if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
     book_->note_attempt(*record, entry->number, AttemptOutcome::Returned, now);
-    // It may be copied once more: nobody has failed.
+    // It may be copied once more: no attempt has failed.
     if (record->second) record->copied = false;
     if (book_->leases.requeue(*record, entry->number)) ++book_->counters.requeued;
   }

@@ -48,10 +48,10 @@ class Scheduler {
 
   /// A task that was added as look-ahead and is there still may come once more: it is wanted now.
   void add(std::vector<Task> tasks);
-  /// Look-ahead that nobody wants any more; what is leased already goes on.
+  /// Look-ahead that is no longer needed; leased tasks go on.
   void drop(std::span<const PackedKey> keys);
-  /// Nothing more is wanted of the campaign, or again: results that nobody asked for, such as
-  /// look-ahead of a coordinator that crashed, need not be kept by their workers.
+  /// The campaign needs no more results, or needs them again: workers may drop results that this
+  /// process did not ask for, such as look-ahead of a coordinator that crashed.
   void close(std::uint32_t campaign, bool closed) { book_->close(campaign, closed); }
   /// Nothing more will be wanted of the design, ever: what is known of its outcomes is forgotten.
   /// Tasks of it that were added go on to their outcomes; other results are acknowledged as
@@ -74,11 +74,11 @@ class Scheduler {
                     const std::optional<SlotReport>& slots = {});
   void on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now);
   void on_goodbye(const Sender& sender, TimePoint now);
-  /// A worker has begun with a task that it runs alone.
+  /// A worker has started a task that runs alone on it.
   void on_began(const Sender& sender, PackedKey key, TimePoint now);
   /// Lets those work again whom a person means by a key's name, an address or a host's name; who
-  /// answers for them is on trial as if it were new. Their names; none when nobody meant is in
-  /// quarantine.
+  /// answers for them is on trial as if it were new. Their names; empty when none of
+  /// them is in quarantine.
   std::vector<std::string> forgive(std::string_view word, const std::string& by, TimePoint now) {
     return trust_->forgive(word, by, now);
   }

@@ -59,7 +59,7 @@ void Scheduler::on_tick(TimePoint now) {
   }
 }
 
-/// This process was stopped or starved, so that it is no wonder that nobody was heard: silence is
+/// This process was stopped or starved, so it could hear no worker: silence is
 /// measured by its clock (orchestration facts, 5 "Heartbeats, both ways").
 void Scheduler::pardon(TimePoint now) {
   for (auto& [number, entry] : workers_->all()) {

@@ -227,7 +227,7 @@ struct SchedulerCounters {
   std::uint64_t failed = 0;  ///< attempts without a score
   std::uint64_t duplicates = 0;
   std::uint64_t conflicts = 0;
-  std::uint64_t unknown = 0;   ///< results of tasks that nobody asked for
+  std::uint64_t unknown = 0;   ///< results of tasks that were not asked for
   std::uint64_t unleased = 0;  ///< results of tasks that their senders were never given
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <optional>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -18,7 +20,7 @@ double seconds(Duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// Why nothing is ready: look-ahead that nobody took is no work that is held back.
+/// Why nothing is ready: look-ahead that was not taken is not work that is held back.
 IdleCause cause_without_ready(const LeaseTable& leases) {
   IdleCause cause = IdleCause::Barrier;
   for (const PoolDesign& held : leases.queues().held()) {
@@ -63,7 +65,7 @@ void SlotAccount::sample(const Scheduler& scheduler, Holding holding, TimePoint 
   }
   for (const auto& [number, entry] : scheduler.workers().all()) {
     if (!entry.usable()) {
-      // Since its last heartbeat nobody knows what it did.
+      // What it did since its last heartbeat is unknown.
       workers_.erase(number);
       continue;
     }
@@ -101,6 +103,7 @@ void SlotAccount::settle(Worker& worker, const WorkerEntry& entry, TimePoint now
   const double busy =
       std::clamp(static_cast<double>(entry.busy_us - worker.busy_us) * 1e-6, 0.0, slots);
   const double idle = slots - busy;
+  SWARMSMITH_ASSERT(busy >= 0 && idle >= 0, "slot time is busy time and idle time");
   const double unleased = std::accumulate(worker.unleased.begin(), worker.unleased.end(), 0.0);
   const double share = unleased > idle ? idle / unleased : 1.0;
   for (std::size_t i = 0; i < kIdleCauses; ++i)

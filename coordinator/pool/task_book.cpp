@@ -44,7 +44,9 @@ void TaskBook::note_attempt(PackedKey key, const Lease& lease, AttemptOutcome ou
 
 void TaskBook::note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutcome outcome,
                             TimePoint at) {
-  note_attempt(key_of(record.task), *record.lease_of(worker), outcome, at);
+  const Lease* lease = record.lease_of(worker);
+  SWARMSMITH_ASSERT(lease != nullptr, "an attempt is that of a lease");
+  note_attempt(key_of(record.task), *lease, outcome, at);
 }
 
 void TaskBook::accept(const Outcome& outcome) {
@@ -71,7 +73,7 @@ void TaskBook::reject(TaskRecord& record, WorkerNumber worker, const std::string
                       const FailureDetails& details) {
   const EvaluationKey key = record.task.key;
   if (policy_of(record).stop_on_failure && record.task.ahead) {
-    // Nobody may ever ask for it: no reason to stop before somebody does.
+    // It may never be needed: no reason to stop before it is.
     if (record.lease_of(worker) != nullptr) leases.requeue(record, worker);
     if (!record.lease) leases.shelve(record);
     return;
@@ -92,6 +94,7 @@ void TaskBook::reject(TaskRecord& record, WorkerNumber worker, const std::string
 }
 
 void TaskBook::learn(std::uint32_t campaign, std::int64_t wall_us) {
+  SWARMSMITH_ASSERT(campaign < estimates_us_.size(), "results are of campaigns that run here");
   const auto spent_us = static_cast<double>(std::max<std::int64_t>(wall_us, 0));
   for (double* estimate : {&estimate_us, &estimates_us_[campaign]})
     // The first time as it is, then a mean that forgets: some twenty of the latest count.

@@ -44,7 +44,7 @@ class TaskBook {
   /// The task's outcome, once; its record is gone afterwards.
   void accept(const Outcome& outcome);
   /// There is no score. The record is gone afterwards, unless the campaign stops, or would have to
-  /// for a task that nobody may ever want.
+  /// for a task that may never be needed.
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
 

@@ -213,7 +213,7 @@ void Trust::update_room(Principal& principal) {
 
 void Trust::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
   if (leases == 0 || principal.is_proven()) return;
-  // Who is alone does not wait: there is nobody whose turn it takes.
+  // A worker that is alone does not wait: it takes no other's turn.
   principal.astray += static_cast<std::int64_t>(leases);
   if (principal.astray < kMostAstray || proven_present() == 0) return;
   principal.waits_until =
@@ -229,6 +229,7 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   if (principal.claims >= Principal::kMostClaims) most = 0;
   const bool is_new = !book_->options.evaluates_programs && !principal.is_proven();
   if (is_new) most = std::min(most, book_->now < principal.waits_until ? 0 : kRoomOnTrial);
+  SWARMSMITH_ASSERT(most <= entry.credit, "a worker never gets more than it asked for");
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
   book_->leases.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
 }
@@ -265,7 +266,7 @@ std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,
   return sum;
 }
 
-/// Its word is wrong. What it said before and nobody made again cannot be believed either.
+/// Its word is wrong. Its earlier results that were not made again cannot be believed either.
 void Trust::convict(Principal& principal, WorkerNumber worker, const std::string& evidence,
                     TimePoint now) {
   if (principal.quarantined) return;
@@ -329,7 +330,7 @@ void Trust::quarantine_process(Principal& principal, WorkerNumber worker, const 
                {"made again", standing.confirmed}},
               std::nullopt, nullptr, worker);
   if (principal.liars.size() >= Principal::kMostLiars) {
-    // Whoever comes back under ever new ids would have the referee for itself.
+    // A worker that comes back under ever new ids would have the referee for itself.
     const std::string all = std::to_string(principal.liars.size()) +
                             " of its processes are, the last one because " + reason;
     book_->note("error", "workers in quarantine", {{"who", principal.name}, {"reason", all}});

@@ -31,8 +31,8 @@ namespace swarmsmith {
 ///
 /// (without a key, each of its processes by itself) is a stranger until a result
 /// of its became an outcome; with audits its first results wait until the referee has made them
-/// again. Strangers are given little, and blame nobody by dying. With programs in place of the
-/// simulator there is no referee: the holder of a lease is believed.
+/// again. Strangers get few tasks, and their deaths do not count against a task. With programs in
+/// place of the simulator there is no referee: the holder of a lease is believed.
 class Trust {
  public:
   /// Both must stay where they are.
@@ -69,7 +69,7 @@ class Trust {
   void go_astray(Principal& principal, std::size_t leases, TimePoint now);
   /// Principals that have proved themselves and are there.
   std::size_t proven_present() const;
-  /// Principals of which nothing is known any more.
+  /// Principals that may be forgotten.
   void forget_idle() { principals_.forget_idle(); }
 
   /// Who answers for the worker, new or known.

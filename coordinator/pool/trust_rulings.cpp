@@ -111,7 +111,7 @@ void Trust::on_disputed(PackedKey key, const std::optional<Task>& task, TimePoin
   if (!found || book_->is_stopped(campaign_of(key))) return;
   for (const Dispute& dispute : found.mapped()) {
     const Said& other = dispute.other;
-    // Of a campaign that is over nobody asks any more.
+    // A campaign that is over asks for no result.
     if (task || book_->is_closed(campaign_of(key))) book_->act(OutcomeRepeated{key, other.worker});
     if (!task) {
       let_go(other);

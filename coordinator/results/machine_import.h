@@ -38,7 +38,7 @@ OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
 OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table);
 
 /// The flavour of all of them: what their heads say, and `said` of those without one; `said` may be
-/// empty. BadInput when they do not agree, or when nobody says it.
+/// empty. BadInput when they do not agree, or when it is not given.
 Expected<std::string> flavour_of(const std::vector<MachineText>& machines, const std::string& said);
 
 /// Whether a table's columns are those of machines.

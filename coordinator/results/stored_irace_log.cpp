@@ -83,7 +83,7 @@ Expected<void> add_settings(const Campaign& campaign, const DesignRow& design, I
   if (!space) return Unexpected(space.error());
   auto setup = irace_setup(campaign, design);
   if (!setup) return Unexpected(setup.error());
-  // A log has what was used, also where nobody said it.
+  // A log has what was used, also where it was not given.
   setup->race.test_type = test_type_of(setup->race);
   setup->race.capping = uses_capping(setup->race);
   for (const Parameter& parameter : space->parameters().parameters())

@@ -104,7 +104,7 @@ void Coordinator::on_message(const Peer& peer, const pb::ToCoordinator& message,
   const auto forbidden = [&] {
     const std::string sentence = "the key \"" + std::string(peer.client) + "\" has a role that " +
                                  "does not allow this; `role` in clients.toml says which it is";
-    // Whoever holds a listed key is told; strangers never come so far.
+    // A client with a listed key gets the reason; strangers never come so far.
     send(peer.id,
          frame_of(SendReject{peer.id, message.incarnation(), RejectReason::Protocol, sentence}));
     on_malformed(peer, {ErrorKind::BadInput, sentence, "role"}, now);
@@ -179,7 +179,7 @@ void Coordinator::on_hello(const Peer& peer, const pb::ToCoordinator& message, T
 }
 
 void Coordinator::on_results(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
-  // Of another campaign that ran here before: nobody wants them.
+  // Of another campaign that ran here before: they are not needed.
   if (message.results().scenario() != facts_.scenario_digest) {
     on_malformed(peer, {ErrorKind::BadInput, "results of another campaign", "campaign"}, now);
     return;

@@ -77,7 +77,7 @@ using CoordinatorAction = std::variant<SendFrame, AppendRows, AnswerStatus, AskR
 /// An outcome goes: accepted by the scheduler, told to the campaign, its row appended, the row's
 /// ticket committed, acknowledged to the worker. The race goes on before the commit, and what a
 /// crash takes away is evaluated again with the same bits. What was acknowledged is on disk, unless
-/// nobody will ever ask for it: a result made ahead for a candidate that is out of its race.
+/// it may never be asked for: a result made ahead for a candidate that is out of its race.
 class Coordinator {
  public:
   /// The order of `campaigns` is that of the scenario and of the scheduler's policies.
@@ -91,7 +91,7 @@ class Coordinator {
   bool has_unreachable() const { return !unreachable_.empty(); }
   /// Nothing waits to be read that came before this.
   void on_all_read(TimePoint now);
-  /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
+  /// The peer's key is not good any more: its leases go to others, and no task is blamed.
   void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
   /// What came of `AskReferee`.
@@ -111,8 +111,8 @@ class Coordinator {
   /// Moves on as far as possible; the actions since the last call, in order.
   std::vector<CoordinatorAction> take_actions(TimePoint now);
 
-  /// Of every campaign nothing is wanted any more, or it is stopped; everything is on disk, and no
-  /// audit is under way.
+  /// Every campaign has stopped or needs no more evaluations, all rows are on disk, and no audit is
+  /// running.
   bool finished() const;
   /// Everything accepted so far is on disk.
   bool settled() const;
@@ -126,7 +126,7 @@ class Coordinator {
   /// Whether it stopped because scores in its store are wrong, or may be.
   bool distrusted(std::uint32_t campaign = 0) const { return campaigns_[campaign].distrusted; }
 
-  /// Of which nothing is leased until somebody resumes them.
+  /// Paused designs. Their tasks are not leased until they are resumed.
   const std::set<DesignId>& paused(std::uint32_t campaign = 0) const {
     return campaigns_[campaign].paused;
   }

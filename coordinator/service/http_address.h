@@ -14,7 +14,7 @@ namespace swarmsmith {
 /// host's name, and any number, since browsers do not look numbers up.
 bool is_our_host(std::string_view header, const Address& address, const std::string& host_name);
 
-/// The token in a file that nobody but its owner can read; one line of at least 16 characters.
+/// The token in a file that only its owner can read; one line of at least 16 characters.
 Expected<std::string> read_token(const std::filesystem::path& file);
 
 /// Whether an Authorization header carries the token; takes as long for any that does not.

@@ -171,7 +171,7 @@ class Pages final : public HttpServer {
 
   Handled refuse_other_user(const httplib::Request& request, httplib::Response& response) const {
     return refuse(request, response, 403, "other_user",
-                  "these pages are of another user of this host; with --http-token-file they "
+                  "these pages belong to another user of this host; with --http-token-file they "
                   "open to everybody who has the token");
   }
 

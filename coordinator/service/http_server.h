@@ -19,7 +19,7 @@ struct HttpOptions {
   /// What the Host header may name besides: this server's name at a proxy.
   std::vector<std::string> names{};
   std::shared_ptr<HttpSite> site{};  ///< what is shown besides; null: nothing
-  /// That acts must carry, where `token` is empty; empty: nobody may act.
+  /// That acts must carry, where `token` is empty; empty: the pages are read-only.
   std::string act_token{};
   /// Whether there is a coordinator's loop that publishes; else the site is all there is.
   bool has_loop = true;

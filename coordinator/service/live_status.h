@@ -89,7 +89,7 @@ struct LiveStatus {
   std::int64_t expired = 0;  ///< leases whose time was over
   std::int64_t duplicates = 0;
   std::int64_t conflicts = 0;
-  std::int64_t unknown = 0;        ///< results that nobody had asked for
+  std::int64_t unknown = 0;        ///< results that were not asked for
   std::int64_t unleased = 0;       ///< results of tasks that their senders were never given
   std::int64_t audits = 0;         ///< results that were made again, and compared
   std::int64_t rulings = 0;        ///< evaluations of the referee, audits included
@@ -121,7 +121,7 @@ struct LiveStatus {
   std::shared_ptr<const std::vector<CampaignStatus>> campaigns;
 };
 
-/// Seconds until races have used what is left at the rate of the last minute, the expected time of
+/// Seconds until races have used the rest at the rate of the last minute, the expected time of
 /// every output; negative when nothing moves, 0 when nothing is left.
 double seconds_left(const LiveStatus& status);
 

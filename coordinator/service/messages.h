@@ -22,7 +22,7 @@ void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out)
 std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat);
 std::vector<PackedKey> keys_of(const pb::Returned& returned);
 
-/// What a worker is told about the campaigns.
+/// What a worker gets to know about the campaigns.
 struct PoolFacts {
   std::vector<std::string> campaign_digests;
   std::string scenario;  ///< serialised

@@ -26,7 +26,7 @@ std::optional<std::vector<CommandRow>> rows_of_pause(const CommandRow& command,
 
 /// "d1, d2"; "none".
 std::string listed(std::span<const DesignId> designs);
-/// What a "pause" or "resume" did by these rows, for whoever asked.
+/// What a "pause" or "resume" did by these rows, for the client.
 std::string sentence_of_pause(CommandKind kind, std::span<const CommandRow> rows);
 
 }  // namespace swarmsmith

@@ -224,7 +224,7 @@ class Loop final : public Service {
     const TimePoint now = clock_.now();
     const std::span<const Row> rows(append.rows);
     tell(append.campaign, rows.first(rows.size() - append.of_pool), now);
-    // Every store has them; here they are told once.
+    // Every store has them; here they are logged once.
     if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool), now);
     const std::uint64_t ticket = stores_.append(append.campaign, std::move(append.rows));
     telemetry_.on_appended(append.campaign, ticket, now);

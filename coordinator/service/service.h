@@ -27,7 +27,7 @@ struct ServiceOptions {
   std::string bind;
   SocketOptions socket;
   std::optional<ServerKeys> keys{};
-  /// Nobody's key is asked for, though other hosts can connect.
+  /// Clients need no key, though other hosts can connect.
   bool insecure_plaintext = false;
   /// A new list of clients when there is one; asked ten times a second, and must not wait.
   std::function<std::optional<std::vector<ListedClient>>()> new_clients{};

@@ -38,7 +38,7 @@ double capped_cost(double cost, double time, double bound, const TimeRules& rule
 
 /// The positions whose mean cost is above what the elites' means allow. `means` are those of all
 /// who are alive, `elites` positions among them. Without elites the best `min_survival` stand in
-/// for them; nobody is dominated where so few are alive.
+/// for them; none is dominated where so few are alive.
 std::vector<std::size_t> dominated(std::span<const double> means,
                                    std::span<const std::size_t> elites, CappingType type,
                                    std::int64_t min_survival);

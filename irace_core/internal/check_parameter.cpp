@@ -123,7 +123,6 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
     if (whole && *bound != std::floor(*bound)) {
       return bad_input("the bound " + to_fixed_text(*bound) + " is not a whole number", name);
     }
-    if (whole) continue;
     if (auto checked = check_decimals(*bound, digits, name); !checked) return checked;
   }
   if (lower != nullptr && upper != nullptr && *lower >= *upper) {

@@ -20,7 +20,7 @@ std::int64_t sum_of_smallest(std::span<const std::int64_t> needs, std::size_t co
 
 std::vector<std::size_t> largest_set_that_fits(std::span<const std::int64_t> needs,
                                                std::int64_t budget) {
-  // The largest size that fits is that of the cheapest ones, whoever they are.
+  // The largest size that fits is that of the cheapest ones.
   std::size_t size = needs.size();
   while (size > 0 && sum_of_smallest(needs, size) > budget)
     --size;
@@ -57,7 +57,7 @@ std::vector<std::size_t> choose_for_postselection(
   needs.reserve(considered.size());
   for (const std::size_t i : considered)
     needs.push_back(candidates[i].missing + step);
-  // 14.2 takes whoever misses nothing for nothing.
+  // 14.2 takes those that miss nothing for nothing.
   std::vector<std::size_t> chosen = step > 0 ? std::vector<std::size_t>{} : complete;
   for (const std::size_t i : largest_set_that_fits(needs, remaining))
     chosen.push_back(considered[i]);

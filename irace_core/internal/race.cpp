@@ -29,11 +29,18 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
       quality_(contestants_.size()),
       quantiles_((1 - settings_.confidence) / 2) {
   SWARMSMITH_ASSERT(!settings_.capping || settings_.bound_max > 0, "capping has a largest bound");
+  SWARMSMITH_ASSERT(settings_.new_pairs >= 0 && settings_.past_pairs >= 0 &&
+                        settings_.new_pairs + settings_.past_pairs <=
+                            static_cast<std::int64_t>(settings_.pairs.size()),
+                    "new and past pairs lead the list");
+  SWARMSMITH_ASSERT(settings_.pairs_between_tests >= 1, "tests come again");
   const auto new_pairs = static_cast<std::size_t>(settings_.new_pairs);
   for (std::size_t c = 0; c < contestants_.size(); ++c) {
     const std::vector<double>& past = contestants_[c].past;
     const std::vector<double>& past_times = contestants_[c].past_times;
     SWARMSMITH_ASSERT(settings_.elitist || past.empty(), "only elitist races know past results");
+    SWARMSMITH_ASSERT(past.empty() || past.size() == static_cast<std::size_t>(settings_.past_pairs),
+                      "an elite has a cost, or none, on each past pair");
     SWARMSMITH_ASSERT(!settings_.capping || past.size() == past_times.size(),
                       "capping needs the elites' times");
     alive_.push_back(c);
@@ -47,7 +54,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
     progress_.results.push_back(known);
   }
   find_uncovered();
-  // Tasks on which nobody has to be run need no answer: the race may be past them at once.
+  // Tasks without runs need no answer: the race may be past them at once.
   tell({});
 }
 
@@ -69,8 +76,8 @@ void Race::tell(std::span<const Measurement> measurements) {
   if (!stop_) plan();
 }
 
-/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not looked at where nobody has to be run:
-/// such a task costs nothing.
+/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not looked at for a task without runs, which
+/// costs nothing.
 bool Race::open_task() {
   if (progress_.task == settings_.pairs.size()) {
     stop_ = "no pairs left";
@@ -115,8 +122,7 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
     }
   }
   if (stop_) return;
-  // Asked for were all who were alive then, of whom those rejected since are left out on both
-  // sides.
+  // All that were alive then were asked for. Those rejected since are left out on both sides.
   SWARMSMITH_ASSERT(answered == open_->due, "all that is due was asked for");
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
@@ -182,6 +188,8 @@ void Race::close_task() {
   const std::vector<std::size_t> ran = std::move(open_->ran);
   const bool only_elites = open_->only_elites;
   open_.reset();
+  SWARMSMITH_ASSERT(progress_.task == static_cast<std::size_t>(step.task) - 1,
+                    "tasks come in turn");
   pass(progress_, ran);  // 9.3.4; rejections (9.3.5) were taken out as their costs came
   used_ = progress_.used;
   step.experiments_used = used_;

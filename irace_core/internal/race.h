@@ -45,7 +45,7 @@ class Race {
   /// min_measurable_time are raised to it, 0 is an unknown time. Adds to the steps.
   void tell(std::span<const Measurement> measurements);
   /// What would be wanted next on up to `pairs` further pairs, in canonical order, if the coming
-  /// tests dropped nobody (and went on all the same: elitist_limit is not looked at). Nothing where
+  /// tests dropped none (and went on all the same: elitist_limit is not looked at). Nothing where
   /// results decide more than who is alive: bounds, calls of a targetEvaluator; and nothing with
   /// one_task_at_a_time, which asks for nothing that may be in vain.
   std::vector<RaceRun> ahead(std::int64_t pairs) const;
@@ -82,7 +82,7 @@ class Race {
   std::vector<Survivor> survivors() const;
 
  private:
-  /// What the rules look at that changes from task to task while nobody is dropped.
+  /// What the rules look at that changes from task to task while none is dropped.
   struct Progress {
     std::size_t task = 0;  ///< tasks that are done
     std::int64_t used = 0;
@@ -168,7 +168,7 @@ class Race {
   Progress progress_;
   std::int64_t used_ = 0;
   std::int64_t tests_without_drop_ = 0;
-  /// Number of leading tasks of which the last has no result yet of anybody alive.
+  /// Number of leading tasks up to the last one without a result of one alive.
   std::size_t uncovered_ = 0;
 
   RankTable ranks_;

@@ -30,9 +30,10 @@ void Race::eliminate(RaceStep& step) {
   if (tests) worse = worse_by_test(step);
   // Capping comes first in irace's loop (rule 9.3.6, before 9.3.7), but both look at the same rows,
   // those of the task with all who are alive: neither sees what the other dropped.
-  // Where nobody passes both, capping alone counts (irace facts, 17).
+  // Where none passes both, capping alone counts (irace facts, 17).
   std::vector<std::size_t> losers = united(worse, slower);
   if (losers.size() == alive_.size()) losers = slower;
+  SWARMSMITH_ASSERT(losers.size() < alive_.size(), "the best one is never dropped");
   std::vector<double> ranks;
   if (settings_.test_type != TestType::FTest) ranks = average_ranks(means()).ranks;
   std::vector<std::size_t> dropped;
@@ -68,9 +69,11 @@ std::vector<std::size_t> Race::worse_by_test(RaceStep& step) {
 }
 
 TestResult Race::test_of_two() {
+  SWARMSMITH_ASSERT(alive_.size() == 2, "Wilcoxon's test compares two");
   const PairedResult result =
       wilcoxon_test(costs_so_far(alive_[0]), costs_so_far(alive_[1]), 1 - settings_.confidence);
   TestResult found{result.statistic, result.p_value, {}};
+  SWARMSMITH_ASSERT(!(result.drops_first && result.drops_second), "one of two is the better one");
   if (result.drops_first) found.dropped.push_back(alive_[0]);
   if (result.drops_second) found.dropped.push_back(alive_[1]);
   return found;
@@ -116,11 +119,12 @@ std::vector<double> Race::means() const {
   return means;
 }
 
-/// Whoever is alive has a cost here, known or run: the ranks of a row are those among all of them.
+/// Each one alive has a cost here, known or run: the ranks of a row are those among all of them.
 void Race::add_ranked_row(std::size_t task) {
   std::vector<Entry> row;
   row.reserve(alive_.size());
   for (const std::size_t c : alive_) {
+    SWARMSMITH_ASSERT(has_result(c, task), "a row of ranks has no gap");
     row.push_back({costs_[c][task], static_cast<std::uint32_t>(c)});
   }
   quality_.add_row(row);
@@ -147,7 +151,7 @@ void Race::drop(const std::vector<std::size_t>& columns) {
 }
 
 /// A rejection can take away the only results on past pairs (irace facts, 9.3.2: they must have a
-/// result of somebody alive before a race may stop).
+/// result of one that is alive before a race may stop).
 void Race::find_uncovered() {
   uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
   const auto anybody_has = [&](std::size_t task) {
@@ -160,6 +164,7 @@ void Race::find_uncovered() {
 
 /// irace facts, 9.3.10: the least rank (11), the first of equals.
 void Race::describe_best(RaceStep& step) const {
+  SWARMSMITH_ASSERT(!alive_.empty() && progress_.task > 0, "a task is done, and one is left");
   std::size_t best = 0;
   if (settings_.test_type == TestType::FTest) {
     best = *std::min_element(alive_.begin(), alive_.end(), [&](auto a, auto b) {

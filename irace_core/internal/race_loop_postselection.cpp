@@ -3,6 +3,7 @@
 #include <set>
 #include <utility>
 
+#include "base/assert.h"
 #include "irace_core/internal/postselection.h"
 #include "irace_core/internal/race_loop.h"
 
@@ -36,6 +37,8 @@ bool IteratedRace::State::begin_postselection() {
   std::vector<irace::PostselectionCandidate> all;
   all.reserve(ids.size());
   for (const std::int64_t id : ids) {
+    SWARMSMITH_ASSERT(static_cast<std::int64_t>(candidate(id).results.size()) <= pairs_seen_,
+                      "a candidate has one result on a pair");
     all.push_back({id, pairs_seen_ - static_cast<std::int64_t>(candidate(id).results.size())});
   }
   const auto chosen =

@@ -43,7 +43,7 @@ irace::RaceSettings IteratedRace::State::settings_of(const irace::RacePlan& plan
   return settings;
 }
 
-/// Elitist: first pairs that nobody has seen, so that elites cannot live on luck with the past
+/// Elitist: first pairs that none has seen, so that elites cannot live on luck with the past
 /// ones; then the past ones, on which new configurations must beat them; then the other unused
 /// ones. Otherwise: the unused ones; of a deterministic target all, from the first (irace
 /// facts, 9.1).
@@ -67,6 +67,8 @@ void IteratedRace::State::order_pairs(irace::RaceSettings& settings) {
   std::vector<std::int64_t> past(static_cast<std::size_t>(settings.past_pairs));
   std::iota(past.begin(), past.end(), std::int64_t{1});
   if (scenario.sample_instances) shuffle_past(past);
+  SWARMSMITH_ASSERT(settings.new_pairs <= static_cast<std::int64_t>(pairs.size()),
+                    "new pairs are among the unused ones");
   pairs.insert(pairs.begin() + static_cast<std::ptrdiff_t>(settings.new_pairs), past.begin(),
                past.end());
 }
@@ -92,8 +94,10 @@ irace::Contestant IteratedRace::State::contestant(std::int64_t id,
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   std::vector<Candidate::Result> by_pair(static_cast<std::size_t>(pairs_seen_) + 1,
                                          {0, kNothing, kNothing});
-  for (const Candidate::Result& result : candidate(id).results)
+  for (const Candidate::Result& result : candidate(id).results) {
+    SWARMSMITH_ASSERT(result.pair >= 1 && result.pair <= pairs_seen_, "results are of seen pairs");
     by_pair[static_cast<std::size_t>(result.pair)] = result;
+  }
   for (const std::int64_t pair : pairs) {
     known.past.push_back(by_pair[static_cast<std::size_t>(pair)].cost);
     known.past_times.push_back(by_pair[static_cast<std::size_t>(pair)].time);
@@ -157,7 +161,7 @@ Experiment IteratedRace::State::experiment_of(const irace::RaceRun& run) const {
 
 std::vector<Experiment> IteratedRace::State::ahead(std::int64_t pairs) const {
   std::vector<Experiment> experiments;
-  // With max_time what is left, and so what is asked, depends on times that nobody knows yet.
+  // With max_time the rest of the budget, and so the questions, depend on times to come.
   if (finished || !race || time) return experiments;
   for (const irace::RaceRun& run : race->ahead(pairs)) {
     if (!is_known(run)) experiments.push_back(experiment_of(run));
@@ -166,6 +170,7 @@ std::vector<Experiment> IteratedRace::State::ahead(std::int64_t pairs) const {
 }
 
 void IteratedRace::State::answer_race() {
+  SWARMSMITH_ASSERT(answers_.size() == runs_.size(), "each run has its answer");
   if (keeps_track()) {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (runs_[i].is_evaluation) continue;
@@ -240,6 +245,7 @@ void IteratedRace::State::end_race() {
   used_before_race_ += used;
   SWARMSMITH_ASSERT(time || used_before_race_ <= total_budget_,
                     "a design never runs more than its budget");
+  SWARMSMITH_ASSERT(used >= 0, "what was known is part of what the race used");
   nothing_was_run_ = used == 0;
   take_over_results();
   choose_elites();

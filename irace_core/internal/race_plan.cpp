@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "irace_core/internal/race.h"
 
 namespace swarmsmith::irace {
@@ -16,6 +17,7 @@ std::string compared(const char* what, std::int64_t left, const char* sign, cons
 
 /// The mean of the first `tasks` values.
 double mean_of_first(const std::vector<double>& values, std::size_t tasks) {
+  SWARMSMITH_ASSERT(tasks > 0 && tasks <= values.size(), "it has run all of them");
   double sum = 0;
   for (std::size_t task = 0; task < tasks; ++task)
     sum += values[task];
@@ -101,8 +103,9 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
 
 /// Counts a task on which `ran` (ascending) were run; protected ones that were not have used up a
 /// known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never grows: behind the last past
-/// pair nobody is protected.
+/// pair none is protected.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
+  SWARMSMITH_ASSERT(std::ranges::is_sorted(ran), "columns are looked up by halving");
   for (const std::size_t c : alive_) {
     if (contains(ran, c)) {
       ++progress.results[c];
@@ -118,6 +121,7 @@ void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
 /// next test, supposing that none of them is a rejection. `ahead` is what `progress_` will be then,
 /// so that the rules to stop say now what they will say there.
 void Race::plan() {
+  SWARMSMITH_ASSERT(open_ && wanted_.empty(), "a batch is planned when the last one was answered");
   for (const std::size_t c : open_->due) {
     wanted_.push_back({progress_.task, c, open_->bounds[c], open_->evaluates});
   }
@@ -175,6 +179,7 @@ void Race::set_bounds() {
       bound = instance_bound(*standard, settings_.time_rules());
       continue;
     }
+    SWARMSMITH_ASSERT(times_[c].size() >= progress_.task, "those alive have run every task");
     double spent = 0;
     for (std::size_t before = 0; before < progress_.task; ++before)
       spent += times_[c][before];

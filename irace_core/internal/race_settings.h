@@ -23,9 +23,9 @@ struct RaceSettings {
   double confidence = 0.95;
   std::int64_t min_survival = 1;
   std::int64_t max_experiments = 0;  ///< looked at where a race may stop (irace facts, 9.3.2)
-  /// What is left of the whole design: no task begins that would need more.
+  /// The rest of the design's budget: no task begins that would need more.
   std::int64_t experiments_left = std::numeric_limits<std::int64_t>::max();
-  /// Pairs in the order of the tasks: `new_pairs` that nobody has seen, `past_pairs` that some
+  /// Pairs in the order of the tasks: `new_pairs` that none has seen, `past_pairs` that some
   /// elites have seen, then unused ones.
   std::vector<std::int64_t> pairs;
   std::int64_t new_pairs = 0;

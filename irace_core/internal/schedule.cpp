@@ -18,6 +18,7 @@ std::int64_t race_size(const RaceSizeQuestion& q) {
   const std::int64_t te = q.pairs_between_tests;
   const std::int64_t pairs = (q.old_pairs + q.new_pairs + te - 1) / te * te;
   const std::int64_t cost = std::max(q.mu + te * std::min<std::int64_t>(5, q.iteration), pairs);
+  SWARMSMITH_ASSERT(cost > 0, "a configuration costs experiments");
   return std::min(q.most, (q.budget + q.elites * q.old_pairs) / cost);
 }
 
@@ -92,6 +93,7 @@ void Schedule::limit_new_pairs(std::int64_t unused) {
 
 std::int64_t Schedule::iteration_budget(std::int64_t remaining) const {
   if (scenario_.nb_experiments_per_iteration > 0) return scenario_.nb_experiments_per_iteration;
+  SWARMSMITH_ASSERT(iteration_ <= iterations_, "iterations to come share the rest");
   return remaining / (iterations_ - iteration_ + 1);
 }
 
@@ -172,7 +174,7 @@ std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::
           "not enough budget to race more than the minimum number of configurations"};
     }
     if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
-    // Asked for by the iteration, a budget may be more than what is left, and irace spends it.
+    // Asked for by the iteration, a budget may be more than the rest, and irace spends it.
     if (needed(size, elites) > std::min(budget, remaining)) {
       return NoMoreRaces{"not enough budget for the first test of a race"};
     }

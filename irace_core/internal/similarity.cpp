@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "base/math.h"
 #include "irace_core/internal/sampling.h"
@@ -32,6 +33,7 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
     }
     const Interval* constant = space.constant_interval(i);
     if (constant == nullptr && !values) values.emplace(space, configuration);
+    SWARMSMITH_ASSERT(constant != nullptr || values, "a dependent domain needs what it depends on");
     const Interval domain = constant != nullptr ? *constant : **space.interval(i, *values);
     // Logarithmic parameters are sampled, and so compared, in the logarithm (irace facts, 25.8).
     const bool in_logarithm = is_logarithmic(space[i].domain);

@@ -68,7 +68,7 @@ class Generations final : public Strategy {
   std::int64_t iterations_before_ = 0;  ///< of plans that are over
   std::int64_t generation_number_ = 0;  ///< through all plans, final stages left out
   std::int64_t bred_ = 0;               ///< configurations of the plan so far
-  std::int64_t next_pair_ = 1;          ///< that nobody has seen
+  std::int64_t next_pair_ = 1;          ///< that no candidate has seen
   bool over_ = false;
   std::vector<std::pair<std::int64_t, std::int64_t>> runs_;
   std::vector<Scored> last_;  ///< of the last generation, the final stage left out

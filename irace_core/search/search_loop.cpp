@@ -129,7 +129,7 @@ void SearchLoop::report_steps(std::span<const double> costs) {
 void SearchLoop::report_step(std::size_t first, std::size_t end, std::span<const double> costs) {
   const auto count = static_cast<std::int64_t>(end - first);
   used_ += count;
-  // The best so far in this round; nobody, as in races, when all were rejected.
+  // The best so far in this round; none, as in races, when all were rejected.
   Scored best = ranked(std::span(round_.runs).first(end), costs.first(end)).front();
   if (std::isinf(best.mean)) best = {};
   RaceStep step{.iteration = iteration_,

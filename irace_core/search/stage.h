@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// How far a search is, as its events say it; 0 where nobody knows.
+/// How far a search is, as its events say it; 0 where it is unknown.
 struct SearchPoint {
   std::int64_t iteration = 0;   ///< as IterationStarted numbers them; 0 before the first
   std::int64_t iterations = 0;  ///< planned when it began

@@ -13,17 +13,16 @@
 namespace swarmsmith {
 namespace {
 
-/// Only races know of these.
+/// Options of races alone.
 Expected<void> check_for_races_alone(const Scenario& scenario, SearchKind kind) {
-  const std::string search = " the search " + std::string(name_of(kind));
-  const auto refuse = [&](const char* what, const char* where) {
-    return bad_input(what + search + " knows nothing of it, only irace and f-race do", where);
+  const auto refuse = [&](const char* option) {
+    return bad_input("works only with irace and f-race, not with " + std::string(name_of(kind)),
+                     option);
   };
-  if (scenario.max_time > 0) return refuse("is a budget of time:", "max_time");
-  if (uses_capping(scenario) || scenario.bound_max > 0)
-    return refuse("bounds the time of runs:", "bound_max");
-  if (scenario.target_evaluator) return refuse("needs a targetEvaluator:", "target_evaluator");
-  if (scenario.deterministic) return refuse("allows an instance once:", "deterministic");
+  if (scenario.max_time > 0) return refuse("max_time");
+  if (uses_capping(scenario) || scenario.bound_max > 0) return refuse("bound_max");
+  if (scenario.target_evaluator) return refuse("target_evaluator");
+  if (scenario.deterministic) return refuse("deterministic");
   return {};
 }
 

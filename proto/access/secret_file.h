@@ -11,7 +11,7 @@ namespace swarmsmith {
 /// Who else may do what with a file; the files of access/ are read only when it is no more than
 /// this.
 enum class Privacy {
-  Secret,    ///< nobody else may read or write it
+  Secret,    ///< only its owner may read or write it
   Integral,  ///< others may read it, not write it
 };
 

@@ -20,7 +20,7 @@ Connection connection_at(int descriptor);
 /// finds it closed.
 void cut(const Connection& connection);
 
-/// What the system has counted of a connection since it was made: libzmq tells nobody how much of a
+/// What the system has counted of a connection since it was made: libzmq does not say how much of a
 /// peer's it holds, but what came, less what was taken, lies in its queues; and what was given,
 /// less what the peer's host has acknowledged.
 struct TcpBytes {

@@ -37,7 +37,7 @@ constexpr std::string_view kStopDetails = R"(Examples:
   swarmsmith robot stop --robots 1-3
   swarmsmith robot stop --robots 1-3 --kill
 
-Exit code 5: a robot does not say that it stands.)";
+Exit code 5: a robot did not confirm that it stopped.)";
 constexpr std::string_view kCheckDetails = R"(Example:
   swarmsmith robot check --robots 1-3
 

@@ -39,7 +39,7 @@ class Teller {
       if (stage_ == RunStarter::Stage::Ordered)
         print_note(*output_, "all robots are ready: the run is ordered");
       if (stage_ == RunStarter::Stage::Stopping)
-        print_note(*output_, starter.complaints().front() + "; all robots are told to stop");
+        print_note(*output_, starter.complaints().front() + "; stopping all robots");
     }
     if (starter.has_begun() && !began_) print_note(*output_, "all robots are running");
     began_ = starter.has_begun();

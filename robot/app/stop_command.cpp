@@ -58,7 +58,7 @@ ExitCode stop(const StopWords& words, Output& output) {
       output.out << (*names)[i] << ": " << name_of(states[i]->phase) << "\n";
     } else {
       code = fail(output, ExitCode::Unreachable,
-                  (*names)[i] + ": does not say that it stands: look after it");
+                  (*names)[i] + ": did not confirm that it stopped; check the robot");
     }
   }
   return code;

@@ -13,7 +13,7 @@
 
 namespace swarmsmith {
 
-/// Writes the log of one run from a thread of its own, each second: whoever adds rows never waits
+/// Writes the log of one run from a thread of its own, each second: adding a row never waits
 /// for the disk. What cannot be written is kept and tried again.
 class LogWriter {
  public:

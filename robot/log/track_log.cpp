@@ -14,7 +14,7 @@ constexpr std::string_view kLackOfClock =
     "it is not from a camera that `swarmsmith track record` films on this host; name the start by "
     "`track score --start`, or cover a tag";
 
-/// What keeps the start from being said; empty: nothing.
+/// Why the start time is unknown; empty if it is known.
 std::string doubt_of(const StartedRun& run, const std::optional<CameraClock>& clock) {
   if (run.video.empty()) return "no video was named";
   if (!clock) return "the video's clock is not known";
@@ -52,7 +52,7 @@ Section head_of(const StartedRun& run) {
 Section section_of(const NodeReport& node) {
   Section section{"[[robot]]", "robot.", {{"name", quoted_text(node.robot)}}};
   if (!node.log.empty()) section.lines.push_back({"log", quoted_text(node.log)});
-  // Nobody knows what it did since it was last heard of.
+  // What it did since it was last heard of is unknown.
   const RunVerdict verdict = node.verdict.value_or(RunVerdict::Invalid);
   section.lines.push_back({"verdict", quoted_text(name_of(verdict))});
   std::vector<std::string> reasons = node.reasons;

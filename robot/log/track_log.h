@@ -10,8 +10,8 @@
 
 namespace swarmsmith {
 
-/// The run log for `swarmsmith track` (docs/tracking.md), as `start` knows it: nobody types a start
-/// time. Pure.
+/// The run log for `swarmsmith track` (docs/tracking.md), as `start` knows it: a person need not
+/// type a start time. Pure.
 
 /// How a recording's times hang together with the clock of the host that made it.
 struct CameraClock {
@@ -39,10 +39,10 @@ struct StartedRun {
   std::string mission;    ///< a built-in one, or a file from the run log's folder on; may be empty
   std::string design;     ///< "d3"; may be empty
   std::string candidate;  ///< "c812"; may be empty, as is one of these two
-  bool has_patches = false;  ///< shuffled for each run: to be found in the pictures
-  double at_clock_s = 0;     ///< CLOCK_MONOTONIC of the operator's host when the robots began
-  std::string video;         ///< from the run log's folder on; empty: nobody said that one is made
-  std::string camera;        ///< as in the arena file; may be empty
+  bool has_patches = false;     ///< shuffled for each run: to be found in the pictures
+  double at_clock_s = 0;        ///< CLOCK_MONOTONIC of the operator's host when the robots began
+  std::string video;            ///< from the run log's folder on; empty: none was named
+  std::string camera;           ///< as in the arena file; may be empty
   std::optional<int> sync_tag;  ///< that somebody covers at the start: a check
   std::vector<NodeReport> nodes;
 };

@@ -274,7 +274,7 @@ class RosRobotEnd final : public RobotEnd {
   /// Messages of those who drive and do not listen; of the thread of callbacks.
   std::map<std::string, int> deaf_;
   std::mutex early_mutex_;
-  std::function<void()> early_;  ///< sends what had nobody to go to
+  std::function<void()> early_;  ///< sends what had no receiver yet
   RangesMessage ranges_;         ///< with ranges_apart
   std::set<std::size_t> came_;
   ros::Publisher wheels_;

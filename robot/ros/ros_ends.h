@@ -33,7 +33,7 @@ Expected<std::unique_ptr<RobotEnd>> ros_robot_end(const std::string& name,
 Expected<std::unique_ptr<WorldEnd>> ros_world_end(const std::vector<std::string>& names,
                                                   const RosOptions& options);
 
-/// A node /operator_..., whose name nobody else has.
+/// A node /operator_..., whose name no other node has.
 Expected<std::unique_ptr<OperatorEnd>> ros_operator_end(const std::vector<std::string>& names,
                                                         const RosOptions& options);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -47,6 +49,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 DriverWatch::DriverWatch(Limits limits) : limits_(limits) {
+  SWARMSMITH_ASSERT(limits_.hold <= limits_.give_up, "treads are held before a run is given up");
   forget_changes();
 }
 
@@ -64,6 +67,7 @@ bool DriverWatch::is_quiet(TimePoint now) const {
 }
 
 void DriverWatch::commanded(TimePoint at, double left_mps, double right_mps) {
+  SWARMSMITH_ASSERT(std::isfinite(left_mps) && std::isfinite(right_mps), "a command is two speeds");
   while (commands_.size() > 1 && at - commands_[1].from > kMemory)
     commands_.pop_front();
   const bool is_new = commands_.empty() || commands_.back().left_mps != left_mps ||
@@ -104,12 +108,19 @@ void DriverWatch::compare_changes(const DrivenMessage& driven) {
   }
 }
 
+std::ptrdiff_t DriverWatch::prompt_delays() const {
+  const auto delays = static_cast<std::ptrdiff_t>(limits_.hold / kDelayStep) + 1;
+  return std::min<std::ptrdiff_t>(delays, Follows::kDelays);
+}
+
 /// When its changes follow those that were commanded so much better.
 std::string DriverWatch::why_behind(const Follows& follows) const {
   constexpr double kSure = 0.9;
+  SWARMSMITH_ASSERT(follows.changes <= follows.most, "older changes are forgotten");
   if (follows.changes < follows.least) return {};
   const auto& share = follows.share;
-  const auto late = share.begin() + limits_.hold / kDelayStep + 1;
+  const auto late = share.begin() + prompt_delays();
+  if (late == share.end()) return {};  // that late is not remembered
   const double prompt = *std::max_element(share.begin(), late);
   const auto best = std::max_element(late, share.end());
   if (*best < kSure || *best - prompt < follows.better) return {};
@@ -258,6 +269,7 @@ std::string DriverWatch::why_not_obeyed(TimePoint now) const {
                ? second_->name + " drives the treads in place of " + driver_
                : driver_ + " does not say what the treads do";
   }
+  SWARMSMITH_ASSERT(last_, "a driver that is not quiet has said something");
   const Commanded wanted = commands_.empty() ? Commanded{} : commands_.back();
   const std::string told = driver_ + " says that they do " +
                            speeds(last_->left_mps, last_->right_mps) + ", and " +
@@ -384,7 +396,7 @@ std::vector<std::string> DriverWatch::doubts() const {
   }
   constexpr double kFollows = 0.6;
   const Follows& soon = follows_.front();
-  const auto late = soon.share.begin() + limits_.hold / kDelayStep + 1;
+  const auto late = soon.share.begin() + prompt_delays();
   if (soon.changes == soon.most && *std::max_element(soon.share.begin(), late) < kFollows)
     doubts.push_back(driver_ +
                      " says changes of speed that do not follow those that are commanded");

@@ -95,6 +95,8 @@ class DriverWatch {
   void note_obeyed(const DrivenMessage& driven, TimePoint until);
   void note_said(const DrivenMessage& driven);
   void compare_changes(const DrivenMessage& driven);
+  /// The first so many of `Follows::share` are no longer than the treads may disobey.
+  std::ptrdiff_t prompt_delays() const;
   std::string why_behind() const;
   std::string why_behind(const Follows& follows) const;
   /// Speeds that were commanded again and again, each time for a moment, and that it does not say.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "sim/control/used_senses.h"
 
@@ -73,6 +74,8 @@ RobotNode::RobotNode(NodeSettings settings, const Controller& controller, const 
       door_(settings_.robot),
       driver_({.hold = settings_.driver_hold, .give_up = settings_.give_up}),
       seed_(settings_.seed) {
+  SWARMSMITH_ASSERT(settings_.period > Duration::zero() && settings_.max_mps >= 0,
+                    "options were checked where they were read");
   for (const Feed feed : kAllFeeds)
     needed_[index_of(feed)] |= settings_.also_needed[index_of(feed)];
 }
@@ -164,6 +167,7 @@ void RobotNode::look_at_clock(const Now& now) {
 }
 
 double RobotNode::time_s(TimePoint at) const {
+  SWARMSMITH_ASSERT(clock_, "only a run has a time");
   return std::max(0.0, seconds_of(at - clock_->start()));
 }
 
@@ -209,6 +213,7 @@ void RobotNode::arm(const Order& order, const Now& now) {
                            std::fabs(ahead_s), ahead_s > 0 ? "ahead" : "ago", kLatestStart_s);
     return;
   }
+  SWARMSMITH_ASSERT(!is_on() && !killed_, "no run begins in another, nor after a kill");
   const auto cycles =
       static_cast<std::int64_t>(std::llround(order.seconds / seconds_of(settings_.period)));
   const TimePoint start = clock_at(order.at_unix_s, now);
@@ -256,13 +261,24 @@ TimePoint RobotNode::next_tick(TimePoint now) const {
 
 Decision RobotNode::tick(const Now& now) {
   Decision decision = decide(now);
-  if (decision.command)
+  if (decision.command) {
+    check_treads(*decision.command);
     driver_.commanded(now.clock, decision.command->left_mps, decision.command->right_mps);
+  }
   if (decision.row && !new_step_.empty()) {
     std::string& event = decision.row->event;
     event += (event.empty() ? "" : "; ") + std::exchange(new_step_, {});
   }
   return decision;
+}
+
+/// Whatever was decided and why: what leaves for the treads. NaN is no speed within the limit.
+void RobotNode::check_treads(const Command& command) const {
+  const auto is_within = [this](double mps) { return std::fabs(mps) <= settings_.max_mps; };
+  SWARMSMITH_ASSERT(is_within(command.left_mps) && is_within(command.right_mps),
+                    "no tread is commanded beyond its limit");
+  SWARMSMITH_ASSERT(phase_ == Phase::Running || (command.left_mps == 0 && command.right_mps == 0),
+                    "treads move only in a run");
 }
 
 std::string RobotNode::silence_of_operator(const Now& now) const {
@@ -279,7 +295,7 @@ Decision RobotNode::decide(const Now& now) {
   last_tick_ = now.clock;
   if (phase_ == Phase::Idle || phase_ == Phase::Ready) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
-    return {};  // whoever carries or drives the robot to its place may do so
+    return {};  // the robot may be carried or driven to its place
   }
   if (is_on() && settings_.operator_gone > Duration::zero() &&
       now.clock - operator_heard_ > settings_.operator_gone) {
@@ -296,6 +312,8 @@ Decision RobotNode::decide(const Now& now) {
 }
 
 Decision RobotNode::run_cycle(const ControlClock::Beat& beat, const Now& now) {
+  SWARMSMITH_ASSERT(beat.cycle > cycle_ && beat.cycle <= clock_->cycles(),
+                    "cycles come in order, each once, and the last one ends the run");
   skipped_ += beat.skipped;
   if (beat.cycle == clock_->cycles()) {
     end(Phase::Ended);
@@ -356,6 +374,7 @@ void RobotNode::count(Standing& standing, const std::string& what, TimePoint sin
 Decision RobotNode::hold_and_count(const ControlClock::Beat& beat, const Now& now,
                                    const std::string& why) {
   ++held_;
+  SWARMSMITH_ASSERT(held_ <= beat.cycle, "a cycle is held once");
   Decision decision = hold(beat.cycle, beat.late, now, why);
   if (static_cast<double>(held_) > kInvalid * static_cast<double>(clock_->cycles()))
     fail(fmt::format("the treads stood in {} of {} cycles; {}", held_, clock_->cycles(), why));
@@ -368,6 +387,7 @@ Decision RobotNode::step(std::int64_t cycle, Duration late, const Now& now) {
   const Command wanted = control_->step(senses);
   const auto limited = within_limits(wanted, settings_.max_mps);
   ++stepped_;
+  SWARMSMITH_ASSERT(stepped_ + held_ + skipped_ <= cycle, "a cycle is stepped, held or skipped");
   Decision decision{.command = limited.value_or(standing(true)),
                     .state = control_->state(),
                     .row = row_of(cycle, late, now)};
@@ -398,6 +418,7 @@ Decision RobotNode::hold(std::int64_t cycle, Duration late, const Now& now, std:
 }
 
 LogRow RobotNode::row_of(std::int64_t cycle, Duration late, const Now& now) const {
+  SWARMSMITH_ASSERT(control_ && cycle >= 1, "rows are those of a run's cycles, from 1");
   LogRow row;
   row.cycle = cycle;
   row.clock_s = clock_s(now.clock);
@@ -454,6 +475,7 @@ void RobotNode::begin_counted(const Now& now) {
 }
 
 Decision RobotNode::step_counted(const Now& now) {
+  SWARMSMITH_ASSERT(control_, "begin_counted comes first");
   sensed_ = feeds_.sensed();
   sensed_.time_s = counted_time_s(cycle_ + 1);
   return step(cycle_ + 1, {}, now);

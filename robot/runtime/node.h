@@ -145,6 +145,7 @@ class RobotNode {
     Duration longest{};
     double at_s = 0;  ///< when that began
   };
+  void check_treads(const Command& command) const;
   void count(Standing& standing, const std::string& what, TimePoint since, const Now& now);
   Decision hold_and_count(const ControlClock::Beat& beat, const Now& now, const std::string& why);
   std::string silence_of_operator(const Now& now) const;

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "base/assert.h"
 #include "robot/runtime/node.h"
 #include "sim/control/control_software.h"
 
@@ -68,6 +69,7 @@ Expected<LogReplay> replay_log(const RunRecord& record) {
     SensedSenses senses(row.sensed);
     const Command wanted = control.step(senses);
     ++replay.stepped;
+    SWARMSMITH_ASSERT(replay.stepped <= row.cycle, "a controller steps at most once a cycle");
     const auto sent = within_limits(wanted, head.max_mps);
     if (!sent) continue;  // the node stopped, and says so
     const std::string what = difference(row, *sent, control.state(), control.drawn());

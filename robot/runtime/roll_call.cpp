@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -39,6 +41,7 @@ RollCall::RollCall(const std::vector<std::string>& robots, std::string id)
 }
 
 void RollCall::hear(std::size_t robot, const NodeState& state, const Now& now) {
+  SWARMSMITH_ASSERT(robot < robots_.size(), "only robots of the roll are heard");
   RolledRobot& rolled = robots_[robot];
   rolled.state = state;
   rolled.heard = now.clock;
@@ -82,6 +85,10 @@ std::vector<std::string> RollCall::complaints(TimePoint now) const {
       continue;
     }
     const NodeState& state = *robot.state;
+    if (robot.echoes == 0)
+      complaints.push_back(robot.name +
+                           ": does not answer orders, so its clock is not known; do "
+                           "they reach its node?");
     if (state.robot != robot.name)
       complaints.push_back(robot.name + ": its node calls itself " + state.robot);
     if (is_on(state.phase)) complaints.push_back(robot.name + ": the run " + state.run + " is on");
@@ -94,10 +101,7 @@ std::vector<std::string> RollCall::complaints(TimePoint now) const {
                       robot.name, 1000 * std::fabs(robot.offset_s),
                       robot.offset_s > 0 ? "ahead of" : "behind", 1000 * kMostOffset_s));
     }
-    if (first == nullptr) {
-      first = &robot;
-      continue;
-    }
+    if (first == nullptr) first = &robot;
     const NodeState& other = *first->state;
     compare(robot, *first, "has the machine", state.machine_digest, other.machine_digest,
             complaints);
@@ -167,7 +171,7 @@ void RunStarter::interrupt(const Now& now) {
     complaints_.emplace_back("interrupted before the start");
     stage_ = Stage::Over;
   } else if (stage_ == Stage::Ordered || stage_ == Stage::Watching) {
-    give_up("interrupted: all robots are told to stop", now);
+    give_up("interrupted: stopping all robots", now);
   }
 }
 
@@ -187,8 +191,10 @@ std::vector<Order> RunStarter::tick(const Now& now) {
       start.at_unix_s = now.unix_s + settings_.lead_s;
       start.seconds = settings_.seconds;
       start.seed = settings_.seed;
-      for (const RolledRobot& robot : roll_.robots())
+      for (const RolledRobot& robot : roll_.robots()) {
+        SWARMSMITH_ASSERT(robot.echoes > 0, "a run starts when all clocks are measured");
         start.clock_offsets_s[robot.name] = robot.offset_s;
+      }
       start_ = {now.clock + duration_of(settings_.lead_s), start.at_unix_s};
       start_id_ = start.id;
       stage_ = Stage::Ordered;
@@ -219,7 +225,7 @@ std::vector<Order> RunStarter::tick(const Now& now) {
   } else if (none || now.clock - stopping_ > kStopPatience) {
     for (const RolledRobot& robot : roll_.robots()) {
       if (is_in_run(robot))
-        complaints_.push_back(robot.name + ": did not say that it stopped: look after it");
+        complaints_.push_back(robot.name + ": did not confirm that it stopped; check the robot");
     }
     stage_ = Stage::Over;
   }
@@ -228,6 +234,8 @@ std::vector<Order> RunStarter::tick(const Now& now) {
 
 void RunStarter::watch(const Now& now) {
   for (const RolledRobot& robot : roll_.robots()) {
+    // The roll call has no complaint of a robot only when that robot has answered.
+    SWARMSMITH_ASSERT(robot.state, "a robot that was started has sent its state");
     if (robot.state->order == start_id_ && !robot.state->refused.empty())
       return give_up(robot.name + ": refuses the start: " + robot.state->refused, now);
     if (now.clock - robot.heard > kMostSilence && !is_over_for(robot))

@@ -62,9 +62,9 @@ class RunStarter {
   };
   enum class Stage {
     Calling,   ///< roll call
-    Ordered,   ///< all are told, and shall say that they are armed
+    Ordered,   ///< all have the order, and are to say that they are armed
     Watching,  ///< until the run is over
-    Stopping,  ///< something went wrong: all are told to stop
+    Stopping,  ///< something went wrong: all get the order to stop
     Over,
   };
 

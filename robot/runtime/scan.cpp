@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
 #include "base/math.h"
 
 namespace swarmsmith {
@@ -14,6 +15,7 @@ constexpr double kFarthest = 0.5 + 1e-3;
 /// The index of the value nearest to the ray whose place is `place` values after the first one;
 /// `turn` values are a full turn. The earlier one of equals.
 std::optional<std::size_t> nearest(double place, double turn, std::size_t values) {
+  SWARMSMITH_ASSERT(values > 0 && turn > 0, "the scan was checked");
   const auto last = static_cast<double>(values - 1);
   std::optional<std::size_t> found;
   double least = kFarthest;
@@ -46,6 +48,7 @@ std::optional<std::string> resample(const ScanMessage& scan, double turn_rad, Ra
     const auto index =
         nearest((angle - scan.angle_min_rad) / increment, turn, scan.ranges_m.size());
     if (!index) continue;
+    SWARMSMITH_ASSERT(*index < scan.ranges_m.size(), "the nearest value is one of the scan's");
     const double value = scan.ranges_m[*index];
     // false for NaN, as it shall be
     if (value > 0 && value >= scan.range_min_m && value <= scan.range_max_m) range = value;

@@ -123,7 +123,7 @@ class LockStep final : public Decider {
     }
     if (!robots_[robot].answers.empty()) {
       throw RunEnded({ErrorKind::BadInput,
-                      "sends a command that nobody asked for, in cycle " +
+                      "sends a command without being asked, in cycle " +
                           std::to_string(robots_[robot].asked) +
                           "; are there two nodes of this name, or is it one of an older run?",
                       end_->name(robot)});

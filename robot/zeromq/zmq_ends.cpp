@@ -145,9 +145,9 @@ class ServingEnd final : public RobotEnd {
     auto message = message_to_robot(received.frame);
     if (!message && is_unused_frame(received.frame)) return;
     if (!message) {
-      return complain(received.peer, "sent what is no message of a driver or operator: `" +
+      return complain(received.peer, "sent an unknown message: `" +
                                          std::string(received.frame.substr(0, 40)) +
-                                         "`; it is not used");
+                                         "`; expected one from a driver or the operator");
     }
     const bool is_order = std::holds_alternative<OrderMessage>(*message);
     if (is_order ? !may_command(received.role) : !may_work(received.role)) {

@@ -50,7 +50,7 @@ std::string in_use_text(const std::string& holder) {
 
 namespace {
 
-/// Whoever may read the store may know who writes it. Others cannot even open its lock: who can
+/// Who may read the store may know who writes it. Others cannot even open its lock: who can
 /// may hold it.
 mode_t mode_of(const std::filesystem::path& store) {
   struct stat facts {};

@@ -32,7 +32,7 @@ class LockFile {
   /// The last holder died without giving the lock back.
   bool left_behind() const { return left_behind_; }
 
-  /// While suspect, the file stays at the end, so that whoever comes next looks at the store, too.
+  /// While suspect, the file stays at the end, so that the next program looks at the store, too.
   void set_suspect(bool suspect) { suspect_ = suspect; }
 
  private:

@@ -7,7 +7,7 @@
 namespace swarmsmith {
 
 /// A database file that is made under a name of its own beside the one that it will have, so that
-/// whoever finds a file of that name finds a whole one. Removed at the end, with the files that
+/// a file of that name is a whole one. Removed at the end, with the files that
 /// SQLite puts beside it, unless it was published; after a kill, by the next one of that name.
 class NewFile {
  public:

@@ -18,7 +18,7 @@ constexpr std::size_t kHeader = 100;
 constexpr std::size_t kLogHeader = 32;
 constexpr std::size_t kFrameHeader = 24;
 
-/// Of the database: SQLite opens whatever has the name, and nobody else may open it.
+/// Of the database: SQLite opens whatever has the name, and no other program may open it.
 std::vector<std::uint8_t> bytes_of_database(const std::filesystem::path& file) {
   const sqlite::Connection connection(file.string(), SQLITE_OPEN_READONLY);
   const std::string bytes = connection.file_bytes(0, connection.file_size());

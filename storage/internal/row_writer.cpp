@@ -255,7 +255,7 @@ void RowWriter::put(const CampaignStateRow& row) {
   campaign_state_.run(row.state);
   if (sums_ && connection_.changes() > 0)
     sums_->add(Table::Campaign, RowHash::of(kFirst, row.state));
-  // Nobody signs leases of a campaign that is over.
+  // No lease of a campaign that is over is signed.
   if (row.state == "finished") forget_secret(connection_);
 }
 

@@ -53,7 +53,7 @@ void write_campaign(sqlite::Connection& connection, const CampaignRow& campaign)
 void write_designs(sqlite::Connection& connection, const std::vector<DesignRow>& designs,
                    std::int64_t campaign = 1, std::int64_t designs_before = 0);
 
-/// A database without a table that nobody has claimed: new, or left by a crash at its birth.
+/// A database without a table or an owner: new, or left by a crash at its birth.
 bool is_blank(const sqlite::Connection& connection);
 
 /// Corrupt when the database belongs to another program, Newer when a later version made it.

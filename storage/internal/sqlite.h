@@ -51,7 +51,7 @@ class Connection {
   /// Rows that the last statement changed.
   std::int64_t changes() const { return sqlite3_changes64(handle_.get()); }
   /// Length of the database file, and its bytes from `at` on, as many of `count` as there are: read
-  /// by the handle with which SQLite has it open. Nobody else may open it: when a process closes
+  /// by the handle with which SQLite has it open. No other may open it: when a process closes
   /// any descriptor of a file, it loses all its locks on it (decision 18). Throws SqliteError.
   std::int64_t file_size() const;
   std::string file_bytes(std::int64_t at, std::int64_t count) const;

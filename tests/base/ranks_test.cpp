@@ -58,6 +58,7 @@ TEST(RankDistributions, SignedRanksAreThoseOfAllSigns) {
         sum += (positive >> (rank - 1) & 1U) != 0 ? rank : 0;
       ++counts[sum];
     }
+    ASSERT_FALSE(counts.empty());
     for (std::size_t value = 0; value < counts.size(); ++value)
       expect_tails(counts, value, signed_rank_tails(value, n));
   }

@@ -20,7 +20,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "end_to_end"))
 import browser  # noqa: E402
 import looks  # noqa: E402
-from programs import CAMPAIGN, PATIENCE, SWARMSMITH, ProgramTest, call  # noqa: E402
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, campaign_text  # noqa: E402
 
 #: Screenshots are kept here, where it is set.
 PICTURES = os.environ.get("SWARMSMITH_PICTURES")
@@ -62,7 +62,7 @@ def shared_folder():
 def finished_store():
     """Two missions, 1,350 experiments each, seed 7: made once for all tests of a process."""
     file = shared_folder() / "finished.toml"
-    file.write_text(CAMPAIGN.format(seed=7, budget=1350, tests=20) + TWO_MISSIONS)
+    file.write_text(campaign_text(1350, seed=7, tests=20) + TWO_MISSIONS)
     store = shared_folder() / "finished.db"
     done = call("run", file, "--store", store, "--no-dashboard")
     if done.returncode != 0:

@@ -13,7 +13,7 @@ import unittest
 import looks
 from dashboards import DashboardTest, add_real_run, finished_store, needs_browser, query, shared_browser, shared_folder
 from pages_test import pages_of
-from programs import CAMPAIGN, call
+from programs import call, campaign_text
 
 #: Experiments used, as the page of all campaigns says it.
 USED = r"parseInt(document.querySelector('main').innerText.match(/experiments\s+([\d\u2009]+)/)[1].replace(/\u2009/g, ''))"
@@ -248,7 +248,7 @@ class Live(DashboardTest):
 
     def test_two_coordinators_have_two_ports(self):
         first = self.running()
-        self.file.write_text(CAMPAIGN.format(seed=8, budget=self.budget, tests=5))
+        self.file.write_text(campaign_text(self.budget, seed=8, tests=5))
         self.store = self.folder / "other.db"
         second = self.start_serving("run", self.file, "--store", self.store, "--workers", "1", "--http", "127.0.0.1:*")
         self.assertNotEqual(first.port, second.port)

@@ -7,7 +7,7 @@ import shutil
 import sys
 import unittest
 
-from dashboards import CAMPAIGN, TWO_MISSIONS, DashboardTest, add_real_run, finished_store, query, shared_folder
+from dashboards import TWO_MISSIONS, DashboardTest, add_real_run, campaign_text, finished_store, query, shared_folder
 from pages_test import pages_of
 
 #: Name of the file, page of `pages_of`, dark, height in pixels.
@@ -31,7 +31,7 @@ class Pictures(DashboardTest):
 
     def test_picture_of_the_fleet_while_it_works(self):
         file = shared_folder() / "working.toml"
-        file.write_text(CAMPAIGN.format(seed=7, budget=100_000, tests=20) + TWO_MISSIONS)
+        file.write_text(campaign_text(100_000, seed=7, tests=20) + TWO_MISSIONS)
         serving = self.start_serving("run", file, "--store", shared_folder() / "working.db", "--workers", "2", "--http", "127.0.0.1:*")
         page = self.page(serving, "#/fleet", "document.querySelector('canvas')", width=1280)
         page.viewport(1280, 760)

@@ -7,25 +7,14 @@ import socket
 import sqlite3
 import struct
 import subprocess
-import time
 import unittest
 
 import programs
-from programs import CAMPAIGN, SWARMSMITH, ProgramTest, call
+from programs import SWARMSMITH, ProgramTest, call, campaign_text, wait_for
 
 LEAST = 1350  # what the whole space needs
 EXPLORE = ["--nstates", "1", "--s0", "0", "--rwm0", "10"]
 DEADLINE_S = 60 * programs.PATIENCE
-
-
-def wait_for(condition, what):
-    deadline = time.monotonic() + DEADLINE_S
-    while time.monotonic() < deadline:
-        found = condition()
-        if found:
-            return found
-        time.sleep(0.02)
-    raise AssertionError("never came: " + what)
 
 
 class BadInput(ProgramTest):
@@ -37,7 +26,7 @@ class BadInput(ProgramTest):
         """A copy of a finished store of the campaign, which is made once."""
         if BadInput.finished is None:
             file = self.folder / "first.toml"
-            file.write_text(CAMPAIGN.format(seed=7, budget=LEAST, tests=3))
+            file.write_text(campaign_text(LEAST, seed=7, tests=3))
             first = self.folder / "first.db"
             done = call("run", file, "--store", first)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -74,7 +63,7 @@ class BadInput(ProgramTest):
 
 class CampaignFile(BadInput):
     def changed(self, *changes, **values):
-        text = CAMPAIGN.format(**{"seed": 7, "budget": LEAST, "tests": 3, **values})
+        text = campaign_text(**{"seed": 7, "budget": LEAST, "tests": 3, **values})
         for old, new in changes:
             self.assertIn(old, text)
             text = text.replace(old, new)
@@ -532,7 +521,7 @@ class Endings(BadInput):
         self.assertEqual(call("verify", store).returncode, 0)
 
     def test_a_reader_that_goes_away(self):
-        self.file.write_text(CAMPAIGN.format(seed=7, budget=LEAST, tests=3))
+        self.file.write_text(campaign_text(LEAST, seed=7, tests=3))
         store = self.store()
         for arguments in (["query", store, "SELECT * FROM v_evaluations"],
                           ["ls", "candidates", store, "--json"],

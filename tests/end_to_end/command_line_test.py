@@ -4,7 +4,7 @@ import os
 import subprocess
 import unittest
 
-from programs import CAMPAIGN, SWARMSMITH, ProgramTest, call
+from programs import SWARMSMITH, ProgramTest, call, campaign_text
 
 EXPLORE = ["--nstates", "1", "--s0", "0", "--rwm0", "10"]
 
@@ -25,7 +25,7 @@ class CommandLine(ProgramTest):
         self.assert_exits(2, "FILE is required", "check")
 
     def test_a_wrong_campaign_file_exits_with_two_and_tells_every_place(self):
-        text = CAMPAIGN.format(seed=1, budget=200, tests=1).replace("seed", "sead")
+        text = campaign_text(200, seed=1, tests=1).replace("seed", "sead")
         self.file.write_text(text.replace('"argos3"\nflavour', '"argos3"\nflavur'))
         done = call("check", "campaign.toml", cwd=self.folder)
         self.assertEqual(done.returncode, 2)
@@ -36,7 +36,7 @@ class CommandLine(ProgramTest):
         self.assertIn('[[method]] has no key `flavur` (did you mean "flavour"?)', lines[1])
 
     def test_a_budget_that_is_too_small_names_the_smallest(self):
-        self.file.write_text(CAMPAIGN.format(seed=1, budget=200, tests=1))
+        self.file.write_text(campaign_text(200, seed=1, tests=1))
         self.assert_exits(2, "1350", "check", "campaign.toml")
 
     def test_a_missing_campaign_file_exits_with_two(self):
@@ -52,7 +52,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(json.loads(done.stdout)["experiments"], 2000)
 
     def test_a_campaign_of_chocolate_checks_and_runs(self):
-        text = CAMPAIGN.format(seed=1, budget=2000, tests=2)
+        text = campaign_text(2000, seed=1, tests=2)
         self.file.write_text(text.replace("watermelon-argos3", "chocolate").replace(
             "max_experiments", "nb_iterations = 2\nmax_experiments"))
         check = call("check", self.file, "--json")

@@ -2,7 +2,7 @@
 import signal
 import unittest
 
-from programs import ProgramTest, call, children_of, designs_of, send, used
+from programs import ProgramTest, call, children_of, designs_of, send, used, wait_for
 
 
 class Commands(ProgramTest):
@@ -46,8 +46,8 @@ class Commands(ProgramTest):
     def until_coordinated_by(self, process):
         """Until this program has said where it is, not one that was killed before it."""
         file = self.folder / "campaign.db.coordinator"
-        self.until(lambda: file.exists() and f"pid = {process.pid}" in file.read_text().splitlines(),
-                   "no coordinator")
+        wait_for(lambda: file.exists() and f"pid = {process.pid}" in file.read_text().splitlines(),
+                 "no coordinator")
 
     def designs(self):
         return designs_of(self.store)
@@ -58,8 +58,8 @@ class Commands(ProgramTest):
     def begin(self, least=100):
         """Runs the campaign until both of its designs have come some way."""
         process = self.start_campaign(self.store, "--workers", "2")
-        self.until(lambda: min(self.used(1), self.used(2)) >= least or process.poll() is not None,
-                   "the campaign does not begin")
+        wait_for(lambda: min(self.used(1), self.used(2)) >= least or process.poll() is not None,
+                 "the campaign does not begin")
         self.assertIsNone(process.poll(), "the campaign was over too soon")
         return process
 
@@ -76,7 +76,7 @@ class Commands(ProgramTest):
         process = self.begin()
         self.assertIn("paused: d2", self.ask_running(process, "pause", self.store, "d2"))
         # What was leased when the command came ends, and counts.
-        self.until(lambda: self.designs()[1]["state"] == "finished", "d1 does not end")
+        wait_for(lambda: self.designs()[1]["state"] == "finished", "d1 does not end")
         stands = self.used(2)
         self.assertEqual(self.designs()[2]["state"], "racing")
         self.assertIsNone(process.poll(), "a campaign with a paused design is not over")
@@ -120,7 +120,7 @@ class Commands(ProgramTest):
             if part.exists():
                 twin.with_name(twin.name + suffix).write_bytes(part.read_bytes())
         process = self.start_campaign(self.store, "--workers", "1")
-        self.until(lambda: self.used(1) >= 1000, "d1 does not go on")
+        wait_for(lambda: self.used(1) >= 1000, "d1 does not go on")
         send(process.pid, signal.SIGKILL)
         process.wait()
         self.go_on()

@@ -14,7 +14,7 @@ import threading
 import time
 import unittest
 
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call
+from programs import SWARMSMITH, ProgramTest, call, wait_for
 
 
 class Dashboard(ProgramTest):
@@ -58,12 +58,7 @@ class Dashboard(ProgramTest):
         return live
 
     def eventually(self, get, timeout=60):
-        end = time.monotonic() + timeout * PATIENCE
-        while time.monotonic() < end:
-            if value := get():
-                return value
-            time.sleep(0.05)
-        self.fail("it did not happen in time:\n" + "".join(self.said)[-2000:])
+        return wait_for(get, lambda: "".join(self.said)[-2000:], timeout, 0.05)
 
     def watch_campaign(self):
         self.store = self.folder / "watched.db"

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
-from programs import CAMPAIGN, SWARMSMITH, call
+from programs import SWARMSMITH, call, campaign_text
 
 SVG = "{http://www.w3.org/2000/svg}"
 #: Kinds with the options that they need, and the least number of rows in their tables.
@@ -26,7 +26,7 @@ class Figure(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.store = cls.folder / "campaign.db"
         file = cls.folder / "campaign.toml"
-        file.write_text(CAMPAIGN.format(seed=7, budget=1400, tests=20))
+        file.write_text(campaign_text(1400, seed=7, tests=20))
         done = call("run", file, "--store", cls.store, "--workers", "2", "--no-dashboard", "-q")
         assert done.returncode == 0, done.stderr
 

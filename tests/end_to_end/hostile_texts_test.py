@@ -14,7 +14,7 @@ import subprocess
 import unittest
 
 from every_command import ARGUMENTS, commands, invocations
-from programs import CAMPAIGN, SWARMSMITH, ProgramTest, call
+from programs import SWARMSMITH, ProgramTest, call, campaign_text
 
 LEAST = 1350  # what the whole space needs
 
@@ -165,7 +165,7 @@ class HostileTexts(ProgramTest):
         escapes = r"\u001b[31m\u0007\u009b\u202e\u007f\n"
         texts = [f'"{escapes}" = 1\n', f'["{escapes}"]\nx = 1\n', f'["a"."{escapes}"]\nx = 1\n',
                  "\x1b[31m = 1\n", "x = \x9b\n", "x = '\u202e\n"]
-        texts += [CAMPAIGN.format(seed=1, budget=LEAST, tests=3).replace(old, f'"{escapes}"')
+        texts += [campaign_text(LEAST, seed=1, tests=3).replace(old, f'"{escapes}"')
                   for old in ('"aggregation"', '"argos3"', '"watermelon-argos3"', '"survival"')]
         for number, text in enumerate(texts):
             file = self.folder / f"{number}.toml"

@@ -11,7 +11,7 @@ import tempfile
 import time
 import unittest
 
-from programs import SWARMSMITH, call, send, start
+from programs import SWARMSMITH, call, send, start, wait_for
 
 PARAMETERS = """\
 # name  switch   type  domain    condition
@@ -239,10 +239,7 @@ class Survival(Irace):
             moment = len(self.calls()) + rng.randrange(40)
             limit.write_text(f"{moment + 20}\n")  # it must not be over before it is killed
             process = start("irace", "--parallel", "2", cwd=self.folder)
-            deadline = time.monotonic() + 60
-            while len(self.calls()) < moment and process.poll() is None:
-                self.assertLess(time.monotonic(), deadline)
-                time.sleep(0.005)
+            wait_for(lambda: len(self.calls()) >= moment or process.poll() is not None, f"{moment} calls", pause=0.005)
             if process.poll() is not None:
                 break
             send(process.pid, signal.SIGKILL)
@@ -262,16 +259,10 @@ class Survival(Irace):
         self.write_runner("sleep 600 & echo $! >> children.txt; wait; echo $cost")
         process = start("irace", "--parallel", "2", cwd=self.folder)
         children = self.folder / "children.txt"
-        deadline = time.monotonic() + 20
-        while not (children.exists() and len(children.read_text().split()) >= 2):
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.02)
+        wait_for(lambda: children.exists() and len(children.read_text().split()) >= 2, "two children")
         send(process.pid, signal.SIGKILL)
         process.wait()
-        deadline = time.monotonic() + 20
-        while any(self.is_alive(pid) for pid in children.read_text().split()):
-            self.assertLess(time.monotonic(), deadline, "a target's child is still there")
-            time.sleep(0.02)
+        wait_for(lambda: not any(map(self.is_alive, children.read_text().split())), "the end of the children of targets", 20)
 
     @staticmethod
     def is_alive(pid):
@@ -284,10 +275,7 @@ class Survival(Irace):
     def test_interrupted_it_says_how_to_go_on(self):
         process = subprocess.Popen([SWARMSMITH, "irace"], cwd=self.folder, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        deadline = time.monotonic() + 20
-        while len(self.calls()) < 20:
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.01)
+        wait_for(lambda: len(self.calls()) >= 20, "20 calls")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
@@ -665,10 +653,7 @@ configuration,step,on_path,changed,pair,instance,seed,cost
         for more in (4, 11, 18):
             (self.folder / "hang").write_text(f"{made + more}\n")
             process = start("irace", "--ablation", "--parallel", "2", cwd=self.folder)
-            deadline = time.monotonic() + 60
-            while len(self.calls()) < made + more:
-                self.assertLess(time.monotonic(), deadline)
-                time.sleep(0.01)
+            wait_for(lambda: len(self.calls()) >= made + more, f"{made + more} calls")
             send(process.pid, signal.SIGKILL)
             process.wait()
         (self.folder / "hang").unlink()

@@ -7,7 +7,7 @@ import random
 import signal
 import unittest
 
-from programs import ProgramTest, call, children_of, send, used
+from programs import ProgramTest, call, campaign_text, children_of, send, used, wait_for
 
 METHODS = {
     "random": "",
@@ -23,35 +23,13 @@ RACED_NETWORK = 'architecture = "network"\nsearch = "irace"'
 #: The other one: a genetic algorithm would need real parameters, random search does not.
 RANDOM_TREE = 'architecture = "tree"\nsearch = "random"'
 
-CAMPAIGN = """\
-format = 1
-
-[campaign]
-name = "methods"
-seed = {seed}
-store = "unused.db"
-
-[[mission]]
-name = "aggregation"
-duration = "30 s"
-  [mission.instances]
-  test = {{ count = 10 }}
-
-[[method]]
-name = "{name}"
-{keys}
-
-[race]
-max_experiments = {budget}
-"""
-
 
 class MethodTest(ProgramTest):
     budget = 2400
 
     def write(self, name, keys):
-        self.file.write_text(
-            CAMPAIGN.format(seed=self.seed, name=name, keys=keys, budget=self.budget))
+        self.file.write_text(campaign_text(self.budget, seed=self.seed, tests=10, name="methods", duration="30 s",
+                                           methods=[f'name = "{name}"\n{keys}'], profile=None))
 
     def answer(self, store, *arguments):
         done = self.run_campaign(store, *arguments)
@@ -70,7 +48,7 @@ class OneAnswer(MethodTest):
         for victim in ("worker", "coordinator"):
             before = used(store)
             moment = before + self.rng.uniform(0, 0.2) * (whole - before)
-            self.until(lambda: used(store) >= moment or process.poll() is not None, "no progress")
+            wait_for(lambda: used(store) >= moment or process.poll() is not None, "no progress")
             workers = children_of(process.pid)
             if process.poll() is not None:
                 return False

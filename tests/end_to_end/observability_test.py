@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call, send
+from programs import SWARMSMITH, ProgramTest, call, send, wait_for
 
 
 class Observability(ProgramTest):
@@ -56,13 +56,7 @@ class Observability(ProgramTest):
         return found
 
     def eventually(self, get, timeout=60):
-        end = time.monotonic() + timeout * PATIENCE
-        while time.monotonic() < end:
-            value = get()
-            if value:
-                return value
-            time.sleep(0.05)
-        self.fail("it did not happen in time:\n" + self.log.read_text()[-2000:])
+        return wait_for(get, lambda: self.log.read_text()[-2000:], timeout, 0.05)
 
     def get(self, path, method="GET", headers=None, host=None, body=None):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
@@ -211,13 +205,7 @@ class Observability(ProgramTest):
             return status if "fleet" in status else None
 
         def once(holds):
-            end = time.monotonic() + 60 * PATIENCE
-            while time.monotonic() < end:
-                status = live()
-                if status and holds(status):
-                    return status
-                time.sleep(0.1)
-            self.fail(f"it did not come to it: {status}")
+            return wait_for(lambda: (status := live()) and holds(status) and status, live, pause=0.1)
 
         status = once(lambda s: s["workers"] == 2 and s["done"] > 100
                       and 6 * s["audits"] > s["done"] / 2)

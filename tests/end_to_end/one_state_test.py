@@ -3,14 +3,13 @@ store. Every number that two of them have is the same, whether the campaign runs
 or has no race."""
 import http.client
 import json
-import os
 import re
 import signal
 import subprocess
 import threading
 import unittest
 
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, wait_for
 
 TWO_DESIGNS = "repetitions = 2\n"
 NUMBERS = ("designs", "designs_finished", "used", "budget", "left")
@@ -160,11 +159,11 @@ class OneState(ProgramTest):
     def test_that_runs_and_is_interrupted(self):
         self.file.write_text(self.file.read_text().replace(f"max_experiments = {self.budget}", "max_experiments = 1000000"))
         process = self.run_it()
-        self.until(lambda: (self.query(self.store, "SELECT sum(used) AS n FROM v_designs") if self.store.exists() else [{"n": 0}])[0]["n"] > 300,
-                   "no experiments")
+        wait_for(lambda: (self.query(self.store, "SELECT sum(used) AS n FROM v_designs") if self.store.exists() else [{"n": 0}])[0]["n"] > 300,
+                 "no experiments")
         self.assertEqual(call("pause", self.store).returncode, 0)
-        self.until(lambda: (status := json.loads(call("status", self.store, "--json").stdout))["leased"] == 0
-                   and status["campaigns"][0]["designs_paused"] == 2 and status["uncommitted"] == 0, "no pause")
+        wait_for(lambda: (status := json.loads(call("status", self.store, "--json").stdout))["leased"] == 0
+                 and status["campaigns"][0]["designs_paused"] == 2 and status["uncommitted"] == 0, "no pause")
         status = ""
 
         def is_told():  # once a second
@@ -173,7 +172,7 @@ class OneState(ProgramTest):
             said = Said()
             self.of_the_run(said)
             return said.by_name["in_step"]["run --json"] == json.loads(status)["campaigns"][0]["in_step"]
-        self.until(is_told, "the run says no more")
+        wait_for(is_told, "the run says no more")
         said = Said()
         self.of_the_run(said)
         live = self.of_status(said, status)
@@ -193,7 +192,7 @@ class OneState(ProgramTest):
         self.file.write_text(self.file.read_text().replace(f"max_experiments = {self.budget}", "max_experiments = 100000"))
         process = self.run_it()
         for design in ("d1", "d2"):
-            self.until(lambda: self.store.exists() and call("cancel", self.store, design).returncode == 0, "no cancelling")
+            wait_for(lambda: self.store.exists() and call("cancel", self.store, design).returncode == 0, "no cancelling")
         process.wait(timeout=120 * PATIENCE)
         rest = self.at_rest()
         self.assertEqual((rest["designs_stopped"], rest["left"], rest["d2.state"]), (2, 0, "stopped"))

@@ -3,7 +3,7 @@ import json
 import signal
 import unittest
 
-from programs import CAMPAIGN, ProgramTest, call, send, start
+from programs import ProgramTest, call, campaign_text, send, start
 
 
 class Pool(ProgramTest):
@@ -15,7 +15,7 @@ class Pool(ProgramTest):
         self.files = [self.write(name, seed) for name, seed in (("first", 11), ("second", 12))]
 
     def write(self, name, seed, store=None):
-        text = CAMPAIGN.format(seed=seed, budget=self.budget, tests=self.tests)
+        text = campaign_text(self.budget, seed=seed, tests=self.tests)
         text = text.replace('"survival"', f'"{name}"')
         text = text.replace("unused.db", str(store or self.folder / f"{name}.db"))
         file = self.folder / f"{name}.toml"

@@ -20,29 +20,37 @@ PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 # A shell that starts the tests in the background lets them ignore Ctrl-C, and so would each program that they start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-CAMPAIGN = """\
-format = 1
+#: The lines of a method whose races are short.
+ARGOS3 = 'name = "argos3"\nflavour = "watermelon-argos3"'
 
-[campaign]
-name = "survival"
-seed = {seed}
-store = "unused.db"
 
-[[mission]]
-name = "aggregation"
-  [mission.instances]
-  test = {{ count = {tests} }}
+def campaign_text(budget, *, seed=7, tests=20, name="survival", repetitions=1, missions=("aggregation",), duration=None,
+                  methods=(ARGOS3,), profile="argos3", store="unused.db", more=""):
+    """A campaign file. Each of `methods` is its lines; `more` comes at the end. Without tests, duration, profile or store
+    the file does not name them."""
+    lines = ["format = 1", "", "[campaign]", f'name = "{name}"', f"seed = {seed}"]
+    lines += [f"repetitions = {repetitions}"] * (repetitions > 1) + [f'store = "{store}"'] * bool(store)
+    for mission in missions:
+        lines += ["", "[[mission]]", f'name = "{mission}"'] + [f'duration = "{duration}"'] * bool(duration)
+        lines += ["  [mission.instances]", f"  test = {{ count = {tests} }}"] * bool(tests)
+    for method in methods:
+        lines += ["", "[[method]]", method.rstrip("\n")]
+    lines += ["", "[race]", f"max_experiments = {budget}"]
+    lines += ["", "[simulator]", f'profile = "{profile}"'] * bool(profile)
+    return "\n".join(lines) + "\n" + more
 
-[[method]]
-name = "argos3"
-flavour = "watermelon-argos3"
 
-[race]
-max_experiments = {budget}
-
-[simulator]
-profile = "argos3"
-"""
+def wait_for(condition, what, seconds=60, pause=0.02):
+    """Polls until `condition()` is true and returns it; an AssertionError names what never came: `what`, or what
+    it returns then."""
+    limit = time.monotonic() + seconds * PATIENCE
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > limit:
+            raise AssertionError(f"waited {seconds} s in vain: {what() if callable(what) else what}")
+        time.sleep(pause)
 
 
 def free_ports(count):
@@ -121,8 +129,7 @@ class ProgramTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         self.file = self.folder / "campaign.toml"
-        self.file.write_text(
-            CAMPAIGN.format(seed=self.seed, budget=self.budget, tests=self.tests))
+        self.file.write_text(campaign_text(self.budget, seed=self.seed, tests=self.tests))
 
     def run_campaign(self, store, *arguments, timeout=300):
         return call("run", self.file, "--store", store, "--no-dashboard", *arguments,
@@ -138,13 +145,6 @@ class ProgramTest(unittest.TestCase):
         if process.poll() is None:
             send(-process.pid, signal.SIGKILL)
         process.wait()
-
-    def until(self, condition, what, timeout=60):
-        deadline = time.monotonic() + timeout * PATIENCE
-        while not condition():
-            if time.monotonic() > deadline:
-                self.fail(what)
-            time.sleep(0.02)
 
     def digest(self, store):
         done = call("digest", store)

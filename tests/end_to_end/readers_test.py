@@ -5,10 +5,9 @@ import shutil
 import signal
 import sqlite3
 import subprocess
-import time
 import unittest
 
-from programs import ProgramTest, children_of, send
+from programs import ProgramTest, children_of, send, wait_for
 
 SHELL = shutil.which("sqlite3")
 
@@ -102,7 +101,7 @@ class Readers(ProgramTest):
         """A campaign that has held so many steps, and far from all. Its workers stand still until `go_on`, so that it
         does not end before the test has looked."""
         campaign = self.start_campaign(self.store, "--workers", "2")
-        self.wait(lambda: self.store.exists() and self.steps() >= steps, "steps")
+        wait_for(lambda: self.store.exists() and self.steps() >= steps, "steps", 200)
         self.workers = children_of(campaign.pid)
         for worker in self.workers:
             send(worker, signal.SIGSTOP)
@@ -120,12 +119,6 @@ class Readers(ProgramTest):
                 return reader.execute("SELECT count(*) FROM v_race_steps").fetchone()[0]
         except sqlite3.OperationalError:  # not born yet
             return 0
-
-    def wait(self, condition, what, seconds=200):
-        end = time.monotonic() + seconds
-        while not condition():
-            self.assertLess(time.monotonic(), end, f"no {what} within {seconds} s")
-            time.sleep(0.02)
 
     def log_size(self):
         log = self.store.with_name(self.store.name + "-wal")

@@ -9,34 +9,13 @@ import subprocess
 import sys
 import unittest
 
-from programs import ProgramTest, call, used
+from programs import ProgramTest, call, campaign_text, used, wait_for
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 STORES = SOURCE / "tests" / "golden" / "stores"
 
-#: Searches of each kind, under a further profile.
-CAMPAIGN = """\
-format = 1
-
-[campaign]
-name = "kinds"
-seed = 5
-repetitions = {repetitions}
-store = "unused.db"
-
-[[mission]]
-name = "aggregation"
-duration = "5 s"
-  [mission.instances]
-  test = {{ count = 6 }}
-{methods}
-[race]
-max_experiments = {budget}
-
-[tests]
-profiles = ["rvr", "pseudo-reality"]
-"""
-
+FURTHER_PROFILES = '\n[tests]\nprofiles = ["rvr", "pseudo-reality"]\n'
+#: Searches of each kind.
 METHODS = {
     "machine": "",
     "random": "",
@@ -108,9 +87,10 @@ class Recover(ProgramTest):
         return process.stdout
 
     def run_kinds(self, store, methods, repetitions=1, budget=1400):
-        tables = "".join(f'\n[[method]]\nname = "{name}"\n' + (f'method = "{name}"\n' if name != "machine" else "") +
-                         METHODS[name] + "\n" for name in methods)
-        self.file.write_text(CAMPAIGN.format(methods=tables, repetitions=repetitions, budget=budget))
+        tables = [f'name = "{name}"\n' + (f'method = "{name}"\n' if name != "machine" else "") + METHODS[name]
+                  for name in methods]
+        self.file.write_text(campaign_text(budget, seed=5, tests=6, name="kinds", repetitions=repetitions, duration="5 s",
+                                           methods=tables, profile=None, more=FURTHER_PROFILES))
         done = self.run_campaign(store, "--workers", "2")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
@@ -174,7 +154,7 @@ class Recover(ProgramTest):
         store = self.folder / "cancelled.db"
         self.file.write_text(self.file.read_text().replace("seed = 7\n", "seed = 7\nrepetitions = 2\n"))
         process = self.start_campaign(store, "--workers", "1")
-        self.until(lambda: used(store, 2) > 0 or process.poll() is not None, "no campaign")
+        wait_for(lambda: used(store, 2) > 0 or process.poll() is not None, "no campaign")
         self.done("cancel", store, "d2")
         process.wait(60)
         self.recovered(store)

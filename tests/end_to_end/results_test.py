@@ -4,10 +4,9 @@ import json
 import os
 import pathlib
 import signal
-import time
 import unittest
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, wait_for
 
 GOLDEN = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden"
 ARGOS = GOLDEN / "argos"
@@ -216,10 +215,7 @@ class Results(ProgramTest):
         whole, store = self.folder / "whole.db", self.folder / "campaign.db"
         self.assertEqual(self.run_campaign(whole, "--workers", "1").returncode, 0)
         process = self.start_campaign(store, "--workers", "1")
-        deadline = time.monotonic() + 60
-        while not (store.exists() and self.evaluations(store) > 50):
-            self.assertLess(time.monotonic(), deadline, "the campaign does not get on")
-            time.sleep(0.02)
+        wait_for(lambda: store.exists() and self.evaluations(store) > 50, "the campaign to get on")
         # The one writer is the campaign; stopped, it does not end meanwhile.
         process.send_signal(signal.SIGSTOP)
         if process.poll() is None:

@@ -103,7 +103,7 @@ class OverRos(Faults):
     def test_a_host_name_that_does_not_resolve_is_said_on_both_sides(self):
         self.master.variables["ROS_HOSTNAME"] = "nosuch-robot.invalid"
         node = self.master.node(self, 1, self.machine, *LOCK_STEP)
-        node.wait_for("told to find this one at `nosuch-robot.invalid`, which does not even resolve here; set ROS_IP")
+        node.wait_for("other nodes look for this one at `nosuch-robot.invalid`, which does not even resolve here; set ROS_IP")
         self.master.variables["ROS_HOSTNAME"] = "localhost"
         world = self.master.program(self, "world", "--mission", "aggregation", "--lock-step")
         world.wait_for("/rvr1/control .* `nosuch-robot.invalid` does not resolve here; set ROS_IP")

@@ -13,7 +13,7 @@ import threading
 import time
 
 import programs
-from programs import BIN, PATIENCE
+from programs import BIN, PATIENCE, wait_for
 
 ROBOT = str(BIN / "swarmsmith-robot")
 DEADLINE_S = 60 * PATIENCE
@@ -38,16 +38,6 @@ def machine_file(test, text):
     file = test.folder / f"machine{abs(hash(text))}.fsm"
     file.write_text(text + "\n")
     return file
-
-
-def wait_for(condition, what):
-    deadline = time.monotonic() + DEADLINE_S
-    while time.monotonic() < deadline:
-        found = condition()
-        if found:
-            return found
-        time.sleep(0.02)
-    raise AssertionError("never came: " + what)
 
 
 class Standstill(threading.Thread):

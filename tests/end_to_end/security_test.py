@@ -4,23 +4,11 @@ import re
 import signal
 import stat
 import subprocess
-import time
 import unittest
 
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, wait_for
 
 DEADLINE_S = 60 * PATIENCE
-
-
-def wait_for(condition, what):
-    """The condition's value as soon as it is true."""
-    end = time.monotonic() + DEADLINE_S
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.02)
-    raise AssertionError("waited in vain for " + what)
 
 
 class Security(ProgramTest):

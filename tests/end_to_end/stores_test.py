@@ -7,7 +7,7 @@ import shutil
 import sqlite3
 import unittest
 
-from programs import ProgramTest, call, used
+from programs import ProgramTest, call, used, wait_for
 
 PAGE = 8192
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
@@ -70,7 +70,7 @@ class Backup(Stores):
     def test_a_copy_that_is_made_while_a_campaign_runs_goes_on_to_the_same_answer(self):
         store, copy = self.folder / "running.db", self.folder / "copy.db"
         process = self.start_campaign(store, "--workers", "2")
-        self.until(lambda: used(store) > 500, "no progress", 120)
+        wait_for(lambda: used(store) > 500, "no progress", 120)
         made = self.answer("backup", store, copy)
         self.assertEqual(self.digest(copy), made["digest"])
         self.assert_clean(copy)

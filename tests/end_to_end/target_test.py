@@ -7,7 +7,7 @@ import shutil
 import signal
 import unittest
 
-from programs import ProgramTest, SWARMSMITH, call, send, used
+from programs import SWARMSMITH, ProgramTest, call, send, used, wait_for
 
 EXAMPLE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "examples" / "target"
 
@@ -149,7 +149,7 @@ class Target(ProgramTest):
         for _ in range(6):
             moment = used(store) + rng.randrange(1, 50)  # of 400
             process = self.start_campaign(store, "--workers", "2")
-            self.until(lambda: used(store) >= moment or process.poll() is not None, "no progress")
+            wait_for(lambda: used(store) >= moment or process.poll() is not None, "no progress")
             self.assertIsNone(process.poll(), "it ended before it could be killed")
             send(process.pid, signal.SIGKILL)
             process.wait()

@@ -1,18 +1,17 @@
 """`swarmsmith track record`: from folders, videos and a camera on the network; cut off, out of disk."""
 import http.server
 import json
-import os
 import pathlib
 import resource
 import signal
 import subprocess
 import tempfile
 import threading
-import time
 import unittest
 
-TRACK = str(pathlib.Path(os.environ["SWARMSMITH_BIN"]) / "swarmsmith-track")
-PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))  # see programs.py
+from programs import BIN, wait_for
+
+TRACK = str(BIN / "swarmsmith-track")
 WIDTH, HEIGHT = 160, 120
 
 
@@ -20,14 +19,6 @@ def image(number):
     """A picture that moves, as PGM."""
     rows = bytes((x + 3 * y + 5 * number) % 256 for y in range(HEIGHT) for x in range(WIDTH))
     return b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + rows
-
-
-def wait_for(condition, what, seconds=60):
-    end = time.monotonic() + seconds * PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError("waited in vain for " + what)
-        time.sleep(0.02)
 
 
 class Camera(http.server.ThreadingHTTPServer):

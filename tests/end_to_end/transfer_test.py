@@ -5,52 +5,18 @@ import unittest
 from collections import defaultdict
 from statistics import fmean
 
-from programs import ProgramTest, call
+from programs import ProgramTest, call, campaign_text
 
-CAMPAIGN = """\
-format = 1
-
-[campaign]
-name = "gap"
-seed = 5
-repetitions = 2
-store = "unused.db"
-
-[[mission]]
-name = "aggregation"
-duration = "10 s"
-  [mission.instances]
-  test = { count = 12 }
-
-[[mission]]
-name = "color_selection"
-duration = "10 s"
-  [mission.instances]
-  test = { count = 12 }
-
-[[method]]
-name = "machine"
-
-[[method]]
-name = "evostick"
-method = "evostick"
-  [method.evolution]
-  population = 20
-  runs = 5
-  final_runs = 10
-
-[race]
-max_experiments = 1500
-
-[tests]
-profiles = ["rvr", "pseudo-reality"]
-"""
+EVOSTICK = 'name = "evostick"\nmethod = "evostick"\n  [method.evolution]\n  population = 20\n  runs = 5\n  final_runs = 10'
 
 
 class Transfer(ProgramTest):
     def setUp(self):
         super().setUp()
-        self.file.write_text(CAMPAIGN)
+        self.file.write_text(campaign_text(
+            1500, seed=5, tests=12, name="gap", repetitions=2, missions=("aggregation", "color_selection"), duration="10 s",
+            methods=['name = "machine"', EVOSTICK], profile=None,
+            more='\n[tests]\nprofiles = ["rvr", "pseudo-reality"]\n'))
         self.store = self.folder / "one.db"
         done = self.run_campaign(self.store, "--workers", "1")
         self.assertEqual(done.returncode, 0, done.stderr)

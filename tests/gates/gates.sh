@@ -8,7 +8,7 @@ all_gates=(format tidy test long debug clang asan tsan fuzz debian13)
 
 what_runs() {
   case $1 in
-    format) echo "clang-format; types of the pages" ;;
+    format) echo "clang-format; types of the pages; plain words" ;;
     tidy) echo "clang-tidy, without tests" ;;
     test) echo "tests, release build" ;;
     long) echo "long tests, release build" ;;
@@ -49,6 +49,7 @@ is_our_format() { [[ $(clang-format --version) == *" version $format_version."* 
 
 gate_format() {
   tsc -p web
+  python3 tests/gates/plain_words.py
   is_our_format || { echo "types alone: the format is that of clang-format $format_version" >&3; return 0; }
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
   git ls-files '*.h' '*.cpp' | wc -l | sed 's/$/ files/' >&3

@@ -4,6 +4,7 @@
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -31,7 +32,7 @@ TEST(AutomodeSpace, IsFilledInOrderOfItsConditions) {
   const std::size_t states = *space.index_of("NumStates");
   const std::size_t last = *space.index_of("S3");
   const std::size_t target = *space.index_of("N0x0");
-  for (const auto& sampled : only<ConfigurationSampled>(race.take_events())) {
+  for (const auto& sampled : not_empty(only<ConfigurationSampled>(race.take_events()))) {
     const Configuration& c = sampled.configuration;
     EXPECT_EQ(c.is_active(last), c[states] == 4);
     EXPECT_FALSE(c[target] > std::max(0.0, c[states] - 2));

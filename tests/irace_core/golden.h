@@ -19,7 +19,9 @@ inline nlohmann::json golden(const std::string& file) {
 
 /// One part of such a file, by value: the file itself is gone after the call.
 inline nlohmann::json golden(const std::string& file, const std::string& part) {
-  return golden(file).at(part);
+  nlohmann::json found = golden(file).at(part);
+  if (found.empty()) throw std::runtime_error(file + ": nothing in " + part);
+  return found;
 }
 
 /// R writes vectors of length one as plain values.

@@ -11,6 +11,7 @@
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -84,7 +85,7 @@ TEST(IteratedRace, StaysWithinItsBudget) {
 TEST(IteratedRace, CountsWhatItReports) {
   const auto events = run(small_scenario());
   std::int64_t evaluated = 0;
-  for (const RaceStep& step : only<RaceStep>(events)) {
+  for (const RaceStep& step : not_empty(only<RaceStep>(events))) {
     evaluated += static_cast<std::int64_t>(step.evaluated.size());
     EXPECT_EQ(step.experiments_used, evaluated);
   }
@@ -95,7 +96,7 @@ TEST(IteratedRace, NeverAsksTwiceForOneConfigurationOnOnePair) {
   std::set<std::pair<std::int64_t, std::int64_t>> seen;
   while (!race.finished()) {
     std::vector<double> costs;
-    for (const Experiment& wanted : race.wanted()) {
+    for (const Experiment& wanted : not_empty(race.wanted())) {
       EXPECT_TRUE(seen.emplace(wanted.configuration, wanted.pair).second);
       costs.push_back(synthetic_cost(race.configuration(wanted.configuration), wanted));
     }
@@ -122,9 +123,11 @@ TEST(IteratedRace, GivesAllConfigurationsTheSameSeedOnAPair) {
 
 TEST(IteratedRace, WantsExperimentsInCanonicalOrder) {
   auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  std::size_t asked = 0;
   while (!race.finished()) {
     std::set<std::int64_t> finished_pairs;
     const auto wanted = race.wanted();
+    asked += wanted.size();
     for (std::size_t i = 1; i < wanted.size(); ++i) {
       if (wanted[i].pair == wanted[i - 1].pair) {
         EXPECT_LT(wanted[i - 1].configuration, wanted[i].configuration);
@@ -138,13 +141,14 @@ TEST(IteratedRace, WantsExperimentsInCanonicalOrder) {
     }
     race.tell(costs);
   }
+  EXPECT_GT(asked, 1000U);
 }
 
 TEST(IteratedRace, DropsNoEliteThatHasSeenMoreThanItsRivals) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     std::map<std::int64_t, std::set<std::int64_t>> pairs;  // by configuration
     std::map<std::int64_t, std::int64_t> known_before;     // of the elites, in this iteration
-    for (const RaceEvent& event : run(small_scenario(seed))) {
+    for (const RaceEvent& event : not_empty(run(small_scenario(seed)))) {
       if (const auto* started = std::get_if<IterationStarted>(&event)) {
         known_before.clear();
         for (const std::int64_t elite : started->elites) {
@@ -166,7 +170,8 @@ TEST(IteratedRace, DropsNoEliteThatHasSeenMoreThanItsRivals) {
 
 TEST(IteratedRace, SamplesOnlyValidConfigurations) {
   const ParameterSpace space = small_space();
-  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(run(small_scenario()))) {
+  for (const ConfigurationSampled& sampled :
+       not_empty(only<ConfigurationSampled>(run(small_scenario())))) {
     EXPECT_TRUE(space.check(sampled.configuration).has_value()) << sampled.id;
     EXPECT_EQ(sampled.configuration.is_active(4), sampled.configuration[0] == 1);
   }
@@ -174,7 +179,8 @@ TEST(IteratedRace, SamplesOnlyValidConfigurations) {
 
 TEST(IteratedRace, NumbersConfigurationsFromOneWithoutGaps) {
   std::int64_t last = 0;
-  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(run(small_scenario()))) {
+  for (const ConfigurationSampled& sampled :
+       not_empty(only<ConfigurationSampled>(run(small_scenario())))) {
     EXPECT_EQ(sampled.id, ++last);
     EXPECT_LT(sampled.parent, sampled.id);
     EXPECT_EQ(sampled.parent == 0, sampled.iteration == 1);
@@ -188,7 +194,8 @@ TEST(IteratedRace, AvoidsForbiddenConfigurations) {
       space_of({make_categorical("kind", {"a", "b"}), make_real("x", 0, 10)}, {clause});
   Scenario scenario = small_scenario();
   auto race = IteratedRace::start(space, scenario).value();
-  for (const auto& sampled : only<ConfigurationSampled>(run_to_end(race, synthetic_cost))) {
+  for (const auto& sampled :
+       not_empty(only<ConfigurationSampled>(run_to_end(race, synthetic_cost)))) {
     EXPECT_FALSE(space.is_forbidden(sampled.configuration));
   }
 }
@@ -316,6 +323,30 @@ TEST(IteratedRace, FailsWhenEverythingIsRejected) {
   EXPECT_THAT(race.elites(), IsEmpty());
 }
 
+/// Elites of earlier races are no way out: they were rejected, too, and what lost to them is no
+/// answer.
+TEST(IteratedRace, FailsWhenASecondRaceRejectsAllOfItsContestants) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  std::vector<IterationEnded> ended;
+  while (!race.finished()) {
+    std::vector<double> costs;
+    for (const Experiment& wanted : race.wanted()) {
+      costs.push_back(ended.empty()
+                          ? synthetic_cost(race.configuration(wanted.configuration), wanted)
+                          : std::numeric_limits<double>::infinity());
+    }
+    race.tell(costs);
+    for (IterationEnded& end : only<IterationEnded>(race.take_events()))
+      ended.push_back(std::move(end));
+  }
+  ASSERT_EQ(ended.size(), 2U);
+  EXPECT_FALSE(ended[0].elites.empty());
+  EXPECT_THAT(ended[1].elites, IsEmpty());
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_EQ(race.failure()->message, "every configuration was rejected");
+  EXPECT_THAT(race.elites(), IsEmpty());
+}
+
 TEST(IteratedRace, RefusesCostsThatBreakTheContract) {
   auto race = IteratedRace::start(small_space(), small_scenario()).value();
   std::vector<double> costs(race.wanted().size(), 1);
@@ -328,7 +359,7 @@ TEST(IteratedRace, RefusesCostsThatBreakTheContract) {
 
 TEST(IteratedRace, KeepsEachEliteOnce) {
   const auto events = run(small_scenario());
-  for (const IterationEnded& end : only<IterationEnded>(events)) {
+  for (const IterationEnded& end : not_empty(only<IterationEnded>(events))) {
     std::set<std::int64_t> ids;
     double last_rank = 0;
     for (const Elite& elite : end.elites) {
@@ -363,7 +394,7 @@ TEST(IteratedRace, ReportsAnEmptyDependentDomainWithItsParameter) {
 TEST(IteratedRace, HonoursTheCapOnConfigurations) {
   Scenario scenario = small_scenario();
   scenario.max_configurations_per_race = 12;
-  for (const IterationStarted& start : only<IterationStarted>(run(scenario))) {
+  for (const IterationStarted& start : not_empty(only<IterationStarted>(run(scenario)))) {
     EXPECT_LE(start.n_configurations, 12);
   }
 }

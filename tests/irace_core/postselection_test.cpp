@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <limits>
+#include <map>
 #include <set>
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -129,12 +131,34 @@ TEST(PostselectionRace, UsesWhatIsLeftAndProtectsNobodyLonger) {
   EXPECT_GT(raced, 10);
 }
 
+/// irace facts, 14: it takes more than one test's pairs for one configuration.
+TEST(PostselectionRace, BeginsWithTwoExperimentsAndNotWithOne) {
+  std::map<std::int64_t, int> left_over;  // by what was left
+  std::map<std::int64_t, int> raced;
+  for (std::int64_t budget = 200; budget < 300; ++budget) {
+    Scenario scenario = small_scenario(static_cast<std::uint64_t>(budget));
+    scenario.max_experiments = budget;
+    auto race = IteratedRace::start(small_space(), scenario).value();
+    const auto events = run_to_end(race, synthetic_cost);
+    const IterationStarted last = only<IterationStarted>(events).back();
+    if (last.postselection) {
+      ++raced[last.budget];
+    } else {
+      ++left_over[only<IterationEnded>(events).back().remaining];
+    }
+  }
+  EXPECT_GT(raced[2], 0);
+  EXPECT_GT(left_over[1], 0);
+  EXPECT_EQ(left_over[2], 0);
+  EXPECT_EQ(raced[1], 0);
+}
+
 TEST(PostselectionRace, CanBeTurnedOff) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Scenario scenario = small_scenario(seed);
     scenario.postselection = false;
     auto race = IteratedRace::start(small_space(), scenario).value();
-    for (const auto& started : only<IterationStarted>(run_to_end(race, synthetic_cost)))
+    for (const auto& started : not_empty(only<IterationStarted>(run_to_end(race, synthetic_cost))))
       EXPECT_FALSE(started.postselection);
   }
 }

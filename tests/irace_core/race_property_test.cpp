@@ -220,8 +220,9 @@ TEST(RaceProperty, KeepsElitesUntilTheirPairsAreCovered) {
   EXPECT_GT(dropped_elites, 10);
 }
 
-TEST(RaceProperty, EndsWithinItsBudgetOnceEveryPairIsCovered) {
-  for_races([](const Given& given) {
+TEST(RaceProperty, EndsWithinItsBudgetWithoutPastPairs) {
+  int compared = 0;
+  for_races([&](const Given& given) {
     const RaceSettings& settings = given.settings;
     const Outcome outcome = run(given);
     for (std::size_t i = 1; i < outcome.steps.size(); ++i) {
@@ -229,11 +230,59 @@ TEST(RaceProperty, EndsWithinItsBudgetOnceEveryPairIsCovered) {
       const bool may_stop = before >= settings.first_test &&
                             before % settings.pairs_between_tests == 0 && settings.past_pairs == 0;
       if (!may_stop || outcome.steps[i].evaluated.empty()) continue;
+      ++compared;
       const auto runs = static_cast<std::int64_t>(outcome.steps[i].evaluated.size());
       EXPECT_LE(outcome.steps[i - 1].experiments_used + runs * settings.pairs_between_tests,
                 settings.max_experiments);
     }
   });
+  EXPECT_GT(compared, 100);
+}
+
+/// Whether a rule of irace facts, 9.3.2, ended the race; the other reasons are budgets and pairs.
+bool ended_by_rule(const Outcome& outcome) {
+  return outcome.reason.starts_with("configurations alive") ||
+         outcome.reason.starts_with("experiments up to the next test") ||
+         outcome.reason.starts_with("tests without elimination");
+}
+
+TEST(RaceProperty, StopsOnlyWhenASurvivorHasSeenEachNewAndPastPair) {
+  int stopped = 0;
+  int after_a_loss = 0;
+  for_races([&](const Given& given) {
+    const RaceSettings& settings = given.settings;
+    const Outcome outcome = run(given);
+    if (settings.past_pairs == 0 || !ended_by_rule(outcome)) return;
+    ++stopped;
+    after_a_loss += given.rejects > 0 ? 1 : 0;
+    const auto first = static_cast<std::size_t>(settings.new_pairs);
+    std::map<std::int64_t, std::set<std::int64_t>> seen;  // pairs by survivor
+    for (const std::int64_t id : outcome.survivors) {
+      const auto& past = given.contestants[static_cast<std::size_t>(id - 1)].past;
+      seen[id];
+      for (std::size_t i = 0; i < past.size(); ++i) {
+        if (!std::isnan(past[i])) seen[id].insert(settings.pairs[first + i]);
+      }
+    }
+    for (const RaceStep& step : outcome.steps) {
+      for (const auto& [id, pair] : step.evaluated) {
+        if (seen.contains(id)) seen[id].insert(pair);
+      }
+    }
+    const auto count = static_cast<std::size_t>(settings.new_pairs + settings.past_pairs);
+    for (std::size_t task = 0; task < count; ++task) {
+      const std::int64_t pair = settings.pairs[task];
+      EXPECT_TRUE(std::ranges::any_of(
+          seen, [&](const auto& survivor) { return survivor.second.contains(pair); }))
+          << "nobody alive has seen pair " << pair << "; " << outcome.reason;
+    }
+    for (const auto& [id, pairs] : seen) {
+      EXPECT_EQ(static_cast<std::int64_t>(pairs.size()) % settings.pairs_between_tests, 0)
+          << "configuration " << id;
+    }
+  });
+  EXPECT_GT(stopped, 50);
+  EXPECT_GT(after_a_loss, 20);
 }
 
 }  // namespace

@@ -118,6 +118,7 @@ TEST(Sobol, HasEveryDimensionOfItsTable) {
     for (std::size_t d = 0; d < point.size(); ++d)
       parts[d].insert(static_cast<int>(point[d] * 64));
   }
+  ASSERT_FALSE(parts.empty());
   for (std::size_t d = 0; d < parts.size(); ++d)
     EXPECT_EQ(parts[d].size(), 64U) << d;
 }

@@ -35,5 +35,22 @@ TEST(Similarity, MeasuresLogarithmicNumbersInTheLogarithm) {
   EXPECT_TRUE(similar(space, 0.001, 0.01, 0.1).empty());
 }
 
+/// Each is measured in its own domain, [1, ants].
+TEST(Similarity, MeasuresDependentNumbersByTheDomainThatTheyHaveThere) {
+  const ParameterSpace space = space_of(
+      {{"elite", "", Integer{1.0, testing::name("ants")}, {}}, make_integer("ants", 1, 1001)});
+  const auto similar_elites = [&](double first_elite, double second_elite) {
+    Configuration first(2);
+    Configuration second(2);
+    first.set(0, first_elite);
+    second.set(0, second_elite);
+    first.set(1, 101);
+    second.set(1, 111);
+    return similar_configurations(space, {&first, &second}, 0.01).size();
+  };
+  EXPECT_EQ(similar_elites(51, 56), 2U);  // the middle of both
+  EXPECT_EQ(similar_elites(51, 51), 0U);
+}
+
 }  // namespace
 }  // namespace swarmsmith::irace

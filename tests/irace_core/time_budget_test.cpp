@@ -7,6 +7,7 @@
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -227,9 +228,9 @@ TEST(TimedRace, LeavesOutWhatTheEstimateRejects) {
   }
   race.tell(answers);
   const TimedRun run = run_timed(race);
-  for (const IterationStarted& started : only<IterationStarted>(run.events))
+  for (const IterationStarted& started : not_empty(only<IterationStarted>(run.events)))
     EXPECT_THAT(started.elites, ::testing::Not(::testing::Contains(2)));
-  for (const RaceStep& step : only<RaceStep>(run.events))
+  for (const RaceStep& step : not_empty(only<RaceStep>(run.events)))
     EXPECT_THAT(step.evaluated, ::testing::Not(::testing::Contains(::testing::Key(2))));
 }
 

@@ -13,7 +13,7 @@ import unittest
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path += [str(SOURCE / "tests" / "end_to_end"), str(SOURCE / "tests" / "tracking" / "app")]
 from filmed_lab import TRACK, FilmedLab, must  # noqa: E402
-from programs import ProgramTest  # noqa: E402
+from programs import ProgramTest, campaign_text  # noqa: E402
 
 SWARMSMITH = TRACK.with_name("swarmsmith")
 TRUTH = """format = 1
@@ -40,20 +40,6 @@ class Truth:
 
 DESIGNED_FOR = Truth(200, 0.85, 0.75, 0.3, 15)
 OTHERS = (Truth(100, 0.95, 1.2, 0.5, 30), Truth(350, 0.7, 0.6, 0.4, 25))
-CAMPAIGN = """format = 1
-[campaign]
-name = "{name}"
-seed = 5
-repetitions = {designs}
-[[mission]]
-name = "{mission}"
-[[method]]
-name = "chocolate"
-[race]
-max_experiments = {experiments}
-[simulator]
-profile = "{profile}"
-"""
 RUNS = 4
 SECONDS = 60
 DESIGNS = int(os.environ.get("SWARMSMITH_LAB_DESIGNS", "10"))
@@ -114,8 +100,8 @@ class LabProfile(ProgramTest):
         """The mean score in the true laboratory of each of the machines that were designed under a profile."""
         campaign = self.folder / f"{name}.campaign.toml"
         store = self.folder / f"{name}.campaign.db"
-        campaign.write_text(CAMPAIGN.format(name=name, profile=profile, mission=MISSION, designs=DESIGNS,
-                                            experiments=EXPERIMENTS))
+        campaign.write_text(campaign_text(EXPERIMENTS, seed=5, tests=None, name=name, repetitions=DESIGNS, missions=[MISSION],
+                                          methods=['name = "chocolate"'], profile=profile, store=None))
         must(SWARMSMITH, "run", campaign, "--store", store, "--workers", "2", "--no-dashboard")
         done = must(SWARMSMITH, "evaluate", "best", store, "--profile", self.truth, "--seeds", f"1001-{1000 + TESTS}",
                     "--no-store", "--json")

@@ -17,7 +17,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests" / "end_to_end"))
-from programs import SWARMSMITH, ProgramTest, call  # noqa: E402
+from programs import SWARMSMITH, ProgramTest, call, campaign_text  # noqa: E402
 
 EVALUATIONS = int(os.environ.get("SWARMSMITH_THESIS_SIZE", 3_000_000))
 BUDGET = 6_000  # experiments of a design, of three
@@ -26,25 +26,6 @@ MB = 1 << 20
 OF_A_VIEW = 100
 #: The 256 MB that a statement may take, and the program itself.
 MEMORY_OF_A_VIEW = 330 * MB
-
-CAMPAIGN = f"""format = 1
-[campaign]
-name = "thesis"
-seed = 2022
-[[mission]]
-name = "aggregation"
-[[mission]]
-name = "grid_exploration"
-[[mission]]
-name = "color_selection"
-[[method]]
-name = "watermelon"
-flavour = "watermelon"
-[race]
-max_experiments = {BUDGET}
-[simulator]
-profile = "argos3"
-"""
 
 #: Command, sums over all scores, MB. What replays or copies all of it may take more of both.
 COMMANDS = [
@@ -133,7 +114,9 @@ class ThesisSize(ProgramTest):
         cls.addClassCleanup(cls.place.cleanup)
         folder = pathlib.Path(cls.place.name)
         cls.store = folder / "thesis.db"
-        (folder / "thesis.toml").write_text(CAMPAIGN)
+        (folder / "thesis.toml").write_text(campaign_text(
+            BUDGET, seed=2022, tests=None, name="thesis", missions=("aggregation", "grid_exploration", "color_selection"),
+            methods=['name = "watermelon"\nflavour = "watermelon"'], store=None))
         done = call("run", folder / "thesis.toml", "--store", cls.store, "--no-dashboard", timeout=1800)
         assert done.returncode == 0, done.stderr
         db = sqlite3.connect(cls.store)

@@ -12,7 +12,7 @@ SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests/end_to_end"))
 import robots  # noqa: E402
 from bundle_test import serve  # noqa: E402
-from programs import BIN, PATIENCE, SWARMSMITH, ProgramTest, call, used  # noqa: E402
+from programs import BIN, PATIENCE, SWARMSMITH, ProgramTest, call, used, wait_for  # noqa: E402
 
 ROOT = os.environ.get("SWARMSMITH_OTHER_ROOT")
 
@@ -78,7 +78,7 @@ class TwoSystems(ProgramTest):
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
                                        env={**os.environ, "SWARMSMITH_WORKER": worker})
             self.addCleanup(self._end, process)
-            self.until(lambda: used(moved) > before + 200 or process.poll() is not None, f"turn {turn}")
+            wait_for(lambda: used(moved) > before + 200 or process.poll() is not None, f"turn {turn}")
             self._end(process)
         last = self.call_other("run", self.file, "--store", moved, "--no-dashboard", "--workers", "2")
         self.assertEqual(last.returncode, 0, last.stderr)

@@ -8,7 +8,7 @@ import time
 import unittest
 import zlib
 
-from programs import CAMPAIGN
+from programs import campaign_text
 from rig import FaultTest, rows, stored, wait_for
 from visited import Visited
 from wire import MORE, Peer, frame, message, packed, varint
@@ -153,8 +153,7 @@ class ManyEvaluations(FaultTest):
     tests = 1
 
     def campaign_text(self):
-        short = CAMPAIGN.replace('name = "aggregation"', 'name = "aggregation"\nduration = "1 s"')
-        return short.format(seed=self.seed, budget=self.budget, tests=self.tests)
+        return campaign_text(self.budget, seed=self.seed, tests=self.tests, duration="1 s")
 
     def test_a_design_of_three_hundred_thousand(self):
         run = self.run_local("--workers", "2")

@@ -16,10 +16,10 @@ import signal
 import sqlite3
 import subprocess
 import tempfile
-import time
 import unittest
 
-from programs import BIN, CAMPAIGN, PATIENCE, SWARMSMITH, call, children_of, free_ports, send  # noqa: F401
+from programs import (BIN, PATIENCE, SWARMSMITH, call, campaign_text, children_of, free_ports, send,  # noqa: F401
+                      wait_for)
 
 WORKER = str(BIN / "swarmsmith-worker")
 LONG = os.environ.get("SWARMSMITH_LONG") == "1"
@@ -27,19 +27,6 @@ LONG = os.environ.get("SWARMSMITH_LONG") == "1"
 SANITIZED = "SWARMSMITH_SANITIZER" in os.environ
 #: Every process that a test starts has this in its environment, its own children too.
 MARK = "SWARMSMITH_TEST_MARK"
-
-
-def wait_for(condition, what, seconds=60, pause=0.02):
-    """Polls until `condition()` is true and returns it; an AssertionError names what never came: `what`, or what
-    it returns then."""
-    limit = time.monotonic() + seconds * PATIENCE
-    while True:
-        value = condition()
-        if value:
-            return value
-        if time.monotonic() > limit:
-            raise AssertionError(f"waited {seconds} s in vain: {what() if callable(what) else what}")
-        time.sleep(pause)
 
 
 def marked(mark):
@@ -179,8 +166,7 @@ class FaultTest(unittest.TestCase):
         self.held = None
 
     def campaign_text(self):
-        return CAMPAIGN.format(seed=self.seed, budget=self.budget, tests=self.tests).replace(
-            "\n\n[[mission]]", f"\nrepetitions = {self.designs}\n\n[[mission]]", 1) + self.more
+        return campaign_text(self.budget, seed=self.seed, tests=self.tests, repetitions=self.designs, more=self.more)
 
     def count(self, what, number=1):
         """Counts faults for the line that the test prints at its end."""

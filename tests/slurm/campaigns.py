@@ -9,29 +9,14 @@ sys.dont_write_bytecode = True
 
 import one_host
 from one_host import OneHostSlurm, wait_for
-from programs import PATIENCE, SWARMSMITH, ProgramTest, call, send
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, campaign_text, send
 
-CAMPAIGN = """\
-format = 1
-[campaign]
-name = "cluster"
-seed = 11
-repetitions = {repetitions}
-[[mission]]
-name = "aggregation"
-duration = "{duration_s} s"
-[[mission]]
-name = "grid_exploration"
-duration = "{duration_s} s"
-[[method]]
-name = "watermelon"
-[race]
-max_experiments = {budget}
-[simulator]
-profile = "argos3"
-[workers]
-{workers}
-"""
+
+def cluster_text(budget, repetitions, duration_s, workers):
+    """Two missions whose evaluations last, and who evaluates them."""
+    return campaign_text(budget, seed=11, tests=None, name="cluster", repetitions=repetitions, store=None,
+                         missions=("aggregation", "grid_exploration"), duration=f"{duration_s} s",
+                         methods=['name = "watermelon"'], more=f"[workers]\n{workers}\n")
 
 
 class SlurmTest(ProgramTest):
@@ -61,8 +46,7 @@ class SlurmTest(ProgramTest):
         self.store = self.folder / "a store.db"
 
     def text(self, workers):
-        return CAMPAIGN.format(repetitions=self.repetitions, budget=self.budget,
-                               duration_s=self.duration_s, workers=workers)
+        return cluster_text(self.budget, self.repetitions, self.duration_s, workers)
 
     def expected(self):
         """Digest of the same campaign on this host alone."""

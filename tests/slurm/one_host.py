@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 
+import programs
 from programs import free_ports
 
 PROGRAMS = {"munged": "munge", "slurmctld": "slurmctld", "slurmd": "slurmd",
@@ -73,15 +74,9 @@ def why_not():
     return None
 
 
-def wait_for(condition, what, limit_s=60, pause_s=0.1):
-    """The first true value of `condition`."""
-    deadline = time.monotonic() + limit_s
-    while time.monotonic() < deadline:
-        found = condition()
-        if found:
-            return found
-        time.sleep(pause_s)
-    raise AssertionError(f"after {limit_s} s, never came: {what}")
+def wait_for(condition, what, seconds=60, pause=0.1):
+    """Slurm is asked less often than our own programs are."""
+    return programs.wait_for(condition, what, seconds, pause)
 
 
 def _end_with_the_test():
@@ -237,7 +232,7 @@ class OneHostSlurm:
         if "slurmctld" in self.daemons:
             try:
                 self.call("scancel", "--user=root", check=False, timeout=10)
-                wait_for(lambda: not self.jobs("RUNNING", "COMPLETING"), "end of jobs", limit_s=8)
+                wait_for(lambda: not self.jobs("RUNNING", "COMPLETING"), "end of jobs", seconds=8)
             except (AssertionError, subprocess.TimeoutExpired):
                 pass  # killed below
         for daemon in reversed(self.daemons.values()):

@@ -60,10 +60,9 @@ class SshTest(ProgramTest):
     def campaign(self, hosts, budget=1_000_000):
         """Without a budget, one that is interrupted long before its end, on any machine."""
         self.hosts.write_text(hosts)
-        self.file.write_text(campaigns.CAMPAIGN.format(
-            repetitions=1, budget=budget, duration_s=240,
-            workers='launcher = "ssh"\n[workers.ssh]\nhosts = "hosts"\n'
-                    f'options = ["-F", "{self.ssh.client_config}"]\n'))
+        self.file.write_text(campaigns.cluster_text(
+            budget, 1, 240, 'launcher = "ssh"\n[workers.ssh]\nhosts = "hosts"\n'
+                            f'options = ["-F", "{self.ssh.client_config}"]\n'))
 
     def run_by_ssh(self, *words):
         with open(self.said, "a") as said:

@@ -1,7 +1,9 @@
 #include "storage/internal/candidate_code.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
+#include <algorithm>
 #include <map>
 
 #include "base/rng.h"
@@ -174,6 +176,45 @@ TEST_F(CandidateCodeTest, ARowThatComesAgainMakesNoPhrases) {
   EXPECT_EQ(one("SELECT count(*) - count(DISTINCT quote(machine) || quote(parameters) ||"
                 " quote(modules)) FROM phrase"),
             "0");
+}
+
+/// A phrase has four parameters, or five of which a number ends it, and is never empty.
+TEST_F(CandidateCodeTest, PhrasesAreShortAndNeverEmpty) {
+  const auto phrases_of = [](int choices, const std::string& number) {
+    CandidateRow row{.id = {1}, .parent = {}, .parameters = {}, .machine = {}, .modules = {}};
+    std::vector<std::string> parameters, switches;
+    for (int i = 0; i < choices; ++i) {
+      parameters.push_back(fmt::format("\"C{}\":{}", i, i % 8));
+      switches.push_back(fmt::format("--c{} {}", i, i % 8));
+    }
+    if (!number.empty()) {
+      parameters.push_back("\"P\":" + number);
+      switches.push_back("--p " + number);
+    }
+    row.parameters = fmt::format("{{{}}}", fmt::join(parameters, ","));
+    row.machine = fmt::format("{}", fmt::join(switches, " "));
+    PhraseBook book;
+    std::vector<std::size_t> sizes;
+    const StoredTexts texts = book.encode(row, [&](std::int64_t, const Phrase& phrase) {
+      EXPECT_NE(phrase.parameters.value_or(""), "");
+      if (phrase.parameters)
+        sizes.push_back(static_cast<std::size_t>(std::ranges::count(*phrase.parameters, ':')));
+    });
+    EXPECT_TRUE(texts.code);
+    CandidateRow back;
+    EXPECT_TRUE(book.decode(texts, back));
+    EXPECT_EQ(back.parameters, row.parameters);
+    EXPECT_EQ(back.machine, row.machine);
+    return sizes;
+  };
+  using Sizes = std::vector<std::size_t>;
+  EXPECT_EQ(phrases_of(3, ""), (Sizes{3}));
+  EXPECT_EQ(phrases_of(4, ""), (Sizes{4}));
+  EXPECT_EQ(phrases_of(5, ""), (Sizes{4, 1}));
+  EXPECT_EQ(phrases_of(13, ""), (Sizes{4, 4, 4, 1}));
+  EXPECT_EQ(phrases_of(3, "0.5"), (Sizes{4}));
+  EXPECT_EQ(phrases_of(4, "0.5"), (Sizes{5}));
+  EXPECT_EQ(phrases_of(5, "0.5"), (Sizes{4, 2}));
 }
 
 TEST_F(CandidateCodeTest, TextsThatNeverRepeatAreStoredAsTheyAreOnceTheBookIsFull) {

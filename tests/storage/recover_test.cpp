@@ -203,6 +203,19 @@ TEST_F(RecoverRealRuns, ARunOfWhichPartsAreLostIsInvalidAndSaysWhich) {
   EXPECT_GT(told, 3);
 }
 
+TEST_F(RecoverRealRuns, ARunThatLostItsCalibrationsSaysSo) {
+  sqlite::Connection(damaged.string(), SQLITE_OPEN_READWRITE).execute("DELETE FROM calibration");
+  recovered();
+  const auto reader = open_reader(out);
+  ASSERT_EQ(reader->real_runs().size(), 3U);
+  for (const RealRunHead& head : reader->real_runs()) {
+    const RealRunRows rows = *reader->real_run(head.id);
+    EXPECT_EQ(rows.score.verdict, "INVALID");
+    EXPECT_THAT(rows.score.reasons, HasSubstr("rows of its calibrations"));
+    EXPECT_EQ(rows.samples, runs[static_cast<std::size_t>(head.id.value - 1)].samples);
+  }
+}
+
 TEST_F(RecoverTest, WhatWasOnlyInTheLogIsFoundThere) {
   fs::remove(damaged);
   const auto store = open_store(damaged, campaign);

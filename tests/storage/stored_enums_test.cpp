@@ -11,6 +11,7 @@
 #include "storage/internal/sqlite.h"
 #include "storage/recover.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -79,7 +80,7 @@ TEST_F(StoredEnums, EveryPurposeHasANumberAWordAndALetterOfItsOwn) {
 
 TEST_F(StoredEnums, TheViewsShowEveryPurposeByItsWordAndLetter) {
   const auto reader = open_reader(file);
-  for (const EvaluationRow& row : evaluations) {
+  for (const EvaluationRow& row : not_empty(evaluations)) {
     const std::string id = to_string(row.key);
     const PurposeFacts facts = *facts_of(row.key.purpose);
     const auto shown = cells_of(
@@ -98,7 +99,7 @@ TEST_F(StoredEnums, TheViewsShowEveryPurposeByItsWordAndLetter) {
 
 TEST_F(StoredEnums, TheViewOfScoresHasThePurposesThatCountThereAndNoOthers) {
   const auto reader = open_reader(file);
-  for (const EvaluationRow& row : evaluations) {
+  for (const EvaluationRow& row : not_empty(evaluations)) {
     const PurposeFacts facts = *facts_of(row.key.purpose);
     const auto scores = cells_of(*reader, "SELECT purpose FROM v_design_scores WHERE pair = " +
                                               std::to_string(row.key.pair));
@@ -112,7 +113,7 @@ TEST_F(StoredEnums, TheViewOfScoresHasThePurposesThatCountThereAndNoOthers) {
 TEST_F(StoredEnums, TheAnswerInAStoreIsThatOfTheRows) {
   const auto reader = open_reader(file);
   const std::vector<Row> answer = reader->answer_rows();
-  for (const EvaluationRow& row : evaluations) {
+  for (const EvaluationRow& row : not_empty(evaluations)) {
     const bool is_there =
         std::ranges::any_of(answer, [&](const Row& each) { return is_this(each, row.key); });
     EXPECT_EQ(is_there, in_answer(row)) << facts_of(row.key.purpose)->word;
@@ -138,7 +139,7 @@ TEST_F(StoredEnums, RecoveryOfASoundStoreKeepsEveryValue) {
 }
 
 TEST_F(StoredEnums, RecoveryKeepsEveryStateOfADesign) {
-  for (const DesignState state : all_design_states()) {
+  for (const DesignState state : not_empty(all_design_states())) {
     EXPECT_EQ(design_state_of(word_of(state)), state);
     {
       sqlite::Connection connection(file.string(), SQLITE_OPEN_READWRITE);

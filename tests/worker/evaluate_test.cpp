@@ -107,9 +107,18 @@ TEST(Evaluate, FailsWithASentence) {
   const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({short_aggregation()}));
   ASSERT_TRUE(evaluator);
   EXPECT_NE((*evaluator)(item(1, "--nstates nonsense")).failure, "");
-  LeasedTask strange = item(1);
-  strange.mission = 5;
-  EXPECT_NE((*evaluator)(strange).failure, "");
+  // The first number that the scenario does not have, and one far beyond.
+  for (const std::uint32_t number : {1U, 5U}) {
+    LeasedTask of_mission = item(1);
+    of_mission.mission = number;
+    LeasedTask of_method = item(1);
+    of_method.method = number;
+    LeasedTask of_profile = item(1);
+    of_profile.profile = number;
+    for (const LeasedTask& strange : {of_mission, of_method, of_profile})
+      EXPECT_NE((*evaluator)(strange).failure.find("the scenario does not have"),
+                std::string::npos);
+  }
 }
 
 TEST(Evaluate, RefusesScenariosThatItCannotRun) {

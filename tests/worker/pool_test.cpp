@@ -93,6 +93,27 @@ TEST_F(Pools, GiveBackWhatIsNotStarted) {
   EXPECT_EQ(wait_for(pool, 1).size(), 1U);
 }
 
+/// A long task on every slot, and more than the slots waiting: the first result does not wait for
+/// the others.
+TEST_F(Pools, WakeForTheFirstResultThoughThereIsMuchWorkLeft) {
+  std::counting_semaphore<> go{0};
+  Pool pool(
+      2,
+      [&](const std::string&) -> Expected<Evaluator> {
+        return Evaluator([&](const LeasedTask&) -> Result {
+          go.acquire();
+          return Result{.score = 1};
+        });
+      },
+      [this] { woken.release(); });
+  ASSERT_TRUE(pool.use("fine"));
+  pool.run(items(20));
+  go.release();
+  EXPECT_TRUE(woken.try_acquire_for(std::chrono::seconds(60)));
+  go.release(19);
+  EXPECT_EQ(wait_for(pool, 20).size(), 20U);
+}
+
 TEST_F(Pools, SayWhyAScenarioCannotBeUsed) {
   Pool pool(1, make_obedient, [] {});
   const Expected<void> used = pool.use("bad");

@@ -268,6 +268,39 @@ TEST_F(Protocol, NoticesASilentCoordinator) {
   EXPECT_GE(connections, 2);
 }
 
+/// Of a connection that it has closed, or of a coordinator that it has left, nothing counts.
+TEST_F(Protocol, HearsNothingWhileItWaitsAndAfterItHasLeft) {
+  be_welcome();
+  const std::uint64_t before = incarnation;
+  protocol.on_connection_lost(now);
+  take();
+  pb::ToWorker tasks;
+  tasks.set_incarnation(before);
+  tasks.mutable_tasks()->set_scenario(digest_of_scenario("scenario"));
+  tasks.mutable_tasks()->add_tasks()->mutable_key()->set_candidate(1);
+  hear(tasks);
+  EXPECT_TRUE(given.empty());
+  EXPECT_TRUE(said.empty());
+  pb::ToWorker reject;
+  reject.set_incarnation(before);
+  reject.mutable_reject()->set_sentence("another build");
+  hear(reject);
+  EXPECT_FALSE(left) << "from before the connection was lost";
+
+  pass(seconds(5));
+  ASSERT_EQ(connections, 2);
+  reject.set_incarnation(incarnation);
+  hear(reject);
+  ASSERT_TRUE(left);
+  left.reset();
+  tasks.set_incarnation(incarnation);
+  hear(tasks);
+  hear(reject);
+  EXPECT_TRUE(given.empty());
+  EXPECT_TRUE(said.empty());
+  EXPECT_FALSE(left) << "it leaves once";
+}
+
 TEST_F(Protocol, GivesUpAfterTenMinutes) {
   for (int i = 0; i < 700 && !left; ++i)
     pass(seconds(1));

@@ -30,7 +30,7 @@ struct RunPlan {
   Rig whole_rig;
   Rig rig;  ///< the cameras and robots of this run, cameras as `videos`
   RunLog log;
-  CandidateId candidate;  ///< none when nobody said what ran
+  CandidateId candidate;  ///< none when it was not given
   std::vector<PlannedVideo> videos;
   RobotFiles robots;
   std::string store;  ///< empty: the run is not kept

@@ -45,7 +45,7 @@ std::vector<Point> robots_in(const std::vector<Detection>& seen, const Rig& rig,
 }
 
 /// Takes pictures of the floor from a video, spread over its length; at most twice kPictures when
-/// nobody knows how long it is.
+/// its length is unknown.
 class FloorPictures {
  public:
   FloorPictures(const RunPlan& plan, std::vector<FloorPicture>& into) : plan_(plan), into_(into) {}

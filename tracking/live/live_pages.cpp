@@ -133,7 +133,7 @@ class Pages final : public LivePages {
     }
     if (!is_of_same_user(PageServer::socket_of_request())) {
       response.status = 403;
-      response.set_content("these pages are of another user of this host\n", "text/plain");
+      response.set_content("these pages belong to another user of this host\n", "text/plain");
       return httplib::Server::HandlerResponse::Handled;
     }
     if (request.method == "GET") return httplib::Server::HandlerResponse::Unhandled;

@@ -29,7 +29,7 @@ struct LiveState {
   double frames_per_s = 0;
   double delay_s = 0;        ///< from having the frame to having the poses
   double most_delay_s = 0;   ///< of the last hundred frames
-  std::int64_t dropped = 0;  ///< frames that nobody looked at, since newer ones were there
+  std::int64_t dropped = 0;  ///< frames that were skipped, since newer ones were there
   /// How far the floor tags are from where the calibration of the camera's place saw them: the
   /// median over those seen in the last second.
   std::optional<double> camera_shift_px;

@@ -101,6 +101,7 @@ Motion::Motion(std::vector<TimedPose> track, const TrackLimits& limits)
   SWARMSMITH_ASSERT(!track_.empty(), "a robot without samples has no track");
   for (std::size_t i = 0; i + 1 < track_.size(); ++i) {
     const double gap = track_[i + 1].time_s - track_[i].time_s;
+    SWARMSMITH_ASSERT(gap >= 0, "a track is in the order of time");
     knots_[i].is_joined = kind_of(gap, limits_) != CycleKind::Missing &&
                           is_reachable(track_[i], track_[i + 1], limits_);
   }
@@ -109,6 +110,7 @@ Motion::Motion(std::vector<TimedPose> track, const TrackLimits& limits)
     std::size_t last = first;
     while (knots_[last].is_joined)
       ++last;
+    SWARMSMITH_ASSERT(last < track_.size(), "nothing is joined to the last sample");
     smooth(first, last);
     first = last + 1;
   }
@@ -240,6 +242,7 @@ void Motion::smooth(std::size_t first, std::size_t last) {
 }
 
 PoseAt Motion::between(std::size_t before, double time_s) const {
+  SWARMSMITH_ASSERT(knots_[before].is_joined, "nothing is interpolated where no robot can go");
   const Knot& from = knots_[before];
   const Knot& to = knots_[before + 1];
   const double gap = track_[before + 1].time_s - track_[before].time_s;
@@ -272,6 +275,7 @@ PoseAt Motion::at(double time_s) const {
   }
   if (next == track_.begin()) return held(*next, time_s, 0);
   const auto before = static_cast<std::size_t>(next - track_.begin()) - 1;
+  SWARMSMITH_ASSERT(track_[before].time_s < time_s && time_s < next->time_s, "it lies between");
   if (knots_[before].is_joined) return between(before, time_s);
   return held(track_[before], time_s, next->time_s - track_[before].time_s);
 }

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/assert.h"
 #include "tracking/motion/internal/clock_checks.h"
 #include "tracking/motion/internal/known_errors.h"
 #include "tracking/motion/internal/robot_tags.h"
@@ -137,7 +138,7 @@ SightingsByTag sightings_of(const Observations& observations,
   SightingsByTag found;
   for (std::size_t i = 0; i < observations.sightings.size(); ++i) {
     const Sighting& seen = observations.sightings[i];
-    // What is left of a damaged store may name a camera that is lost.
+    // A damaged store may name a camera that is lost.
     if (seen.camera < 0 || seen.camera >= static_cast<int>(cameras.size())) continue;
     const auto camera = static_cast<std::size_t>(seen.camera);
     const std::vector<bool>& again = repeats[camera].again;
@@ -271,6 +272,7 @@ std::vector<SeenTag> seen_tags(const std::vector<TaggedRobot>& robots,
 
 /// The robots' poses, instant by instant.
 void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
+  SWARMSMITH_ASSERT(tracks.size() == run.robots.size(), "each robot of the run has a track");
   run.trajectory.robots = static_cast<int>(tracks.size());
   for (int cycle = 0; cycle <= cycles; ++cycle) {
     for (const RobotTrack& track : tracks) {

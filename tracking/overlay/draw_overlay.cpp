@@ -108,7 +108,7 @@ void draw_tiles(Brush& brush, const View& view, const Coverage& rule,
     shares.push_back(kTileShare * std::exp(-ages_s[i] / kTileFades_s));
   }
   brush.fill(shapes, kTile, shares);
-  // Tiles that nobody visited yet are all of one age; they stay without it.
+  // Tiles without a visit yet are all of one age; they stay without it.
   const double oldest_s = *std::max_element(ages_s.begin(), ages_s.end());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].size() < 4) continue;

@@ -26,7 +26,7 @@ struct Pooled {
 /// error alone. At least one.
 Pooled pooled(std::span<const Estimate> estimates);
 
-/// Two groups of which the second is worse.
+/// Two groups; the second is worse.
 struct Groups {
   std::vector<Estimate> usual;
   std::vector<Estimate> weak;  ///< empty: they are one group

@@ -37,7 +37,7 @@ enum class IssueCode {
   Outliers,          ///< a warning: samples were dropped
   Interpolated,      ///< a warning: cycles were bridged
   TooCloseToCall,    ///< a warning: a robot stands on a border as far as can be told
-  UnknownTags,       ///< a warning: ids that nobody has declared
+  UnknownTags,       ///< a warning: ids that are not declared
   CamerasDisagree,   ///< a warning
   TagAsCentre,       ///< a warning: the score is biased
   Duration,          ///< the video's length is not the log's

@@ -71,7 +71,7 @@ double rms_of_seen(const View& view, const PlaceCalibration& place) {
   return place.tags.empty() ? 0 : std::sqrt(squares / static_cast<double>(4 * place.tags.size()));
 }
 
-/// A floor tag of which the arena file says something else than when the place was found.
+/// A floor tag whose entry in the arena file has changed since the place was found.
 bool was_moved(const ReferenceTag& then, const ReferenceTag& now) {
   constexpr double kSame_m = 1e-4;
   constexpr double kSame_rad = 1e-3;

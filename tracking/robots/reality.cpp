@@ -61,7 +61,7 @@ bool is_free_at(const RobotOfRun& of, std::span<const Pose> poses) {
 
 /// The instants at which the robot is free, the start being 0.
 std::vector<bool> free_instants(const RobotOfRun& of) {
-  if (of.run.starts.size() != of.run.robots.size()) return {};  // nobody knows where they were
+  if (of.run.starts.size() != of.run.robots.size()) return {};  // where they were is unknown
   std::vector<bool> free{is_free_at(of, of.run.starts)};
   for (int instant = 0; instant < of.run.trajectory.instants(); ++instant)
     free.push_back(is_free_at(of, of.run.trajectory.at(instant)));

@@ -27,7 +27,7 @@ struct ScoredRun {
   bool biased = false;                                 ///< a tag was taken for its robot's centre
   std::vector<std::string> reasons;                    ///< for the verdict, a sentence each
   std::vector<std::optional<BorderDistance>> borders;  ///< a robot; for scores of the last instant
-  /// Of each robot's motion behind its commands; none where it has no log. Empty: nobody looked.
+  /// Of each robot's motion behind its commands; none where it has no log. Empty: not looked at.
   std::vector<std::optional<Latency>> latencies;
   /// What each robot's log and the camera tell of the world as it is; as `latencies`.
   std::vector<std::optional<Reality>> reality;

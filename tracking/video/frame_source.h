@@ -39,7 +39,7 @@ struct Frame {
 struct SourceInfo {
   std::string name;  ///< of file, folder or device, a bag's with the topic that was asked for
   ImageSize size;
-  double frame_rate = 0;             ///< nominal; 0 when nobody says it
+  double frame_rate = 0;             ///< nominal; 0 when it is unknown
   std::int64_t expected_frames = 0;  ///< with the damaged ones; 0 when not known
   bool has_times = false;            ///< frames carry times worth trusting
   bool has_count = false;     ///< constant rate, and as many frames as the file says it should have

@@ -171,7 +171,7 @@ Expected<void> VideoWriter::State::store() {
     av_packet_rescale_ts(packet.get(), grain, stream->time_base);
     packet->stream_index = 0;
     const std::int64_t pts = packet->pts;
-    // Of the last frame nobody knows how long it lasts, and players drop one that lasts no time.
+    // How long the last frame lasts is unknown, and players drop one that lasts no time.
     packet->duration = std::max<std::int64_t>(
         1, std::llround(1 / (options.frame_rate * av_q2d(stream->time_base))));
     const int written = av_write_frame(muxer.get(), packet.get());

@@ -88,7 +88,7 @@ struct Arguments {
 /// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
 /// the process does not have to wait for it.
 void watch_input() {
-  // Whoever listened at the other end has gone first: no reason not to drain.
+  // The reader at the other end has gone first: no reason not to drain.
   std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {
     std::array<char, 256> ignored{};
@@ -195,7 +195,7 @@ int run(const Arguments& arguments) {
               {{"reason", "this process has used the processor time that it may use (ulimit -t)"}});
     std::_Exit(128 + SIGXCPU);
   }
-  // Slots that still run have missed the grace time; nobody waits for them any more.
+  // Slots that still run have missed the grace time; their results are not awaited.
   std::_Exit(static_cast<int>(end.code));
 }
 

@@ -62,7 +62,7 @@ bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target)
   return false;
 }
 
-/// The budget is everybody's; nobody would go by the rest.
+/// All searches have the budget; none uses the rest.
 void refuse_options_of_races(TableReader& race) {
   std::vector<std::string_view> keys = {"min_experiments", "test_type", "capping", "capping_type",
                                         "bound_type"};
@@ -79,8 +79,8 @@ void refuse_options_of_races(TableReader& race) {
   }
 }
 
-/// Where nobody races iteratively: what f-race has its own values for. Their usual values may stand
-/// there, as they do in the text that stores have.
+/// Where no method races iteratively: what f-race has its own values for. Their usual values may
+/// stand there, as they do in the text that stores have.
 void refuse_options_of_irace(TableReader& race, const Scenario& read) {
   static constexpr std::array kIntegers = {
       std::pair{"nb_iterations", &Scenario::nb_iterations},

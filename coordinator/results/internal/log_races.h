@@ -32,13 +32,13 @@ class LogRaces {
   std::optional<double> score(std::int64_t configuration, std::int64_t pair) const;
   /// Best first.
   Configurations elites_of(std::int64_t iteration) const;
-  /// The elites of the iteration before, and whoever ran in this one, by id.
+  /// The elites of the iteration before, and those that ran in this one, by id.
   Configurations racers_of(std::int64_t iteration) const;
   /// In the order in which their first runs were made.
   std::vector<LogStep> steps_of(std::int64_t iteration) const;
 
   /// Who has the largest mean over the race's pairs up to the step `at`, of those alive there, and
-  /// that mean; configuration 0 for nobody.
+  /// that mean; configuration 0 for none.
   std::pair<std::int64_t, double> best_of(const std::vector<LogStep>& steps, std::size_t at) const;
   /// Friedman's, over the race's pairs so far, among those alive: ties share their mean rank.
   double rank_sum(const std::vector<LogStep>& steps, std::size_t at,

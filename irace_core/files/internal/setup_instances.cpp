@@ -19,7 +19,7 @@ struct Names {
 constexpr Names kTraining = {"instances", "trainInstancesDir", "trainInstancesFile"};
 constexpr Names kTest = {"testInstances", "testInstancesDir", "testInstancesFile"};
 
-/// Empty for what nobody set.
+/// Empty for what is not set.
 fs::path path_of(const SetupWork& work, std::string_view option) {
   const IraceSetting* setting = work.settings.find(option);
   return setting == nullptr ? fs::path()
@@ -41,7 +41,7 @@ std::vector<std::string> instances_of(SetupWork& work, const Names& names) {
   return {};
 }
 
-/// The folder that irace 3.5 takes when nobody says one; empty when it is not there.
+/// The folder that irace 3.5 takes when none is given; empty when it is not there.
 fs::path old_folder(const SetupWork& work) {
   std::error_code ignored;
   for (const fs::path& begin : {work.around.folder, work.scenario_folder}) {

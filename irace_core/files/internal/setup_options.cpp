@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of an option that nobody set. irace looks for it in the current folder; where it is not there
+/// Of an option that is not set. irace looks for it in the current folder; where it is not there
 /// but beside the scenario, that is what people mean.
 fs::path default_path(SetupWork& work, const IraceOption& option) {
   const fs::path here = absolute_path(option.initial, work.around.folder);

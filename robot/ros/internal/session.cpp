@@ -181,7 +181,7 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
   });
   const std::string& own = ros::network::getHost();
   if (!resolves(own)) {
-    session->on_trouble_("other nodes are told to find this one at `" + own +
+    session->on_trouble_("other nodes look for this one at `" + own +
                              "`, which does not even resolve here; set ROS_IP to this host's own "
                              "address, and start it again",
                          false);

@@ -51,7 +51,7 @@ class Session {
   bool ends_ = false;
   std::vector<ros::Subscriber> subscribers_;
   std::set<std::string> suspects_;  ///< nodes that could not be reached when last looked
-  std::set<std::string> told_;      ///< nodes of which it was said
+  std::set<std::string> told_;      ///< nodes that it was said of
   std::thread watch_;
 };
 

@@ -57,8 +57,11 @@ TEST(ComparisonText, HasGroupsPairsRanksAndHow) {
   EXPECT_THAT(text, HasSubstr("2+2  4  0.3333    0.3333  exact  1.000   large"));
   EXPECT_THAT(text, HasSubstr("  1) n is too small: even the clearest difference would have an "
                               "exact p of 0.333\n"));
-  EXPECT_THAT(comparison_text(compare(of_two_missions(), {.by = CompareBy::Method})),
-              HasSubstr("Ranks of mean scores in rvr over aggregation, grid (2 blocks): "));
+  const std::string ranks = comparison_text(compare(of_two_missions(), {.by = CompareBy::Method}));
+  EXPECT_THAT(ranks, HasSubstr("Ranks of mean scores in rvr over aggregation, grid (2 blocks): "));
+  EXPECT_THAT(ranks, testing::ContainsRegex("mean rank +95 % interval\n *a, b +1.000 .*\n"
+                                            " *c +2.000 .*\n"))
+      << "a headline, and a row for each name";
   EXPECT_THAT(text, HasSubstr("Wilcoxon rank-sum test, two-sided; exact without ties; Holm's over "
                               "1 pair."));
   EXPECT_THAT(text, HasSubstr("seed 1"));

@@ -12,6 +12,7 @@
 #include "sim/control/tree.h"
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/analysis/support/svg_texts.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -133,7 +134,7 @@ TEST(TreeLayout, OfTheLongestNamesIsReadable) {
 TEST(TreeLayout, GoesFromTopToBottomAndFromLeftToRight) {
   const TreeLayout layout = lay_out(widest_tree(), watermelon(), 174);
   double left = 0;
-  for (const SubtreeShape& shape : layout.subtrees) {
+  for (const SubtreeShape& shape : not_empty(layout.subtrees)) {
     EXPECT_GT(shape.selector.y, layout.root.y + layout.node_side);
     EXPECT_GT(shape.condition.centre.y, shape.selector.y + layout.node_side);
     EXPECT_GE(shape.action.centre.y, shape.condition.centre.y);

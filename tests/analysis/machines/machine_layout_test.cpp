@@ -7,6 +7,7 @@
 
 #include "tests/analysis/machines/machines_to_draw.h"
 #include "tests/support/long_runs.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -174,7 +175,7 @@ TEST(MachineLayout, OfRandomMachinesIsReadable) {
 }
 
 TEST(MachineLayout, OfSixteenTransitionsIsReadable) {
-  for (const auto& [name, machine] : fullest_machines()) {
+  for (const auto& [name, machine] : not_empty(fullest_machines())) {
     expect_readable(machine, watermelon_argos3(), kPage, name);
     expect_readable(machine, watermelon_argos3(), kColumn, name);
   }
@@ -199,6 +200,7 @@ TEST(MachineLayout, IsTheSameEachTime) {
   const Machine machine = fullest_machines().front().machine;
   const MachineLayout first = lay_out(machine, watermelon_argos3(), kPage);
   const MachineLayout second = lay_out(machine, watermelon_argos3(), kPage);
+  ASSERT_FALSE(first.conditions.empty());
   for (std::size_t i = 0; i < first.conditions.size(); ++i)
     EXPECT_EQ(first.conditions[i].centre, second.conditions[i].centre);
 }

@@ -15,6 +15,7 @@
 #include "analysis/statistics/multiple_tests.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/statistics/wilcoxon.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -123,7 +124,7 @@ TEST(StatisticsGolden, WilcoxonTestsAgreeWithR) {
 TEST(StatisticsGolden, FriedmanTestsAgreeWithR) {
   Agreement agreement;
   const json all = fixture();
-  for (const json& set : all["sets"]) {
+  for (const json& set : not_empty(all["sets"])) {
     const FriedmanTest test = friedman_test(set["blocks"].get<std::vector<std::vector<double>>>());
     const json& theirs = set["friedman"];
     if (test.blocks > 1) {

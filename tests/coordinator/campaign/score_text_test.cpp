@@ -8,6 +8,7 @@
 #include "coordinator/campaign/campaign_text.h"
 #include "sim/files/color_text.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/not_empty.h"
 #include "tests/support/score_rules.h"
 
 // What campaign files, their normalised text and their documentation say of scores, for every kind
@@ -26,7 +27,7 @@ ScoreRule read(const std::string& score) {
 
 TEST(ScoreText, OfEveryKindReadsBackToIt) {
   Campaign campaign = parsed(FileText{}.text());
-  for (const ScoreRule& rule : rules_of_every_kind()) {
+  for (const ScoreRule& rule : not_empty(rules_of_every_kind())) {
     campaign.missions[0].mission.rule = rule;
     const std::string text = normalised_text(campaign);
     campaign.missions[0].mission.rule = parsed(text).missions[0].mission.rule;
@@ -104,7 +105,7 @@ struct Documented {
 TEST(ScoreDocs, HaveARowForEachKindAndEachKey) {
   std::stringstream page;
   page << std::ifstream(SWARMSMITH_SOURCE_DIR "/docs/campaign-file.md").rdbuf();
-  for (const std::string& kind : score_kinds()) {
+  for (const std::string& kind : not_empty(score_kinds())) {
     EXPECT_THAT(page.str(), HasSubstr("\n| `\"" + kind + "\"` | ")) << "in the table of kinds";
     Documented documented{.kind = kind};
     const ScoreRule rule = *score_of_kind(kind);

@@ -145,6 +145,34 @@ TEST(Commands, AreRefusedWithWhatCanBeDone) {
   EXPECT_THAT(to_string(forgotten.carry_out(extend(1, 500)).error()), HasSubstr("is over"));
 }
 
+TEST(Commands, OnlyAnExtensionThatHasNotActedIsWaitedFor) {
+  CommandRow done = extend(1, 500);
+  done.step = 40;
+  const CommandRow pause{.number = 2, .kind = CommandKind::Pause, .design = {1}};
+  EXPECT_FALSE(waits_for_extension({}));
+  EXPECT_FALSE(waits_for_extension({done, pause, cancel(3)}));
+  EXPECT_TRUE(waits_for_extension({done, pause, extend(3, 500)}));
+  const std::vector<DesignStateRow> over = {{.design = {1}, .state = DesignState::Finished},
+                                            {.design = {2}, .state = DesignState::Racing}};
+  EXPECT_EQ(ended_designs(over, {done, pause, cancel(3)}), std::vector{DesignId{1}});
+  EXPECT_TRUE(ended_designs(over, {done, extend(3, 500)}).empty());
+}
+
+/// A store may have such a command: it was checked by another version.
+TEST(Extend, OfADesignWithoutASearchIsAWarning) {
+  std::vector<DesignPlan> designs = one_design();
+  Rng rng(1);
+  designs.front().initial = {sample_uniform(designs.front().space, rng).value()};
+  designs.front().only_test = true;
+  const Memory memory = played(designs, {extend(1, 500)});
+  EXPECT_EQ(last_state(memory).state, DesignState::Finished);
+  EXPECT_EQ(memory.commands().front().step, std::nullopt);
+  std::vector<std::string> warnings;
+  for (const EventRow& event : memory.only<EventRow>())
+    warnings.push_back(event.text);
+  EXPECT_THAT(warnings, Contains(HasSubstr("no search to extend")));
+}
+
 TEST(Extend, GoesOnFromTheEndAndTestsTheNewWinner) {
   Memory memory;
   CampaignRunner runner(one_design(), {}, {});

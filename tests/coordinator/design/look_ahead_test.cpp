@@ -5,6 +5,7 @@
 
 #include "tests/coordinator/design/idle_pool.h"
 #include "tests/support/long_runs.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -147,7 +148,7 @@ TEST(LookAhead, TheDesignThatIsNearestToABarrierComesFirst) {
   for (const Task& task : runner.take_tasks()) {
     if (design_of(task.key.candidate) == DesignId{2} && ++left > 3) runner.tell(honest(task));
   }
-  for (const Task& task : runner.take_more(4, 8))
+  for (const Task& task : not_empty(runner.take_more(4, 8)))
     EXPECT_EQ(design_of(task.key.candidate), DesignId{2});
 }
 

@@ -4,6 +4,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/plans.h"
 #include "coordinator/design/verify.h"
+#include "storage/internal/sqlite.h"
 #include "storage/store.h"
 #include "tests/coordinator/design/idle_pool.h"
 #include "tests/support/one_design.h"
@@ -12,8 +13,10 @@
 namespace swarmsmith {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Gt;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 Campaign two_designs() {
@@ -140,6 +143,24 @@ TEST_F(StoredCampaign, AFinishedStoreGoesOnWithMoreBudget) {
   auto store = Store::open(folder_ / "first", campaign_row(campaign_), design_rows(campaign_));
   EXPECT_TRUE((*store)->finished());
   EXPECT_GT((*store)->design_states().back().used, 2000);
+}
+
+/// A cancelled design is over, as a finished one is: its scores must give all that it has.
+TEST_F(StoredCampaign, OfACancelledDesignAMissingScoreIsFound) {
+  go_on("first", 1, 0, 300, [](CampaignRunner& runner) {
+    ASSERT_TRUE(runner.carry_out(command(1, CommandKind::Cancel, 2)));
+  });
+  go_on("first", 2, 0, 600);
+  go_on("first", 3, 0, 1, [](CampaignRunner& runner) {
+    ASSERT_TRUE(runner.carry_out(command(2, CommandKind::Cancel, 1)));
+  });
+  expect_clean("first");
+  sqlite::Connection(folder_ / "first", SQLITE_OPEN_READWRITE)
+      .execute(
+          "DELETE FROM evaluation WHERE (candidate, purpose, pair) = (SELECT candidate, purpose,"
+          " pair FROM evaluation WHERE purpose = 0 AND iteration > 0 LIMIT 1)");
+  const Verification found = *verify(**StoreReader::open(folder_ / "first"));
+  EXPECT_THAT(found.complaints, Contains(HasSubstr("the design is finished, but 1 of its")));
 }
 
 }  // namespace

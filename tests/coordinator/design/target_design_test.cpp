@@ -7,6 +7,7 @@
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
 #include "tests/coordinator/design/target_campaigns.h"
+#include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -48,7 +49,7 @@ TEST(TargetDesign, AsksForOneTaskAtATime) {
 
 TEST(TargetDesign, KeepsTimesInTheStore) {
   const Ran ran = undisturbed(campaign_with("max_experiments = 300"));
-  for (const EvaluationRow& row : ran.memory.only<EvaluationRow>())
+  for (const EvaluationRow& row : not_empty(ran.memory.only<EvaluationRow>()))
     EXPECT_EQ(row.time, 1 - row.score);
 }
 
@@ -145,6 +146,27 @@ TEST(TargetDesign, AnEvaluatorIsToldWhoIsAliveAndItsWordIsTheCost) {
   EXPECT_TRUE(ran.memory.only<UnusedRow>().empty());
 }
 
+TEST(TargetDesign, ARejectionByTheEvaluatorIsNotAmongTheCosts) {
+  const Campaign campaign = campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n");
+  std::set<CandidateId> rejected;
+  const Ran ran = undisturbed(campaign, [&](const Task& task) {
+    Outcome outcome = judged(task);
+    if (task.key.purpose == Purpose::Evaluator && number_of(task.key.candidate) % 7 == 3) {
+      outcome.status = EvaluationStatus::Rejected;
+      outcome.score = 0;
+      rejected.insert(task.key.candidate);
+    }
+    return outcome;
+  });
+  EXPECT_GT(rejected.size(), 3U);
+  std::set<CandidateId> with_totals;
+  for (const CandidateTotalsRow& row : ran.memory.only<CandidateTotalsRow>()) {
+    with_totals.insert(row.candidate);
+    EXPECT_FALSE(rejected.contains(row.candidate)) << to_string(row.candidate);
+  }
+  EXPECT_GT(with_totals.size(), 10U);
+}
+
 TEST(TargetDesign, CallsOfAnEvaluatorWaitForEachOther) {
   const Campaign campaign = campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
                                           "test = [\"t1\", \"t2\"]\n");
@@ -216,7 +238,7 @@ TEST(TargetDesign, ATimeAndAnEvaluatorGoTogether) {
 TEST(TargetDesign, TestsAreBoundedLikeTheFirstRuns) {
   const Ran ran = undisturbed(
       campaign_with("max_experiments = 300\nbound_max = 40\n", "", "test = [\"t1\", \"t2\"]\n"));
-  for (const Task& task : ran.tasks)
+  for (const Task& task : not_empty(ran.tasks))
     EXPECT_EQ(task.bound, 40) << to_string(task.key);
 }
 
@@ -290,6 +312,28 @@ TEST(TargetDesign, AProgramRepairsWhatIsSampled) {
   const auto made = plans_of(campaign);
   ASSERT_TRUE(made);
   EXPECT_FALSE(DesignRunner::start(made->front(), {})) << "without its program nothing is sampled";
+}
+
+TEST(TargetDesign, ARepairThatFailsIsNamedWithItsEnd) {
+  const std::map<std::string, std::string> ends = {
+      {"exit 3", "the program ended with exit status 3, which is not 0"},
+      {"kill -9 $$", "the program was killed by signal 9"},
+      {"kill -9 $PPID; sleep 9", "the program was killed by signal 9"},
+      {"true", "the program printed no configuration"}};
+  for (const auto& [line, reason] : ends) {
+    const TemporaryFolder folder;
+    const std::filesystem::path program = folder / "repair.sh";
+    std::ofstream(program) << "#!/bin/sh\n" << line << "\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    Campaign campaign = campaign_with("max_experiments = 300\n");
+    campaign.repair = program;
+    campaign.target->folder = folder.path();
+    const auto made = plans_of(campaign);
+    ASSERT_TRUE(made);
+    const auto runner = DesignRunner::start(made->front(), {});
+    ASSERT_FALSE(runner) << line;
+    EXPECT_THAT(to_string(runner.error()), testing::HasSubstr(reason)) << line;
+  }
 }
 
 }  // namespace

@@ -375,6 +375,27 @@ TEST_F(Authority, GivesNothingMoreToWhoHasManyClaimsPending) {
   EXPECT_GE(given[1].size(), 20U) << "what was over goes to others";
 }
 
+TEST_F(Authority, GivesNothingMoreToWhoDisputesManyKnownResults) {
+  hello(1, 20);
+  credit(1, 100);
+  want(1, Principal::kMostClaims);
+  for (std::int64_t candidate = 1; candidate <= Principal::kMostClaims; ++candidate)
+    answer(1, candidate);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), static_cast<std::size_t>(Principal::kMostClaims));
+  for (std::int64_t candidate = 1; candidate < Principal::kMostClaims; ++candidate)
+    resend(1, candidate, 2);
+  want(100, 1);
+  EXPECT_EQ(given[1].back(), 100) << "one below the limit";
+  answer(1, 100);
+  resend(1, Principal::kMostClaims, 2);
+  EXPECT_EQ(all<TaskInDispute>().size(), static_cast<std::size_t>(Principal::kMostClaims));
+  want(101, 5);
+  EXPECT_EQ(given[1].back(), 100);
+  resend(1, 100, 2);
+  EXPECT_EQ(all<TaskInDispute>().size(), static_cast<std::size_t>(Principal::kMostClaims))
+      << "no further dispute";
+}
+
 TEST_F(Authority, StopsWhereTheRefereeCannotSay) {
   hello(1);
   credit(1, 1);

@@ -50,6 +50,20 @@ TEST(Budget, WhatIsLeftOutIsToldOnceAMinute) {
   EXPECT_EQ(budgets.left_out().at("hello"), 1001U);
 }
 
+/// Each refusal counts itself, and a permission counts nothing.
+TEST(Budget, CountsEachRefusalUnderItsName) {
+  Budgets budgets;
+  ASSERT_TRUE(budgets.may_be_sent(1, 30U << 20U, at(0)));
+  EXPECT_TRUE(budgets.left_out().empty());
+  EXPECT_FALSE(budgets.may_be_sent(2, 30U << 20U, at(0)));
+  EXPECT_EQ(budgets.left_out().at("answer"), 1U);
+  std::uint64_t refused = 0;
+  for (int i = 0; i < 1000; ++i)
+    refused += budgets.may_say_hello(1, {"10.0.0.1"}, at(0)) ? 0U : 1U;
+  EXPECT_GT(refused, 100U);
+  EXPECT_EQ(budgets.left_out().at("hello"), refused);
+}
+
 TEST(Budget, ALargeScenarioIsSentAllTheSame) {
   Budgets budgets;
   EXPECT_TRUE(budgets.may_be_sent(1, 30U << 20U, at(0)));

@@ -153,8 +153,9 @@ TEST_F(ProgramSchedulers, TakeARejectionAndItsTime) {
   hello(1);
   credit(1, 1);
   want(1, 1);
-  answer(1, {.key = key(1), .attempt = 1, .rejected = true, .time = 3});
+  answer(1, {.key = key(1), .attempt = 1, .score = 9, .rejected = true, .time = 3});
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 0) << "a rejection has no score";
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.time, 3);
   EXPECT_TRUE(all<FailureKept>().empty());

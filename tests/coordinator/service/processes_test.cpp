@@ -25,6 +25,7 @@
 #include "sim/files/profile_file.h"
 #include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
+#include "tests/support/not_empty.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -185,7 +186,7 @@ class Referees : public ::testing::Test {
 
 TEST_F(Referees, GiveTheScoreOfTheSimulator) {
   start(1200);
-  for (const Task& task : tasks_of(3)) {
+  for (const Task& task : not_empty(tasks_of(3))) {
     const Ruling ruling = ruling_on(task);
     const Flavour flavour = *find_flavour("watermelon", TurnClock::Cycles);
     const Machine machine = *parse_machine(task.machine, flavour);

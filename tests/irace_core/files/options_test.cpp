@@ -7,6 +7,7 @@
 #include "base/text/whole_file.h"
 #include "irace_core/files/internal/setup_fields.h"
 #include "irace_core/files/number_text.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -15,7 +16,7 @@ using testing::HasSubstr;
 
 TEST(IraceOptions, NamesAndSwitchesOccurOnce) {
   std::set<std::string_view> seen;
-  for (const IraceOption& option : irace_options()) {
+  for (const IraceOption& option : not_empty(irace_options())) {
     for (const std::string_view word : {option.name, option.short_switch, option.long_switch}) {
       EXPECT_TRUE(word.empty() || seen.insert(word).second) << word;
     }
@@ -24,7 +25,7 @@ TEST(IraceOptions, NamesAndSwitchesOccurOnce) {
 }
 
 TEST(IraceOptions, DefaultsAreValuesOfTheirKind) {
-  for (const IraceOption& option : irace_options()) {
+  for (const IraceOption& option : not_empty(irace_options())) {
     if (!option.takes_value() || option.initial.empty()) continue;
     EXPECT_TRUE(irace_value_of(option, option.initial)) << option.title();
   }
@@ -32,7 +33,7 @@ TEST(IraceOptions, DefaultsAreValuesOfTheirKind) {
 
 TEST(IraceOptions, TheTablesDefaultsAreThoseOfASetup) {
   const IraceSetup fresh;
-  for (const irace::SetupField& field : irace::setup_fields()) {
+  for (const irace::SetupField& field : not_empty(irace::setup_fields())) {
     const IraceOption* option = find_irace_option(field.name);
     ASSERT_NE(option, nullptr) << field.name;
     if (option->is_path()) continue;  // they depend on the folder
@@ -50,14 +51,14 @@ TEST(IraceOptions, EverySupportedOptionOfScenarioFilesHasAPlaceInTheSetup) {
                                        "testInstancesFile"};
   for (const irace::SetupField& field : irace::setup_fields())
     placed.insert(field.name);
-  for (const IraceOption& option : irace_options()) {
+  for (const IraceOption& option : not_empty(irace_options())) {
     if (option.meaning != IraceMeaning::Supported || option.name.empty()) continue;
     EXPECT_TRUE(placed.contains(option.name)) << option.name;
   }
 }
 
 TEST(IraceOptions, OlderNamesLeadToOptionsThatExist) {
-  for (const IraceOption& option : irace_options()) {
+  for (const IraceOption& option : not_empty(irace_options())) {
     if (option.meaning != IraceMeaning::Gone) continue;
     EXPECT_NE(find_irace_option(option.remark), nullptr) << option.name;
   }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/irace_core/search/played.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -21,7 +22,7 @@ TEST(Annealing, RunsThePerturbedOnTheWindowAndTheOthersOnItsNewPairs) {
   std::set<std::int64_t> known;
   std::int64_t window_end = 10;
   const std::int64_t last = search->iteration();
-  for (const RaceStep& step : only<RaceStep>(played.events)) {
+  for (const RaceStep& step : not_empty(only<RaceStep>(played.events))) {
     if (step.iteration == 1) continue;  // the scale
     if (step.iteration == last) break;  // the final stage
     window_end = step.pair;
@@ -56,19 +57,34 @@ TEST(Annealing, AtZeroNeverAcceptsWhatIsWorse) {
   EXPECT_LT(before, 0.1);
 }
 
+/// How many candidates were made from the one just before them, of all that have a parent.
+std::pair<std::int64_t, std::int64_t> walked_of_steps(const Played& played) {
+  std::int64_t walked = 0;
+  std::int64_t steps = 0;
+  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(played.events)) {
+    if (sampled.parent == 0) continue;
+    ++steps;
+    walked += sampled.parent == sampled.id - 1 ? 1 : 0;
+  }
+  return {walked, steps};
+}
+
+TEST(Annealing, AtZeroAcceptsWhatIsEqual) {
+  const auto level = [](const Configuration&, const Experiment&) { return 1.0; };
+  const auto [walked, steps] =
+      walked_of_steps(play(*started(weights_space(3), annealing(0), 4000), level));
+  EXPECT_GT(steps, 100);
+  EXPECT_GT(walked, steps * 95 / 100);
+}
+
 TEST(Annealing, WarmAcceptsWhatIsWorseAndColdDoesNot) {
   SearchOptions options = annealing(1e6);
   options.annealing.end_temperature = 1e6;
   const auto cost = [](const Configuration& c, const Experiment&) { return c[0]; };
   const Played warm = play(*started(weights_space(1), options, 4000), cost);
   // A random walk: the parent of nearly every candidate is the one before it.
-  std::int64_t steps = 0;
-  std::int64_t walked = 0;
-  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(warm.events)) {
-    if (sampled.parent == 0) continue;
-    ++steps;
-    walked += sampled.parent == sampled.id - 1 ? 1 : 0;
-  }
+  const auto [walked, steps] = walked_of_steps(warm);
+  EXPECT_GT(steps, 0);
   EXPECT_GT(walked, steps * 95 / 100);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/irace_core/search/played.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -111,7 +112,7 @@ TEST(Evolution, GoesOnWithWhatWasRun) {
   // mutation of rounded weights gives, and is a point of the space.
   auto search = started(weights_space(3, 2), options_of(SearchKind::Evolution), 4000);
   const Played played = play(*search, noisy_sphere);
-  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(played.events))
+  for (const ConfigurationSampled& sampled : not_empty(only<ConfigurationSampled>(played.events)))
     EXPECT_TRUE(search->space().check(sampled.configuration));
 }
 

@@ -2,6 +2,7 @@
 
 #include "irace_core/search/generations.h"
 #include "tests/irace_core/search/played.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -63,7 +64,7 @@ TEST(RandomSearch, OfALargerBudgetTriesTheSameConfigurationsFirst) {
 TEST(RandomSearch, DrawsFromEverySpace) {
   auto search = started(mixed_space(), options_of(SearchKind::Random), 2000);
   play(*search, [](const Configuration& c, const Experiment&) { return c[2]; });
-  for (const Elite& elite : search->elites())
+  for (const Elite& elite : not_empty(search->elites()))
     EXPECT_TRUE(search->space().check(search->configuration(elite.configuration)));
 }
 

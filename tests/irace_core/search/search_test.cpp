@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/irace_core/search/played.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -92,7 +93,7 @@ TEST_P(EverySearch, AsksInCanonicalOrderAndNeverTwiceForOneRun) {
   while (!search->finished()) {
     std::pair<std::int64_t, std::int64_t> last{0, 0};
     std::vector<Measurement> costs;
-    for (const Experiment& wanted : search->wanted()) {
+    for (const Experiment& wanted : not_empty(search->wanted())) {
       const std::pair now{wanted.pair, wanted.configuration};
       EXPECT_TRUE(is_race || last < now);
       EXPECT_TRUE(seen.insert(now).second);
@@ -152,7 +153,7 @@ TEST_P(EverySearch, GivesAllTheSameSeedOnAPair) {
   std::map<std::int64_t, std::int64_t> seeds;
   for (const Experiment& wanted : race->wanted())
     seeds.emplace(wanted.pair, wanted.seed);
-  for (const Experiment& wanted : search->wanted()) {
+  for (const Experiment& wanted : not_empty(search->wanted())) {
     if (!seeds.contains(wanted.pair)) continue;
     EXPECT_EQ(wanted.seed, seeds.at(wanted.pair));
   }
@@ -226,7 +227,7 @@ TEST(Search, OfOneRaceHasNeitherTimesNorElitesThatBoundThem) {
 }
 
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
-  for (const SearchKind kind : all_searches()) {
+  for (const SearchKind kind : not_empty(all_searches())) {
     if (kind == SearchKind::Irace || kind == SearchKind::FRace) continue;
     Scenario scenario;
     scenario.max_experiments = 5000;

@@ -102,6 +102,20 @@ TEST_F(Keys, OfFurtherClientsAreAdded) {
   EXPECT_EQ(AllowListFile::open(folder.clients(), {})->clients().size(), 4U);
 }
 
+/// A client's file is copied to its host and taken away; its name stays in the list.
+TEST_F(Keys, OfAClientAreNotMadeAgainWhenItsFileWasMoved) {
+  const auto file = add_client(folder, {.name = "node.7", .role = Role::Worker, .expires = {}});
+  ASSERT_TRUE(file);
+  std::filesystem::remove(*file);
+  const std::string list = text_in(folder.clients());
+  const auto again = add_client(folder, {.name = "node.7", .role = Role::Worker, .expires = {}});
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().kind, ErrorKind::Conflict);
+  EXPECT_THAT(again.error().message, HasSubstr("choose another name"));
+  EXPECT_EQ(text_in(folder.clients()), list);
+  EXPECT_FALSE(std::filesystem::exists(*file));
+}
+
 TEST_F(Keys, ThatOthersMayReadAreRefused) {
   for (const mode_t mode : {0640U, 0604U, 0660U, 0610U}) {
     chmod(worker.c_str(), mode);

@@ -413,5 +413,19 @@ TEST(DriverWatch, SaysBeforeARunWhatIsWrong) {
               ElementsAre(HasSubstr("both"), HasSubstr("/teleop commands the treads, too")));
 }
 
+/// Changes are remembered for three seconds: with more patience than that, none of them is late.
+TEST(DriverWatch, WithLongPatienceNoChangeIsLate) {
+  DriverWatch watch({.hold = std::chrono::seconds(10), .give_up = std::chrono::seconds(10)});
+  TimePoint at{std::chrono::seconds(100)};
+  watch.set_listeners({{"driver", at, true}}, at);
+  watch.begin(at);
+  for (int i = 0; i < 200; ++i) {
+    at += milliseconds(100);
+    watch.commanded(at, i / 5 % 2 == 0 ? 0.1 : 0.3, 0.1);
+    watch.hear(DrivenMessage{{at, 0}, (i - 10) / 5 % 2 == 0 ? 0.1 : 0.3, 0.1, "driver"});
+    EXPECT_FALSE(watch.trouble(at)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace swarmsmith

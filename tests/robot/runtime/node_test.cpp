@@ -433,6 +433,23 @@ TEST(RobotNode, DoesNotBeginWithoutALog) {
   EXPECT_THAT(robot.rows, IsEmpty());
 }
 
+TEST(RobotNode, HasItsTimeSinceTheStartInEachRow) {
+  BenchRobot robot;
+  robot.start();
+  robot.cycles(20);
+  robot.ranges = false;  // silent: the robot stands
+  robot.cycles(8);
+  ASSERT_GT(robot.rows.size(), 25U);
+  std::set<Act> acts;
+  for (const LogRow& row : robot.rows) {
+    acts.insert(row.act);
+    EXPECT_NEAR(row.sensed.time_s, 0.1 * static_cast<double>(row.cycle), 0.11) << row.cycle;
+    EXPECT_NEAR(row.sensed.time_s,
+                row.clock_s - robot.rows[0].clock_s + robot.rows[0].sensed.time_s, 1e-9);
+  }
+  EXPECT_EQ(acts, (std::set{Act::Step, Act::Hold}));
+}
+
 TEST(RobotNode, InLockStepTakesCyclesInOrderOnly) {
   BenchRobot robot({.max_mps = kMaxWheelSpeed_mps});
   const auto senses = [](std::int64_t seed, std::int64_t cycle) {
@@ -479,6 +496,7 @@ TEST(RobotNode, InLockStepIsWhatTheControllerIs) {
     EXPECT_EQ(*decision->command, wanted);
     EXPECT_EQ(decision->state, control.state());
     EXPECT_EQ(decision->row->drawn, control.drawn());
+    EXPECT_EQ(decision->row->sensed.time_s, message.time_s) << "the world's time";
   }
 }
 

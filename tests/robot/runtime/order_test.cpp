@@ -57,6 +57,22 @@ TEST(Orders, ThatCannotBeReadAreRefusedWithAReason) {
   }
 }
 
+TEST(Orders, OfAStartHaveLimitsThatAreMeant) {
+  const auto is_taken = [](const std::string& run, const std::string& seconds) {
+    return parse_order(R"({"order":"start","id":"a","run":")" + run + R"(","seconds":)" + seconds +
+                       "}")
+        .has_value();
+  };
+  EXPECT_TRUE(is_taken(std::string(100, 'r'), "3"));
+  EXPECT_FALSE(is_taken(std::string(101, 'r'), "3"));
+  EXPECT_TRUE(is_taken("a-_Z09", "86400"));
+  for (const char* name : {"", "a b", "a/b", "a.b", "{", "[", "`", "@", ":", "/"})
+    EXPECT_FALSE(is_taken(name, "3")) << name;
+  for (const char* seconds : {"0", "-1", "86401"})
+    EXPECT_FALSE(is_taken("r", seconds)) << seconds;
+  EXPECT_EQ(parse_order(R"({"order":"alive","id":"a","valid_s":99})")->valid_s, 10);
+}
+
 TEST(Orders, WithUnknownKeysStopButDoNotStart) {
   const auto start = parse_order(R"({"order":"start","id":"a","run":"r","seconds":3,"sed":7})");
   ASSERT_FALSE(start);

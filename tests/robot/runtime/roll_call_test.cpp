@@ -117,6 +117,12 @@ TEST(RunStarter, MeasuresClocksAndRefusesThoseThatAreOff) {
   EXPECT_THAT(off.starter->complaints(),
               ElementsAre(HasSubstr("rvr3: its clock is 500 ms behind")));
   EXPECT_EQ(off.starter->start().unix_s, 0) << "nothing was ordered";
+  Bench far;
+  far.robots[1]->wall_ahead_s = 5;
+  far.run(12);
+  EXPECT_THAT(far.starter->complaints(),
+              ElementsAre(HasSubstr("rvr2: its clock is 5000 ms ahead")));
+  EXPECT_EQ(far.robots[1]->state().refused, "") << "an echo is good for ten seconds";
   EXPECT_TRUE(off.robots[0]->rows.empty());
 }
 
@@ -138,6 +144,16 @@ TEST(RunStarter, RefusesASwarmThatIsNotOne) {
   EXPECT_THAT(silent.starter->complaints(),
               ElementsAre(HasSubstr("rvr2: does not answer"), "rvr3: ground: no message yet"));
   EXPECT_EQ(silent.starter->verdict(), RunVerdict::Invalid);
+}
+
+/// Its states come, orders do not reach it.
+TEST(RunStarter, StartsNothingWhileAClockIsNotMeasured) {
+  Bench deaf;
+  deaf.hears[1] = false;
+  deaf.run(30);
+  EXPECT_THAT(deaf.starter->complaints(), ElementsAre(HasSubstr("rvr2: does not answer orders")));
+  EXPECT_EQ(deaf.starter->start().unix_s, 0) << "nothing was ordered";
+  EXPECT_EQ(deaf.starter->stage(), RunStarter::Stage::Over);
 }
 
 TEST(RunStarter, WaitsForARobotThatGetsReady) {
@@ -164,7 +180,7 @@ TEST(RunStarter, StopsAllWhenOneFallsSilent) {
   EXPECT_EQ(bench.starter->verdict(), RunVerdict::Invalid);
   EXPECT_THAT(
       bench.starter->complaints(),
-      ElementsAre("rvr2: is silent for 1 s", HasSubstr("rvr2: did not say that it stopped")));
+      ElementsAre("rvr2: is silent for 1 s", HasSubstr("rvr2: did not confirm that it stopped")));
 }
 
 TEST(RunStarter, StopsAllWhenOneFails) {

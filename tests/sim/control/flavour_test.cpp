@@ -1,4 +1,5 @@
 #include "sim/control/flavour.h"
+#include "tests/support/not_empty.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,12 +103,12 @@ TEST(Flavour, AValueOfOnesOwnHasTheTurnClockThatWasChosen) {
 
 TEST(Flavour, ASumOfObstaclesIsNotShortenedBelowWhatTurnsExploration) {
   // Exploration looks at the sum as it was before (turn_from_sum).
-  for (const Flavour* flavour : all_flavours())
+  for (const Flavour* flavour : not_empty(all_flavours()))
     EXPECT_GE(flavour->obstacles.longest_sum, 2 * flavour->exploration.threshold) << flavour->name;
 }
 
 TEST(Flavour, AParameterOfOneSymbolIsTheSameInAllModules) {
-  for (const ModuleSpec& one : watermelon().conditions) {
+  for (const ModuleSpec& one : not_empty(watermelon().conditions)) {
     for (const ModuleSpec& other : watermelon().conditions) {
       for (const ParameterSpec& a : one.parameters) {
         for (const ParameterSpec& b : other.parameters) {

@@ -30,6 +30,7 @@ TEST(MachineControl, StaysAtLeastTwoCyclesAndTheCommandIsTheOldBehaviours) {
   const std::array<Command, 8> commands = {kForward, kForward, kStill, kStill,
                                            kForward, kForward, kStill, kStill};
   const std::array<int, 8> states = {0, 1, 1, 0, 0, 1, 1, 0};
+  ASSERT_FALSE(commands.empty());
   for (std::size_t cycle = 0; cycle < commands.size(); ++cycle) {
     EXPECT_EQ(software.step(senses), commands[cycle]) << cycle;
     EXPECT_EQ(software.state(), states[cycle]) << cycle;

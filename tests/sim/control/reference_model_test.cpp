@@ -9,6 +9,7 @@
 #include "sim/control/readings.h"
 #include "tests/sim/control/fake_senses.h"
 #include "tests/sim/control/page.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -29,7 +30,7 @@ std::string line_of(const ReferenceEntry& entry) {
 
 TEST(ReferenceModel, StandsInTheRobotsPageLineByLine) {
   const std::string page = page_text("robot.md");
-  for (const ReferenceEntry& entry : reference_model()) {
+  for (const ReferenceEntry& entry : not_empty(reference_model())) {
     EXPECT_NE(page.find("\n" + line_of(entry)), std::string::npos)
         << "docs/robot.md lacks the line\n"
         << line_of(entry);
@@ -70,7 +71,7 @@ TEST(ReferenceModel, CommandsAreCutToTheWheelsRange) {
 }
 
 TEST(ReferenceModel, TheFlavoursSpeedsAreWithinTheWheelsRange) {
-  for (const Flavour* flavour : all_flavours()) {
+  for (const Flavour* flavour : not_empty(all_flavours())) {
     EXPECT_GE(flavour->speed_mps, 0.25) << "slower the motors overheat (thesis 6.1)";
     EXPECT_LE(flavour->speed_mps, kMaxWheelSpeed_mps);
   }

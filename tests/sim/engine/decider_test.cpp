@@ -13,6 +13,7 @@
 #include "sim/control/used_senses.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -157,7 +158,7 @@ TEST(Decider, TheSameControlSoftwareBehindItGivesTheSameBits) {
     Mission mission = built_in_mission(mission_name).value();
     mission.arena.lights.push_back({.x_m = 0.4, .y_m = -0.8, .z_m = 0.75, .intensity_cd = 900});
     const Instance instance = instance_of(mission, 17).value();
-    for (const Flavour* flavour : all_flavours()) {
+    for (const Flavour* flavour : not_empty(all_flavours())) {
       const std::vector<Controller> all = controllers(*flavour);
       for (const char* profile_name : kProfiles) {
         const Profile profile = built_in_profile(profile_name).value();

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "tests/sim/engine/comparison.h"
+#include "tests/support/long_runs.h"
 
 // Bounds on what docs/fidelity.md shows in full (`./dev bench fidelity` writes it).
 
@@ -19,7 +20,10 @@ class Fidelity : public testing::TestWithParam<ReferenceMission> {};
 INSTANTIATE_TEST_SUITE_P(All, Fidelity, testing::ValuesIn(kReferenceMissions),
                          [](const auto& instance) { return instance.param.theirs; });
 
+/// 46 s. Whether anything has changed is seen by the fixed bits of trajectories and the scores seed
+/// by seed, each time; how far a change leads from the original, by this.
 TEST_P(Fidelity, TheTwentyMachinesScoreAsInTheOriginal) {
+  if (times(0, 1) == 0) GTEST_SKIP() << "with ./dev test --long";
   const bool color = std::string_view(GetParam().theirs) == "color";
   const MissionComparison result =
       compare_reference_machines(GetParam(), ContactModel::Exact, color ? kColorStreams : kStreams);

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "base/math.h"
+#include "sim/mission/polygon.h"
 #include "tests/sim/engine/plain_rays.h"
 #include "tests/sim/engine/statistics.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -182,6 +184,19 @@ TEST(Lidar, HasTheBitsOfThePlainLawInSwarms) {
   }
 }
 
+/// Walls are taken two at a time; the last one of an odd number is alone.
+TEST(Lidar, HasTheBitsOfThePlainLawAmongAnyNumberOfWalls) {
+  Rng rng(9);
+  for (const int sides : {3, 4, 5, 7, 8, 9, 13}) {
+    const Arena arena{.walls = walls_around(regular_polygon(sides, 1.2)), .patches = {}};
+    for (int i = 0; i < 20; ++i) {
+      const std::vector<Pose> poses = {
+          {rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8), rng.uniform(-kPi, kPi)}};
+      expect_bits_of_plain_scan(World(arena, kRvr, poses, ContactModel::Exact), arena);
+    }
+  }
+}
+
 TEST(Lidar, HasTheBitsOfThePlainLawAmongObstaclesObjectsAndWallsThatAreNotConvex) {
   Arena arena = notched_arena();
   furnish(arena);
@@ -228,7 +243,7 @@ TEST(Lidar, LooksAheadFirstAndThenCounterClockwise) {
 TEST(Lidar, NoRaySlipsThroughACornerOfTheArena) {
   const Arena arena = dodecagon_of_the_thesis();
   // Headings that put rays right onto corners, as far as numbers can.
-  for (const Wall& wall : arena.walls) {
+  for (const Wall& wall : not_empty(arena.walls)) {
     for (const int ray : {0, 1, 359, 360, 718}) {
       const double theta = atan2(wall.from.y, wall.from.x) - 2 * kPi * ray / kLidarRays;
       const std::vector<Pose> poses = {{0, 0, theta}};

@@ -10,6 +10,7 @@
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -191,7 +192,7 @@ TEST(RecordedSensors, ChangeNothing) {
 TEST(RecordedSensors, ThatNobodyAskedForAreNotRead) {
   const Recorded recorded("rvr");
   recorded.run([](const Snapshot& now) {
-    for (const RobotRecord& robot : now.robots)
+    for (const RobotRecord& robot : not_empty(now.robots))
       ASSERT_EQ(robot.readings, nullptr);
   });
 }

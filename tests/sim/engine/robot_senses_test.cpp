@@ -149,6 +149,7 @@ TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
       colors.push_back(senses.ground_color());
     }
   }
+  EXPECT_EQ(colors.size(), 4U);
 }
 
 TEST(RobotSenses, ProximityNoiseHasItsMoments) {

@@ -18,6 +18,7 @@
 #include "sim/files/profile_file.h"
 #include "sim/mission/trajectory.h"
 #include "tests/sim/engine/reference_data.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -252,7 +253,7 @@ TEST(Simulate, AnArenaWithANotchIsLivedInToo) {
                              {{-1, 1}, {-1, -1}}};
   job.instance.starts = {{-0.5, -0.5, 0}, {0.5, -0.5, 2}, {0, 0, 1.5}};
   job.run([](const Snapshot& now) {
-    for (const RobotRecord& robot : now.robots) {
+    for (const RobotRecord& robot : not_empty(now.robots)) {
       EXPECT_LT(std::max(std::fabs(robot.pose.x), std::fabs(robot.pose.y)), 0.87);
       EXPECT_FALSE(std::fabs(robot.pose.x) < 0.05 && robot.pose.y > 0.5);
     }

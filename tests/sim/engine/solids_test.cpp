@@ -8,6 +8,7 @@
 #include "base/rng.h"
 #include "sim/engine/internal/gaps.h"
 #include "sim/engine/internal/world.h"
+#include "tests/support/not_empty.h"
 
 // Obstacles, movable objects, other outlines and walls that are not convex, in whole worlds.
 
@@ -76,7 +77,7 @@ TEST(Solids, OnlyPlainWorldsArePlain) {
 }
 
 TEST(Solids, AnObstacleOfAnyFormStopsARobotOfAnyFormAtItsFace) {
-  for (const Outline& robot : outlines()) {
+  for (const Outline& robot : not_empty(outlines())) {
     for (const Outline& obstacle : outlines()) {
       Arena arena = room();
       arena.obstacles = {{.outline = obstacle, .pose = {0.6, 0, kPi}}};

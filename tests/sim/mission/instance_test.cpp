@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "sim/mission/colors.h"
 #include "sim/mission/mission.h"
+#include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
@@ -60,7 +61,7 @@ TEST(Instance, BodiesKeepClearOfWallsAndOfEachOther) {
   const Mission mission = built_in_mission("aggregation").value();
   for (int seed = 1; seed <= 2000; ++seed) {
     const Instance instance = instance_of(mission, seed).value();
-    for (const Pose& pose : instance.starts) {
+    for (const Pose& pose : not_empty(instance.starts)) {
       EXPECT_GT(pose.theta, -kPi);
       EXPECT_LE(pose.theta, kPi);
       for (const Point corner : corners(pose)) {

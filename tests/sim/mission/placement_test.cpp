@@ -109,6 +109,7 @@ TEST(Placement, KeepsBodiesOfEveryShapeClearOfEverything) {
       const Instance instance = instance_of(mission, seed).value();
       for (const Pose& pose : instance.starts)
         all.emplace_back(body, pose);
+      ASSERT_LT(things.size(), all.size());
       for (std::size_t i = things.size(); i < all.size(); ++i) {
         for (const Point point : points_of(all[i].first, all[i].second)) {
           ASSERT_TRUE(is_within(corners, point)) << "seed " << seed;

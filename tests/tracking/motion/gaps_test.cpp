@@ -87,6 +87,27 @@ TEST(GapsTest, MoreThanOneInTwentyCyclesBridgedIsAnError) {
   }
 }
 
+/// The advice follows from what is missing: frames, or the robot in them.
+TEST(GapsTest, SaysWhetherFramesAreMissingOrTheRobotInThem) {
+  SeenRun dropped = seen_run(on_circle, {.cycles = 600});
+  SeenRun hidden = dropped;
+  for (int i = 1; i <= 10; ++i) {  // 4 cycles each
+    dropped.cut(4 * i + 0.02, 4 * i + 0.44);
+    hidden.hide(2, 4 * i + 0.02, 4 * i + 0.44);
+  }
+  const auto gap_of_the_second = [](const TrackedRun& run) {
+    for (const Issue& issue : run.issues)
+      if (issue.code == IssueCode::Gap && issue.robot == "rvr2") return issue.text;
+    return std::string();
+  };
+  EXPECT_THAT(gap_of_the_second(dropped.track().value()),
+              HasSubstr("was interpolated in 40 of 600 cycles (6.7 %, limit 5 %), in 40 of them "
+                        "since frames are missing; a faster disk"));
+  EXPECT_THAT(gap_of_the_second(hidden.track().value()),
+              HasSubstr("was interpolated in 40 of 600 cycles (6.7 %, limit 5 %), in 0 of them "
+                        "since frames are missing; more light"));
+}
+
 /// A robot that somebody carried: both parts of its track are its own, and nothing lies between.
 TEST(GapsTest, NothingIsInterpolatedAcrossAWayThatNoRobotGoes) {
   const Truth carried = [](int robot, double time_s) {

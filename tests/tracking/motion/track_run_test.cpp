@@ -321,5 +321,24 @@ TEST(TrackRunTest, SaysWhenARobotLeftTheArena) {
   EXPECT_NE(find_issue(run, IssueCode::Gap), nullptr);
 }
 
+/// Two samples beyond the walls are a misread tag, three in a row a robot.
+TEST(TrackRunTest, SaysThatARobotLeftFromThreeSamplesInARowOn) {
+  const SeenRun inside = seen_run(on_circle, short_run());
+  for (const int outside : {2, 3}) {
+    SeenRun seen = inside;
+    const View view = seen.rig.view_of(seen.rig.cameras[0]).value();
+    const double start = seen.options.span.starts_s.front();
+    int moved = 0;
+    for (Sighting& sighting : seen.observations.sightings) {
+      if (sighting.tag != 2 || sighting.time_s - start < 5 || moved == outside) continue;
+      sighting.corners = seen_corners(view, {1.6, 0, 0}, 0.1, 0.2);
+      ++moved;
+    }
+    const TrackedRun run = seen.track().value();
+    EXPECT_EQ(find_issue(run, IssueCode::OutsideArena) != nullptr, outside == 3) << outside;
+    EXPECT_EQ(find_check(run, "samples in a row outside of the walls", "rvr2")->value, outside);
+  }
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -7,6 +7,7 @@
 
 #include "base/rng.h"
 #include "tests/support/film/virtual_camera.h"
+#include "tracking/scoring/internal/floor_light.h"
 #include "tracking/scoring/run_patches.h"
 
 namespace swarmsmith {
@@ -185,6 +186,34 @@ TEST_F(MeasuredLayoutTest, LooksBesideRobots) {
   ASSERT_TRUE(layout) << to_string(layout.error());
   EXPECT_EQ(layout->patches(mission.arena), laid());
   EXPECT_EQ(layout->places[3].pictures, 1);
+}
+
+/// The light is that of bare floor, however much around a place is painted.
+TEST_F(MeasuredLayoutTest, TakesNoLightFromAPaintedFloor) {
+  const Rectangle place = mission.shuffled.places[5];
+  const FloorPicture bare = picture_of(scene(), {});
+  const auto plain = FloorLight(bare, mission).ratio_of(place);
+  ASSERT_TRUE(plain);
+  mission.arena.patches.push_back({Rectangle{place.centre, 0.8, 0.8}, {255, 0, 0}});
+  const FloorPicture painted = picture_of(scene(), {});
+  const auto beside_paint = FloorLight(painted, mission).ratio_of(place);
+  ASSERT_TRUE(beside_paint);
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    EXPECT_NEAR(beside_paint->at(channel), plain->at(channel), 0.05) << channel;
+}
+
+/// A robot hides 0.1 m behind it, seen from 2.7 m above, beside its own half width.
+TEST_F(MeasuredLayoutTest, TakesALookJustBeyondTheShadowOfARobot) {
+  const Point robot{0.75, -0.1};  // 0.7 m from the camera's foot, along x
+  const FloorPicture picture = picture_of(scene(), {}, {robot});
+  const FloorLight light(picture, mission);
+  const auto is_seen = [&](double behind_m) {
+    return light.ratio_of({{robot.x + behind_m, robot.y}, 0.09, 0.09}).has_value();
+  };
+  EXPECT_FALSE(is_seen(0));
+  EXPECT_FALSE(is_seen(0.18));
+  EXPECT_TRUE(is_seen(0.29));
+  EXPECT_TRUE(is_seen(-0.2)) << "it hides nothing before it but its own width";
 }
 
 TEST_F(MeasuredLayoutTest, IsNothingForAFixedFloor) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "base/math.h"
 
 namespace swarmsmith {
@@ -29,9 +30,12 @@ double variance_of(const TaggedRobot& robot, const TagEvidence& evidence,
 
 void add_known_errors(const std::vector<SeenTag>& tags, const std::vector<TagEvidence>& evidence,
                       std::span<const TrackedCamera> cameras, const Rig& rig, TrackedRun& run) {
+  SWARMSMITH_ASSERT(tags.size() == evidence.size(), "each tag has its evidence");
   const int cycles = run.trajectory.instants();
   for (std::size_t i = 0; i < run.robots.size(); ++i) {
     TrackedRobot& robot = run.robots[i];
+    SWARMSMITH_ASSERT(robot.sigmas.size() >= static_cast<std::size_t>(cycles),
+                      "each cycle has its sigma");
     double sum = 0;
     for (int cycle = 0; cycle < cycles; ++cycle) {
       const Point at = run.trajectory.at(cycle)[i].position();

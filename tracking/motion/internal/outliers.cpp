@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/assert.h"
 #include "base/math.h"
 
 namespace swarmsmith {
@@ -27,6 +28,7 @@ bool has_taken_over(const Chain& chain, const Chain& from) {
 
 /// Whether a chain is the better one for the next sample: established, then seen last.
 bool is_better(const Chain& a, const Chain& b) {
+  SWARMSMITH_ASSERT(!a.empty() && !b.empty(), "a chain begins with a sample");
   if (has_taken_over(a, b)) return true;
   if (has_taken_over(b, a)) return false;
   const bool a_sure = a.size() >= kEstablished;
@@ -53,6 +55,7 @@ std::vector<Chain> chains_of(const std::vector<TimedPose>& track, const TrackLim
 /// robot was carried, or is another one), and then the break between them is a gap.
 bool agrees(const Chain& chain, const Chain& kept, const std::vector<TimedPose>& track,
             const TrackLimits& limits) {
+  SWARMSMITH_ASSERT(chain.size() <= kept.size(), "the longest come first");
   const bool is_first = chain.back() < kept.front();
   if (!is_first && chain.front() < kept.back()) return false;
   if (chain.size() >= kEstablished) return true;
@@ -74,10 +77,13 @@ Chain longest_chains(const std::vector<TimedPose>& track, const TrackLimits& lim
   for (const Chain& chain : kept)
     samples.insert(samples.end(), chain.begin(), chain.end());
   std::ranges::sort(samples);
+  SWARMSMITH_ASSERT(std::ranges::adjacent_find(samples) == samples.end(),
+                    "a sample is in one chain");
   return samples;
 }
 
 double median(std::array<double, 5>& values, std::size_t count) {
+  SWARMSMITH_ASSERT(count % 2 == 1 && count <= values.size(), "as many on each side");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
   return *middle;
@@ -101,6 +107,7 @@ bool jumps(const std::vector<TimedPose>& track, const Chain& samples, std::size_
   const std::size_t half = half_window(track, samples, at);
   std::array<double, 5> xs{};
   std::array<double, 5> ys{};
+  SWARMSMITH_ASSERT(half <= at && at + half < samples.size(), "the window lies in the track");
   const std::size_t count = 2 * half + 1;
   for (std::size_t i = 0; i < count; ++i) {
     const Pose& pose = track[samples[at - half + i]].pose;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/median.h"
 
@@ -32,6 +33,7 @@ std::optional<Five> weights_at_middle(const Five& times) {
 
 /// The middle value minus the parabola there, scaled to the sigma of one value.
 double residual_at_middle(const Five& weights, const Five& values) {
+  SWARMSMITH_ASSERT(weights(kHalf) < 1, "a fit that goes through the middle says nothing of it");
   // A hat matrix projects: its row's squares add up to its middle entry.
   return (values(kHalf) - weights.dot(values)) / std::sqrt(1 - weights(kHalf));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "tracking/motion/internal/robot_track.h"
 
@@ -122,6 +123,7 @@ std::optional<double> check_end(const RobotTrack& track, const FrameReport& fram
     return std::nullopt;
   }
   if (next->time_s <= end + kSameInstant_s || next == track.merged.begin()) return 0;
+  SWARMSMITH_ASSERT(std::prev(next)->time_s < end, "the last instant lies in the gap");
   const double from = std::prev(next)->time_s;
   const double gap_s = next->time_s - from;
   if (gap_s <= options.limits.last_instant_gap_s + kSameInstant_s) return gap_s;
@@ -133,7 +135,7 @@ std::optional<double> check_end(const RobotTrack& track, const FrameReport& fram
   return gap_s;
 }
 
-/// Cycles of which the pose is a guess: across a long gap, or held where no sample is near. That a
+/// Cycles whose pose is a guess: across a long gap, or held where no sample is near. That a
 /// video ends a frame before the run's last instant is no guess worth a word, and that it covers
 /// less than the run is said elsewhere.
 std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
@@ -184,6 +186,8 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
                    const TrackLimits& limits, Complaints& complaints) {
   const Bridged bridged = bridged_cycles(track, frames);
   const auto cycles = static_cast<std::int64_t>(track.kinds.size()) - 1;
+  SWARMSMITH_ASSERT(bridged.without_frames <= bridged.cycles && bridged.cycles <= cycles,
+                    "a cycle is bridged once");
   const double share = static_cast<double>(bridged.cycles) / static_cast<double>(cycles);
   if (share > limits.interpolated_share) {
     const bool is_for_want_of_frames = 2 * bridged.without_frames > bridged.cycles;
@@ -198,6 +202,7 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
                         : "more light, larger tags or another place of the camera help"));
   }
   const std::int64_t guessed = guessed_cycles(track, frames, limits);
+  SWARMSMITH_ASSERT(guessed <= cycles, "a cycle is guessed once");
   if (guessed == 0 || gaps.empty()) return;
   const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
   complaints.add(IssueCode::Interpolated,

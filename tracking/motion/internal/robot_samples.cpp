@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/median.h"
 #include "tracking/geometry/walls.h"
@@ -90,6 +91,8 @@ std::vector<FrameGroup> frames_of(std::vector<Sample>& samples, int camera) {
   std::vector<FrameGroup> frames;
   for (Sample& sample : samples) {
     if (sample.camera != camera || sample.use != Sample::Use::Used) continue;
+    SWARMSMITH_ASSERT(frames.empty() || frames.back().samples.front()->frame <= sample.frame,
+                      "samples of a camera come in the order of its frames");
     if (frames.empty() || frames.back().samples.front()->frame != sample.frame) {
       frames.emplace_back();
     }
@@ -149,6 +152,7 @@ void resolve_duplicates(RobotSamples& robot, int camera, const TrackLimits& limi
         if (sample != used) sample->use = Sample::Use::Duplicate;
       }
     }
+    SWARMSMITH_ASSERT(used == nullptr || used->use == Sample::Use::Used, "it stays in use");
     if (used != nullptr) before = used;
   }
 }
@@ -162,6 +166,7 @@ void drop_outliers(std::vector<Sample>& samples, int camera, const TrackLimits& 
     track.push_back(timed(sample));
   }
   const std::vector<bool> believed = believable(track, limits);
+  SWARMSMITH_ASSERT(believed.size() == used.size(), "a word about each sample");
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!believed[i]) used[i]->use = Sample::Use::Outlier;
   }
@@ -187,7 +192,10 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
   std::ranges::sort(
       own, [&](std::size_t a, std::size_t b) { return comes_first(sightings[a], sightings[b]); });
   for (const std::size_t number : own) {
+    SWARMSMITH_ASSERT(number < sightings.size(), "a sighting has its number");
     const Sighting& seen = sightings[number];
+    SWARMSMITH_ASSERT(static_cast<std::size_t>(seen.camera) < cameras.size(),
+                      "sightings of cameras that are lost were left out");
     made.samples.push_back(
         sample_of(seen, robot, cameras[static_cast<std::size_t>(seen.camera)], options));
     made.samples.back().sighting = number;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "tracking/motion/internal/precision.h"
 
@@ -89,6 +90,7 @@ Pictures pictures_of(std::span<const OneOfTags> tags) {
 Sample fused(std::span<const OneOfTags> tags, const std::vector<Part>& parts,
              const std::vector<Noise>& noise, std::span<const TrackedCamera> cameras,
              const Rig& rig) {
+  SWARMSMITH_ASSERT(!parts.empty(), "a picture without samples makes none");
   Sample made = *parts.front().sample;
   if (parts.size() == 1) return made;
   const auto number = static_cast<std::size_t>(made.camera);
@@ -181,6 +183,7 @@ struct Stretch {
 };
 
 Stretch stretch_of(std::span<const Difference> differences) {
+  SWARMSMITH_ASSERT(!differences.empty(), "a stretch is of pictures");
   Stretch made{.from_s = differences.front().time_s, .to_s = differences.back().time_s};
   const auto count = static_cast<double>(differences.size());
   double x = 0;

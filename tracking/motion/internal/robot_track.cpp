@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/assert.h"
 #include "base/math.h"
 
 namespace swarmsmith {
@@ -20,6 +21,8 @@ std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamp
   std::vector<CameraTrack> tracks(cameras.size());
   for (const Sample& sample : samples.samples) {
     if (sample.use != Sample::Use::Used) continue;
+    SWARMSMITH_ASSERT(static_cast<std::size_t>(sample.camera) < tracks.size(),
+                      "sightings of cameras that are lost were left out");
     tracks[static_cast<std::size_t>(sample.camera)].poses.push_back({sample.time_s, sample.pose});
   }
   for (std::size_t c = 0; c < tracks.size(); ++c) {
@@ -35,6 +38,7 @@ std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamp
 
 /// The heading between the neighbours of an instant; the nearest one's beyond them.
 double heading_between(const std::vector<TimedPose>& track, double time_s) {
+  SWARMSMITH_ASSERT(!track.empty(), "a person adds to what cameras saw");
   const auto next = std::ranges::lower_bound(track, time_s, {}, &TimedPose::time_s);
   if (next == track.end()) return track.back().pose.theta;
   if (next == track.begin()) return next->pose.theta;
@@ -78,6 +82,7 @@ struct Estimate {
 
 /// One estimate keeps its bits.
 Estimate fused(const std::vector<Estimate>& estimates) {
+  SWARMSMITH_ASSERT(!estimates.empty(), "there is a measurement to fuse");
   if (estimates.size() == 1) return estimates.front();
   const Pose& first = estimates.front().pose;
   double weights = 0;
@@ -133,6 +138,7 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     made.noise.sigma_rad = made.sigma.sigma_rad;
     motions.emplace_back(&track, Motion(track.poses, options.limits));
   }
+  SWARMSMITH_ASSERT(!made.merged.empty(), "a robot that was never seen is an error before");
   std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
   const std::vector<TimedPose> points = by_hand(robot, made.merged, cameras, options.points);
   for (const TimedPose& point : points)
@@ -168,6 +174,9 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     note_disagreement(measured, time, made);
     add(fused(measured), CycleKind::Measured);
   }
+  SWARMSMITH_ASSERT(made.poses.size() == static_cast<std::size_t>(options.span.cycles) + 1,
+                    "a pose at the start and one after each cycle");
+  SWARMSMITH_ASSERT(made.disagreeing <= made.compared, "only what is compared can disagree");
   return made;
 }
 

@@ -16,7 +16,7 @@ struct RobotTrack {
   std::vector<Scatter> sigmas;    ///< the same, systematic parts included
   std::vector<TimedPose> merged;  ///< samples of all cameras that were used, by time
   std::vector<double> by_hand_s;  ///< when a person said where it was; among the merged
-  /// Neighbours in one camera's track of which the second cannot be reached from the first.
+  /// Neighbours in one camera's track whose second cannot be reached from the first.
   std::vector<std::pair<TimedPose, TimedPose>> breaks;
   Scatter sigma;  ///< of one camera's sample, systematic parts included
   Scatter noise;  ///< the same without them

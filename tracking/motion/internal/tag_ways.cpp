@@ -93,7 +93,7 @@ std::vector<TagWay> tag_ways(const Observations& observations, int camera,
     tag.way.assign(frames, 0);
   }
   for (const Sighting& seen : observations.sightings) {
-    // What is left of a damaged store may name a frame that is lost.
+    // A damaged store may name a frame that is lost.
     if (seen.camera != camera || seen.frame < 0 || static_cast<std::size_t>(seen.frame) >= frames) {
       continue;
     }

@@ -111,7 +111,7 @@ class Reading {
     return rate_ > 0 ? now - 0.5 / rate_ : now;
   }
 
-  /// False when nobody wants more.
+  /// False when no more is wanted.
   bool hand_over(Arrived arrived) {
     constexpr std::size_t kMostWaiting = 16;
     const std::scoped_lock lock(shared_->mutex);

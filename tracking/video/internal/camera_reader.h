@@ -28,7 +28,7 @@ struct CameraQueue {
   bool is_open = false;
   bool has_ended = false;  ///< or could not be opened
   std::string complaint;   ///< why; empty: no more pictures
-  bool stop = false;       ///< nobody wants more
+  bool stop = false;       ///< no more is wanted
   ImageSize size;
   double frame_rate = 0;
   std::int64_t dropped = 0;  ///< that were not fetched in time

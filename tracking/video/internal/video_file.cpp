@@ -52,7 +52,7 @@ class VideoFile final : public FrameSource {
     return false;
   }
 
-  /// Nobody knows any more which frame this is: the rest is as good as missing.
+  /// From here on frames have no known number: the rest is as good as missing.
   bool lose_count() {
     avcodec_flush_buffers(decoder_.get());
     while (demuxer_.next() != nullptr) {

@@ -1,0 +1,140 @@
+#include "proto/access/find_coordinator.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <cstdlib>
+
+#include "proto/access/coordinator_file.h"
+#include "proto/access/key_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kNear = "tcp://127.0.0.1:5555";
+constexpr const char* kFar = "tcp://login1:5555";
+
+/// Whether a client goes on in plaintext is decided here and nowhere else.
+class FindCoordinator : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(make_key_folder(folder));
+    unsetenv("SWARMSMITH_KEY");
+    setenv("SWARMSMITH_KEYS", folder.path.c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv("SWARMSMITH_KEY");
+    unsetenv("SWARMSMITH_KEYS");
+  }
+
+  /// A coordinator's file: what it says of itself.
+  void write(const std::string& endpoint, const std::string& public_key) {
+    CoordinatorFile there;
+    there.endpoint = endpoint;
+    there.others = {"tcp://10.0.0.1:5555"};
+    there.public_key = public_key;
+    there.host = "login1";
+    there.started = "2026-11-21T15:37:00Z";
+    ASSERT_TRUE(write_coordinator_file(file, there));
+  }
+  /// "keys", "plain", or why not.
+  std::string found(const CoordinatorSearch& search) {
+    const auto coordinator = find_coordinator(search);
+    if (!coordinator) return to_string(coordinator.error());
+    return coordinator->keys ? "keys" : "plain";
+  }
+
+  TemporaryFolder temporary;
+  const KeyFolder folder{temporary / "keys"};
+  const std::filesystem::path file = temporary / "c.db.coordinator";
+  const std::filesystem::path own = folder.client_key("operator");
+};
+
+TEST_F(FindCoordinator, AtAnEndpointEncryptsUnlessItIsOnLoopbackOrPlaintextIsInsistedOn) {
+  EXPECT_EQ(found({.endpoint = kFar}), "keys");
+  EXPECT_EQ(found({.endpoint = kNear}), "plain");
+  EXPECT_EQ(found({.endpoint = kFar, .insecure_plaintext = true}), "plain");
+  EXPECT_EQ(found({.endpoint = kNear, .insecure_plaintext = true}), "plain");
+  // A key of one's own is always used.
+  for (const char* endpoint : {kNear, kFar}) {
+    for (const bool insecure : {false, true})
+      EXPECT_EQ(found({.endpoint = endpoint, .key = own, .insecure_plaintext = insecure}), "keys");
+  }
+}
+
+TEST_F(FindCoordinator, ByItsFileEncryptsWheneverTheFileHasAKey) {
+  const std::string server = read_server_key(folder.server_key())->public_key;
+  for (const char* endpoint : {kNear, kFar}) {
+    write(endpoint, server);
+    for (const bool insecure : {false, true}) {
+      for (const auto& key : {std::filesystem::path(), own}) {
+        EXPECT_EQ(found({.file = file, .key = key, .insecure_plaintext = insecure}), "keys")
+            << endpoint << insecure << key;
+      }
+    }
+  }
+}
+
+TEST_F(FindCoordinator, ByAFileWithoutAKeyIsPlaintextOnLoopbackOrWhereItIsInsistedOn) {
+  write(kNear, "");
+  EXPECT_EQ(found({.file = file}), "plain");
+  EXPECT_THAT(found({.file = file, .key = own}), HasSubstr("leave out --key"));
+  write(kFar, "");
+  EXPECT_THAT(found({.file = file}), HasSubstr("accept it with --insecure-plaintext"));
+  EXPECT_THAT(found({.file = file, .key = own}), HasSubstr("does not encrypt"));
+  EXPECT_EQ(found({.file = file, .insecure_plaintext = true}), "plain");
+  EXPECT_THAT(found({.file = file, .key = own, .insecure_plaintext = true}),
+              HasSubstr("leave out --key"));
+}
+
+TEST_F(FindCoordinator, SaysWhereElseItMayBeFound) {
+  write(kNear, "");
+  EXPECT_EQ(find_coordinator({.file = file})->others,
+            std::vector<std::string>{"tcp://10.0.0.1:5555"});
+  write(kNear, read_server_key(folder.server_key())->public_key);
+  const auto coordinator = find_coordinator({.file = file});
+  EXPECT_EQ(coordinator->others, std::vector<std::string>{"tcp://10.0.0.1:5555"});
+  EXPECT_EQ(coordinator->endpoint, kNear);
+  EXPECT_TRUE(find_coordinator({.endpoint = kNear})->others.empty());
+}
+
+TEST_F(FindCoordinator, TakesTheKeyOfTheRoleOrTheOneThatIsNamed) {
+  const auto secret_of = [](const CoordinatorSearch& search) {
+    return find_coordinator(search)->keys->secret_key;
+  };
+  const auto of_file = [](const std::filesystem::path& path) {
+    return read_client_key(path)->pair.secret_key;
+  };
+  EXPECT_EQ(secret_of({.endpoint = kFar}), of_file(folder.client_key("worker")));
+  EXPECT_EQ(secret_of({.endpoint = kFar, .role = "reader"}), of_file(folder.client_key("reader")));
+  setenv("SWARMSMITH_KEY", own.c_str(), 1);
+  EXPECT_EQ(secret_of({.endpoint = kFar}), of_file(own));
+  EXPECT_EQ(secret_of({.endpoint = kFar, .key = folder.client_key("reader")}),
+            of_file(folder.client_key("reader")));
+}
+
+TEST_F(FindCoordinator, RefusesAKeyOfAnotherCoordinator) {
+  write(kFar, make_key_pair().public_key);
+  EXPECT_THAT(found({.file = file}), HasSubstr("belongs to another coordinator"));
+  EXPECT_THAT(found({.file = file, .insecure_plaintext = true}),
+              HasSubstr("belongs to another coordinator"));
+}
+
+TEST_F(FindCoordinator, SaysWhatIsMissing) {
+  const auto none = find_coordinator({.file = file});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << "it may come yet";
+  std::filesystem::remove(folder.client_key("worker"));
+  const auto keyless = find_coordinator({.endpoint = kFar});
+  ASSERT_FALSE(keyless);
+  EXPECT_EQ(keyless.error().kind, ErrorKind::BadInput);
+  EXPECT_THAT(keyless.error().message, HasSubstr("tcp://login1:5555 needs a key"));
+  const auto named = find_coordinator({.endpoint = kFar, .key = temporary / "no.key"});
+  ASSERT_FALSE(named);
+  EXPECT_THAT(named.error().message, testing::Not(HasSubstr("needs a key")));
+}
+
+}  // namespace
+}  // namespace swarmsmith
