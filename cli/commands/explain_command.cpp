@@ -116,7 +116,8 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  if (id->letter == 'd') return explain_design(output, **store, *id);
+  if (id->letter == 'd')
+    return explain_design(output, **store, *id, has_writer(*arguments.store.path()));
   const auto history = read_history(**store, *id);
   if (!history) return fail(output, ExitCode::Store, history.error());
   if (!history->is_known()) {

@@ -169,12 +169,14 @@ void write_json(Output& output, const Story& story, const StoredStages& stages) 
 
 }  // namespace
 
-ExitCode explain_design(Output& output, StoreReader& store, const ThingId& id) {
+ExitCode explain_design(Output& output, StoreReader& store, const ThingId& id, bool is_written) {
   const DesignId design = design_of_thing(id);
   auto known = designs(store, {.design = design});
   if (!known) return fail(output, ExitCode::Store, known.error());
   if (known->empty())
     return fail(output, ExitCode::NoSuchId, "the store has no " + to_string(design));
+  std::string& state = known->front().state;
+  if (!is_written && (state == "racing" || state == "testing")) state = "interrupted";
   const auto stages = StoredStages::read(store);
   if (!stages) return fail(output, ExitCode::Store, stages.error());
   const auto story = read_story(store, std::move(known->front()), *stages);

@@ -10,7 +10,8 @@
 namespace swarmsmith::cli {
 
 /// How a design came to its winner, in the words of its search: its iterations, generations or
-/// other parts with the best of each, and what the final stage said of the winner.
-ExitCode explain_design(Output& output, StoreReader& store, const ThingId& id);
+/// other parts with the best of each, and what the final stage said of the winner. `is_written`: a
+/// process writes the store.
+ExitCode explain_design(Output& output, StoreReader& store, const ThingId& id, bool is_written);
 
 }  // namespace swarmsmith::cli

@@ -98,11 +98,7 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
   letter_ids(*rows);
   const auto stages = StoredStages::read(**store);
   if (!stages) return fail(output, ExitCode::Store, stages.error());
-  if (kind->name == "designs") {
-    const auto campaigns = stored_campaigns(**store, has_writer(*arguments.store.path()));
-    if (!campaigns) return fail(output, ExitCode::Store, campaigns.error());
-    tell_states(*rows, *campaigns);
-  }
+  if (kind->name == "designs") mark_interrupted(*rows, has_writer(*arguments.store.path()));
   if (!output.json && kind->name == "designs") stages->tell(*rows);
   if (!output.json && is_of_programs(**store)) as_costs(*rows);
   const bool truncated = rows->truncated;

@@ -7,6 +7,7 @@
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
@@ -195,6 +196,7 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
       return fail(output, ExitCode::NoSuchId, "the store has no " + part.name + " " + arguments.id);
     }
     letter_ids(*rows);
+    if (part.name == "design") mark_interrupted(*rows, has_writer(*arguments.store.path()));
     if (!output.json) tell_rounds(*rows, *stages, *id);
     if (!output.json && is_of_programs(**store)) as_costs(*rows);
     shown.push_back(std::move(*rows));

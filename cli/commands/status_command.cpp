@@ -84,11 +84,11 @@ void write_text(Output& output, const LiveStatus& status, const StoredFacts& fac
 }
 
 /// States and stages are those of the campaigns: the store has what its last writer said.
-void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns) {
+void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns, bool is_written) {
   const std::size_t state = facts.campaign.column("state");
   for (std::size_t i = 0; i < facts.campaign.cells.size() && i < campaigns.size(); ++i)
     facts.campaign.cells[i][state].text = campaigns[i].state;
-  tell_states(facts.designs, campaigns);
+  mark_interrupted(facts.designs, is_written);
   std::map<std::string, std::string> stages;
   for (const CampaignStatus& campaign : campaigns) {
     for (const DesignStatus& design : campaign.designs) {
@@ -102,8 +102,7 @@ void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns) {
 }
 
 /// What a coordinator says, with what its store knows besides.
-std::string json_of(const LiveStatus& status, StoredFacts facts) {
-  correct(facts, *status.campaigns);
+std::string json_of(const LiveStatus& status, const StoredFacts& facts) {
   Rows paused{.columns = {"design"}};
   for (const CampaignStatus& campaign : *status.campaigns) {
     for (const DesignStatus& design : campaign.designs) {
@@ -195,10 +194,11 @@ ExitCode show_stored(const StatusArguments& arguments, Output& output, bool& run
   const bool is_written = has_writer(*arguments.store.path());
   auto campaigns = stored_campaigns(**store, is_written);
   if (!campaigns) return fail(output, ExitCode::Store, campaigns.error());
-  const auto facts = read_facts(**store);
+  auto facts = read_facts(**store);
   if (!facts) return fail(output, ExitCode::Store, facts.error());
   auto quarantine = stored_quarantine(**store);
   if (!quarantine) return fail(output, ExitCode::Store, quarantine.error());
+  correct(*facts, *campaigns, is_written);
   running = campaigns->size() == 1 && campaigns->front().state == "running";
   LiveStatus status;
   status.running = false;

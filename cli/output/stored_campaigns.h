@@ -13,8 +13,9 @@ namespace swarmsmith::cli {
 /// the store; without one, a campaign that is not finished is "interrupted". Errors: as a query's.
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written);
 
-/// Puts these campaigns' words for their designs into the column `state` of rows with a column
-/// `design`; rows without both stay.
-void tell_states(Rows& designs, const std::vector<CampaignStatus>& campaigns);
+/// A store says what its last writer said. Where no process writes it any more, no design is at
+/// work: `racing` and `testing` in the column `state` become `interrupted`. Rows without that column
+/// stay.
+void mark_interrupted(Rows& designs, bool is_written);
 
 }  // namespace swarmsmith::cli

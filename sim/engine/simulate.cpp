@@ -14,10 +14,8 @@
 #include "base/hash.h"
 #include "base/rng.h"
 #include "sim/engine/internal/float32.h"
-#include "sim/engine/internal/mover.h"
 #include "sim/engine/internal/robot_clock.h"
 #include "sim/engine/internal/robot_senses.h"
-#include "sim/engine/internal/walls.h"
 #include "sim/engine/internal/world.h"
 #include "sim/mission/score.h"
 
@@ -392,10 +390,9 @@ class Run {
 }  // namespace
 
 int engine_version_of(const Mission& mission, const Profile& profile) {
-  const Arena& arena = mission.arena;
   const bool meets_obstacles = profile.contacts == ContactModel::Exact &&
-                               !arena.obstacles.empty() && arena.objects.empty() &&
-                               walls_of(arena).convex && robot_kind(mission.body).form.is_rvr;
+                               !mission.arena.obstacles.empty() &&
+                               has_squares_alone(mission.arena, mission.body);
   return meets_obstacles ? kObstaclesVersion : kEngineVersion;
 }
 

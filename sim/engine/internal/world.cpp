@@ -37,13 +37,17 @@ double largest_radius_of(const std::vector<MoverKind>& kinds) {
 
 }  // namespace
 
+bool has_squares_alone(const Arena& arena, const Outline& robot) {
+  return walls_of(arena).convex && robot_kind(robot).form.is_rvr && arena.objects.empty();
+}
+
 World::World(const Arena& arena, const Outline& robot, std::span<const Pose> starts,
              ContactModel contacts)
     : surroundings_(surroundings_of(arena)),
       robots_(static_cast<int>(starts.size())),
       kinds_(kinds_of(arena, robot)),
       movers_(movers_of(arena, starts, kinds_)),
-      squares_(surroundings_.walls.convex && kinds_[0].form.is_rvr && arena.objects.empty()),
+      squares_(has_squares_alone(arena, robot)),
       plain_(squares_ && arena.obstacles.empty()),
       largest_radius_m_(largest_radius_of(kinds_)),
       places_(movers_.size()),

@@ -16,6 +16,10 @@
 
 namespace swarmsmith {
 
+/// Whether nothing moves but robots that are squares of the RVR's side, in a convex arena: then the
+/// exact contact model has its own solver, else Box2D plays it.
+bool has_squares_alone(const Arena& arena, const Outline& robot);
+
 /// Bodies, walls and the law of motion: what there is besides sensors and control software. Time
 /// counts in sub-steps of 10 ms. Movers are the robots, 0 to robots() - 1, and behind them the
 /// arena's movable objects.

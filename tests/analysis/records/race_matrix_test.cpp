@@ -40,7 +40,7 @@ TEST_F(RaceMatrixTest, HasTheCellsOfTheViewAndNoOthers) {
   std::size_t found = 0;
   for (const RaceMatrix::Row& row : race.rows) {
     for (std::size_t column = 0; column < race.steps.size(); ++column)
-      found += row.at(column).has_run ? 1 : 0;
+      found += row.at(column).has_run ? 1U : 0U;
   }
   EXPECT_EQ(found, cells->size());
   for (const RaceCell& cell : *cells) {
