@@ -22,12 +22,7 @@ struct Kind {
 };
 
 constexpr std::array<Kind, 6> kKinds = {{
-    {"designs",
-     "(SELECT d.*, t.test_mean, t.test_runs, s.score_mean, s.score_runs FROM v_designs AS d "
-     "LEFT JOIN v_leaderboard AS t ON t.design = d.design "
-     "LEFT JOIN (SELECT design, avg(score) AS score_mean, count(*) AS score_runs "
-     "FROM v_design_scores WHERE purpose = 'score' GROUP BY design "
-     "HAVING count(DISTINCT source) = 1) AS s ON s.design = d.design)",
+    {"designs", kDesignsWithMeans,
      "design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
      "coalesce(test_mean, best_mean, score_mean) AS mean, "
      "CASE WHEN test_mean IS NOT NULL THEN test_runs || iif(test_runs = 1, ' test', ' tests') "

@@ -15,6 +15,7 @@
 #include "cli/arguments/thing_id.h"
 #include "cli/dashboard/view_texts.h"
 #include "cli/output/evaluation_history.h"
+#include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
@@ -224,7 +225,7 @@ Expected<Answer> design_answer(const Question& question) {
   if (auto known = check_design(question); !known) return Unexpected(known.error());
   const std::string id = std::to_string(question.design.value);
   const std::string own = " WHERE design = " + id;
-  auto design = rows_of(question, "SELECT * FROM v_designs" + own);
+  auto design = rows_of(question, "SELECT * FROM " + std::string(kDesignsWithMeans) + own);
   auto iterations = rows_of(question,
                             "SELECT iteration, planned, budget, configurations, "
                             "elites, soft_restart, postselection FROM "

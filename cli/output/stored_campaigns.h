@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "base/expected.h"
@@ -9,13 +10,22 @@
 
 namespace swarmsmith::cli {
 
+/// v_designs with the mean of the winner's tests, and of its other scores where these have one
+/// source: to be asked as a table.
+inline constexpr std::string_view kDesignsWithMeans =
+    "(SELECT d.*, t.test_mean, t.test_runs, s.score_mean, s.score_runs FROM v_designs AS d "
+    "LEFT JOIN v_leaderboard AS t ON t.design = d.design "
+    "LEFT JOIN (SELECT design, avg(score) AS score_mean, count(*) AS score_runs "
+    "FROM v_design_scores WHERE purpose = 'score' GROUP BY design "
+    "HAVING count(DISTINCT source) = 1) AS s ON s.design = d.design)";
+
 /// The campaigns of a store as a coordinator would describe them. `is_written`: a process writes
 /// the store; without one, a campaign that is not finished is "interrupted". Errors: as a query's.
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written);
 
 /// A store says what its last writer said. Where no process writes it any more, no design is at
-/// work: `racing` and `testing` in the column `state` become `interrupted`. Rows without that column
-/// stay.
+/// work: `racing` and `testing` in the column `state` become `interrupted`. Rows without that
+/// column stay.
 void mark_interrupted(Rows& designs, bool is_written);
 
 }  // namespace swarmsmith::cli

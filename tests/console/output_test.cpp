@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -309,7 +309,7 @@ class Http(unittest.TestCase):
         """As the sources write it: `c1/designs/d3/race?iteration=8` is c1/designs/*/race."""
         path = path.split("?")[0]
         path = re.sub(r"(?<=designs/)d3|(?<=candidates/)c812|(?<=evaluations/)e81200007|(?<=runs/)ID", "*", path)
-        return re.sub(r"(?<=figures/)KIND\.(?:svg|csv)|(?<=comparison/)\w+\.csv", "*", path)
+        return re.sub(r"(?<=figures/)KIND\.(?:svg|csv)|(?<=comparison/)(?:\w+\.csv|matrix)", "*", path)
 
     def test_every_path_is_on_the_page(self):
         questions = self.text.split("## Questions: GET")[1].split("\n## ")[0]

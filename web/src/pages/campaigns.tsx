@@ -24,7 +24,7 @@ export function told_mean({ test_mean, best_mean }: Design): number | null { ret
 
 /// What that mean is of.
 export function mean_of({ test_runs, best_mean }: Design): string {
-  return test_runs > 0 ? "in tests" : best_mean === null ? "" : "in race";
+  return test_runs > 0 ? "tested" : best_mean === null ? "" : "in race";
 }
 
 function card(c: string, design: Design, leads: boolean) {
@@ -33,7 +33,7 @@ function card(c: string, design: Design, leads: boolean) {
     aria-label={`${id}, ${words(design.mission)}, ${method}, repetition ${repetition}${campaign ? `, of ${campaign}` : ""}: ${design.paused ? "paused" : state}`}>
     <span class="card-head"><b>{id}</b>{state_word(design)}</span>
     <Bar of={design} name={`${id}: experiments used`} />
-    <span><b>{number(told_mean(design))}</b> <span class="faint">{mean_of(design)}{leads && ", best"}</span></span>
+    <span><b>{number(told_mean(design))}</b> <small>{mean_of(design)}{leads && ", best"}</small></span>
     {campaign && <small>{campaign}</small>}
     <small>{is_over(design) ? `${whole(design.used)} used` : stage_of(design)}{state === "racing" && alive !== null && `, ${whole(alive)} alive`}</small>
   </a>;
