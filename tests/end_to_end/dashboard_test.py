@@ -122,7 +122,7 @@ class Dashboard(ProgramTest):
 
     def test_who_looks_hears_of_the_end(self):
         """A page asks once a second: its last answer says "finished", and the last words how to come back."""
-        self.file.write_text(self.file.read_text().replace(f"{self.budget}", "600"))
+        self.file.write_text(self.file.read_text().replace(f"{self.budget}", "1400"))
         process = self.watch_campaign()
         last = None
         while process.poll() is None:
