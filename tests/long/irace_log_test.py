@@ -38,8 +38,6 @@ save(iraceResults, file = commandArgs(TRUE)[2])
 TO_LIST = """
 load(commandArgs(TRUE)[1])
 iraceResults$state$completed <- list(flag = TRUE, msg = iraceResults$state$completed)
-iraceResults$irace.version <- iraceResults$irace_version
-iraceResults$irace_version <- NULL
 save(iraceResults, file = commandArgs(TRUE)[2])
 """
 
