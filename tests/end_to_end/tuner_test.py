@@ -295,6 +295,18 @@ class TunerTest(unittest.TestCase):
         with self.assertRaisesRegex(swarmsmith.Error, "SWARMSMITH_BIN"):
             swarmsmith.tune(cost, SPACE, program="/nowhere/swarmsmith", **OPTIONS)
 
+    def test_whole_numbers_beyond_those_of_r_are_kept(self):
+        space = {"n": (0, 2**53 - 1), "m": swarmsmith.Integer(1, 9, when="n > 3e9")}
+        seen = []
+        best = swarmsmith.tune(lambda trial: seen.append(trial.configuration) or abs(trial.configuration["n"] - 5e15) / 1e15, space,
+                               max_experiments=96, seed=3, first_test=2, mu=2, store=self.store)
+        self.assertIn(best[0]["configuration"], seen)
+        self.assertGreater(best[0]["configuration"]["n"], 2**50)
+        self.assertTrue(all(("m" in one) == (one["n"] > 3e9) for one in seen))
+        with swarmsmith.Store(self.store) as store:
+            kept = {row["value"] for row in store.query("SELECT value FROM v_parameters WHERE parameter = 'n'")}
+        self.assertEqual(kept, {one["n"] for one in seen})
+
     def test_none_leaves_an_option_out(self):
         space = {"x": (0.0, 1.0)}
         swarmsmith.tune(lambda trial: trial.configuration["x"], space, max_experiments=72, first_test=2, mu=2, seed=None,
