@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "irace_core/internal/rounding.h"
 
 namespace swarmsmith {
 
 Scalar Scalar::integer(double value) {
-  constexpr double kLargest = 2147483647;  // R has no larger integer: beyond it, NA
-  if (!(std::fabs(value) <= kLargest)) return missing_of(Type::Integer);
+  if (!std::isfinite(value)) return missing_of(Type::Integer);
+  if (std::fabs(value) > irace::kLargestInteger) return real(value);
   return {Type::Integer, false, value + 0.0, {}};  // R's have no negative zero
 }
 

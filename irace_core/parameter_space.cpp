@@ -227,6 +227,10 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
   if (const auto* whole = std::get_if<Integer>(&parameters_[index].domain)) {
     found = evaluate(*whole);
     if (found) found = Interval{std::trunc(found->lower), std::trunc(found->upper)};
+    for (const double bound : {found ? found->lower : 0, found ? found->upper : 0}) {
+      if (auto fits = irace::check_whole(bound, parameters_[index].name); !fits)
+        return Unexpected(fits.error());
+    }
   } else {
     found = evaluate(std::get<Real>(parameters_[index].domain));
   }

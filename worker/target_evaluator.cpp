@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/hash.h"
-#include "base/log.h"
 #include "programs/cost.h"
 #include "programs/runner.h"
 
@@ -16,7 +15,6 @@ namespace {
 /// What ends a program from outside often ends the worker too, a moment later: then the evaluation
 /// did not fail, and goes to another worker.
 constexpr int kOutsideGraceMs = 100;
-constexpr int kLogsCalls = 2;  ///< debugLevel from which calls are logged, as irace shows them
 
 std::optional<std::string> canonical(const std::string& path) {
   std::error_code failed;
@@ -91,9 +89,8 @@ class Programs {
     const Expected<NamedInstance> instance = instance_of(item);
     if (!instance) return {.failure = to_string(instance.error())};
     const auto result = evaluate(item, *instance);
-    if (result) return result_of(item, *result);
+    if (result) return result_of(*result);
     if (result.error().from_outside) interrupt_->wait_ms(kOutsideGraceMs);
-    log_call(item, result.error().reason);
     return {.failure = result.error().reason, .details = result.error().details};
   }
 
@@ -135,23 +132,11 @@ class Programs {
                         .switches = item.machine});
   }
 
-  Result result_of(const LeasedTask& item, const TargetResult& result) const {
-    log_call(item, "fine");
+  static Result result_of(const TargetResult& result) {
     if (result.rejected) return {.rejected = true, .time = result.reading.time};
     return {.score = to_score(result.reading.cost),
             .state_digest = digest_of(result.reading),
             .time = result.reading.time};
-  }
-
-  void log_call(const LeasedTask& item, const std::string& outcome) const {
-    if (target_.debug_level < kLogsCalls) return;
-    log_event(LogLevel::Info, "target",
-              is_evaluator_call(item) ? "targetEvaluator called" : "targetRunner called",
-              {{"configuration", std::to_string(number_of(item.key))},
-               {"instance", std::to_string(item.instance)},
-               {"seed", std::to_string(item.seed)},
-               {"switches", item.machine},
-               {"outcome", outcome}});
   }
 
   std::shared_ptr<const WorkerScenario> scenario_;  ///< of all slots

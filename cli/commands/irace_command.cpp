@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "cli/commands/commands.h"
+#include "cli/irace/ablation_way.h"
 #include "cli/irace/irace_actions.h"
 #include "cli/irace/irace_console.h"
 #include "cli/irace/irace_run.h"
@@ -85,8 +86,7 @@ Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
       print_note(output, "the store is " + file.string() + ": an SQLite file in place of R's " +
                              setup.log_file.string());
     }
-    return line.action == IraceAction::OnlyTest ? StorePlace::beside(file, "-test")
-                                                : StorePlace::at(file);
+    return StorePlace::at(file);
   }
   return StorePlace::temporary();
 }
@@ -153,8 +153,10 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   const auto place = place_of(output, line, *setup);
   if (!place) return fail(output, ExitCode::Failed, place.error());
   const IraceSlots slots{.workers = workers, .parallel = setup->parallel};
-  if (line.action == IraceAction::OnlyTest)
-    return only_test(output, *setup, line.only_test, *place, slots);
+  if (line.action == IraceAction::OnlyTest) {
+    const bool is_named = !line.settings.text("--store").value_or("").empty();
+    return only_test(output, *setup, line.only_test, *place, is_named, slots);
+  }
   return run_scenario(output, *setup, *place, slots);
 }
 
@@ -179,7 +181,12 @@ std::vector<DeclaredOption> irace_declared() {
 ExitCode run_irace(const std::vector<std::string>& given, Output& output) {
   std::vector<std::string> words = given;
   // R's irace has a program of this name.
-  if (!words.empty() && words.front() == "ablation") words.front() = "--ablation";
+  if (!words.empty() && words.front() == "ablation") {
+    words.front() = "--ablation";
+    auto ours = words_of_r_ablation(std::move(words));
+    if (!ours) return fail(output, ExitCode::Failed, ours.error());
+    words = std::move(*ours);
+  }
   const auto line = read_irace_command_line(words, std::filesystem::current_path());
   if (!line) return complain(output, line.error());
   read_flags(line->settings, output);

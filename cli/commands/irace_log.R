@@ -30,7 +30,13 @@ cells <- function(x, format = "%.17g") {
   text[is.na(x)] <- ""
   text
 }
-short <- function(x) cells(x, "%.15g")  # parameters: as irace shows them
+# Parameters: as irace shows them, but whole numbers whole.
+short <- function(x) {
+  text <- cells(x, "%.15g")
+  large <- if (is.numeric(x)) which(abs(x) >= 1e15 & x == floor(x)) else integer(0)
+  text[large] <- sprintf("%.0f", x[large])
+  text
+}
 write_table <- function(.file, ...) {
   columns <- data.frame(..., check.names = FALSE, stringsAsFactors = FALSE)
   utils::write.csv(columns, file.path(folder, .file), row.names = FALSE, quote = TRUE)
@@ -66,7 +72,9 @@ if (all(is.na(cost))) {
                                 match(as.character(configuration), colnames(log$experiments)))]
 }
 
+# Why it ended is a text; in irace 3.4 a list of whether it did, and the text.
 completed <- first(state$completed, log$completed, "Incomplete")
+if (is.list(completed)) completed <- if (isTRUE(completed$flag)) completed$msg else "Incomplete"
 planned <- first(state$nbIterations, length(log$iterationElites))
 restarts <- which(as.logical(log$softRestart))
 keys <- c("irace_version", "completed", "seed", "max_experiments", "iterations",

@@ -4,14 +4,15 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "base/text/csv.h"
 #include "base/text/whole_file.h"
+#include "cli/irace/ablation_way.h"
 #include "cli/irace/candidate_table.h"
 #include "cli/irace/irace_actions.h"
 #include "cli/irace/irace_console.h"
+#include "cli/irace/irace_report.h"
 #include "cli/irace/stored_configurations.h"
 #include "console/counter.h"
 #include "coordinator/campaign/irace_campaign.h"
@@ -22,34 +23,6 @@
 
 namespace swarmsmith::cli {
 namespace {
-
-/// From one configuration of a finished run to another one.
-struct Way {
-  std::int64_t from = 0;  ///< irace's ids
-  std::int64_t to = 0;
-  Configuration source;
-  Configuration target;
-};
-
-Expected<Way> way_of(const IraceSettings& settings, const IraceSetup& setup,
-                     const std::filesystem::path& finished) {
-  const auto stored = read_stored_configurations(finished, setup.space);
-  if (!stored) return Unexpected(stored.error());
-  Way way{
-      .from = settings.number("--ablation-source").value_or(1),
-      .to = settings.number("--ablation-target").value_or(stored->elites.rbegin()->second.front())};
-  for (const auto& [id, option, end] : {std::tuple{way.from, "--ablation-source", &way.source},
-                                        std::tuple{way.to, "--ablation-target", &way.target}}) {
-    auto found = stored->find(id, option);
-    if (!found) return Unexpected(found.error());
-    *end = std::move(*found);
-  }
-  if (way.source != way.target) return way;
-  return bad_input(fmt::format("configurations {} and {} are the same: name others by "
-                               "--ablation-source and --ablation-target",
-                               way.from, way.to),
-                   "--ablation");
-}
 
 /// How many runs each configuration has at most: `firstTest` pairs, so many times; in a race the
 /// training instances once (R's ablation()).
@@ -69,7 +42,7 @@ Expected<std::int64_t> pairs_wanted(const IraceSettings& settings, const IraceSe
 
 /// The scenario's campaign with the way in place of its race: what else its races go by decides
 /// nothing here.
-Expected<Campaign> campaign_for(const IraceSetup& setup, const Way& way, AblationType type,
+Expected<Campaign> campaign_for(const IraceSetup& setup, const AblationWay& way, AblationType type,
                                 std::int64_t pairs, std::uint64_t seed) {
   const Configuration ends[] = {way.source, way.target};
   auto text = print_configurations_file(setup.space, ends);
@@ -103,18 +76,6 @@ std::string table_file(const IraceSettings& settings) {
   const IraceSetting* setting = settings.find("--ablation-csv");
   if (setting == nullptr) return {};
   return absolute_path(std::get<std::string>(setting->value), setting->folder).string();
-}
-
-/// Each way to ask is a campaign of its own.
-std::string store_ending(const IraceSettings& settings, AblationType type) {
-  std::string ending = "-ablation";
-  if (type == AblationType::Racing) ending += "-racing";
-  for (const auto& [option, sign] :
-       {std::pair{"--ablation-instances", "-x"}, std::pair{"--ablation-source", "-from"},
-        std::pair{"--ablation-target", "-to"}}) {
-    if (const auto number = settings.number(option)) ending += sign + std::to_string(*number);
-  }
-  return ending;
 }
 
 /// Prints steps once they are over, and keeps all runs as a table: of the rows of a store, and
@@ -336,12 +297,13 @@ ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup&
       settings.text("--ablation-type") == "racing" ? AblationType::Racing : AblationType::Full;
   const auto pairs = pairs_wanted(settings, setup, type);
   if (!pairs) return failed(pairs.error());
-  const auto way = way_of(settings, setup, finished);
+  const auto way = ablation_way(settings, setup, finished);
   if (!way) return failed(way.error());
   const auto seed = seed_of(setup, StorePlace::at(finished));
   auto campaign = campaign_for(setup, *way, type, *pairs, seed);
   if (!campaign) return failed(campaign.error());
-  const StorePlace store = StorePlace::beside(finished, store_ending(settings, type));
+  const StorePlace store = place_beside(finished, ablation_ending(settings, type),
+                                        [&campaign](const StorePlace&) { return *campaign; });
   campaign->store = store.file();
   AblationReport report(output, setup, *campaign, way->target, table_file(settings));
   // Says at once whether the table can be written.
@@ -356,6 +318,8 @@ ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup&
         *pairs);
   }
   if (const auto known = store_of(*campaign)) {
+    if (known->finished() && !output.quiet)
+      output.out << "# " << nothing_ran_text(end_date(*known), store.file()) << '\n';
     if (auto told = report.go_on_from(*known); !told) return failed(told.error());
   }
   const ExitCode ended = carry_out(output, {*campaign}, run_options(slots, store), report).front();
@@ -367,6 +331,7 @@ ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup&
   const auto result = report.result();
   if (!result) return failed(result.error());
   if (!output.quiet) output.out << *result << std::flush;
+  print_note(output, "The ablation is in " + store.file().string());
   return ExitCode::Done;
 }
 

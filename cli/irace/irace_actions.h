@@ -17,6 +17,20 @@ namespace swarmsmith::cli {
 /// the setup's. Failed, when a call fails or the race could not even begin.
 ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& campaign);
 
+/// irace's --only-test: evaluates the configurations of a file on the test instances and prints
+/// their costs. The evaluations are kept like those of a run, and continue like those: in `store`
+/// if that was named, else in one of their own beside it.
+ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
+                   const StorePlace& store, bool is_named, const IraceSlots& slots);
+
+/// Whether the campaign's store holds it to its end, but for test instances and which
+/// configurations run on them.
+bool has_other_tests(const Campaign& campaign);
+/// R's testing_fromlog(): the winners of the finished run in `store` on the setup's test instances.
+/// A campaign of its own, in a store beside it.
+ExitCode test_elites(Output& output, const IraceSetup& setup, const StorePlace& store,
+                     const IraceSlots& slots);
+
 /// irace's --init: writes templates of all files into the current folder, but none over a file that
 /// is there.
 ExitCode write_templates(Output& output);

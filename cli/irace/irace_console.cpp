@@ -42,9 +42,12 @@ std::string capping_lines(const Scenario& race) {
 }  // namespace
 
 std::string irace_date() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return irace_date(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()));
+}
+
+std::string irace_date(std::time_t time) {
   std::tm parts{};
-  localtime_r(&now, &parts);
+  localtime_r(&time, &parts);
   std::array<char, 64> text{};
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S %Z", &parts)};
 }
@@ -59,6 +62,7 @@ IraceConsole::IraceConsole(Output& output, IraceRun run, TimePoint begin,
       run_(std::move(run)),
       date_(std::move(date)),
       candidates_(run_.space),
+      calls_(run_.target, run_.instances),
       bounds_(uses_capping(run_.race)),
       last_(begin) {}
 
@@ -99,6 +103,8 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
       iterations[iteration->number] = *iteration;
     } else if (const auto* candidate = std::get_if<CandidateRow>(&row)) {
       if (auto added = candidates_.add(*candidate); !added) error = added.error();
+    } else if (const auto* pair = std::get_if<PairRow>(&row)) {
+      calls_.take(*pair);
     } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
       steps.push_back(*step);
     } else if (const auto* elite = std::get_if<EliteRow>(&row); elite && elite->rank == 1) {
@@ -150,11 +156,21 @@ void IraceConsole::add(std::optional<std::size_t> /*campaign*/, const Row& row, 
     add_state(*state);
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
     add_event(*event);
+  } else if (const auto* pair = std::get_if<PairRow>(&row)) {
+    calls_.take(*pair);
+  } else if (const auto* run = std::get_if<EvaluationRow>(&row)) {
+    add_run(*run);
   }
+}
+
+void IraceConsole::add_run(const EvaluationRow& row) {
+  if (run_.debug_level < 2) return;
+  write(calls_.text(row, candidates_.command_line(number_of(row.key.candidate)), date_()));
 }
 
 void IraceConsole::begin_iteration(const IterationRow& row) {
   used_before_ = used_;
+  iteration_ = row.number;
   std::string text;
   if (row.postselection) {
     text = fmt::format("# {}: Post-selection race\n", date_());
@@ -197,6 +213,13 @@ void IraceConsole::end_race() {
   for (const EliteRow& elite : elites_)
     numbers.push_back(number_of(elite.candidate));
   elites_.clear();
+  if (!numbers.empty() && run_.debug_level >= 3) {
+    text +=
+        fmt::format(
+            "# {}: Results for the race of iteration {} (from best to worst, according to {}):\n",
+            date_(), iteration_, irace_order(run_.race)) +
+        candidates_.configurations(numbers, true);
+  }
   if (!numbers.empty()) {
     text += fmt::format(
                 "# {}: Elite configurations (first number is the configuration ID; listed from "

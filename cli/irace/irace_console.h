@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/irace/call_log.h"
 #include "cli/irace/candidate_table.h"
 #include "cli/output/run_listener.h"
 #include "console/output.h"
@@ -22,10 +24,14 @@ struct IraceRun {
   std::uint64_t seed = 0;
   std::int64_t n_iterations = 0;  ///< planned at the start
   std::int64_t budget = 0;        ///< experiments; 0 with max_time, where the run finds it
+  std::int64_t debug_level = 0;
+  swarmsmith::Target target{};  ///< what is called, for debugLevel 2
+  InstanceTexts instances{};    ///< what it is called for
 };
 
-/// Date, time and zone, as they begin irace's lines.
+/// Date, time and zone, as they begin irace's lines: now, or of a time.
 std::string irace_date();
+std::string irace_date(std::time_t time);
 
 /// "the sum of ranks" or "the mean value": by what configurations are listed.
 std::string irace_order(const Scenario& scenario);
@@ -35,8 +41,9 @@ std::string irace_order(const Scenario& scenario);
 class IraceConsole final : public RunListener {
  public:
   /// `date` gives the date of each line.
-  IraceConsole(Output& output, IraceRun run, TimePoint begin,
-               std::function<std::string()> date = irace_date);
+  IraceConsole(
+      Output& output, IraceRun run, TimePoint begin,
+      std::function<std::string()> date = [] { return irace_date(); });
 
   /// The block that says what will be done.
   void write_begin();
@@ -55,17 +62,20 @@ class IraceConsole final : public RunListener {
   /// The end of a race's table, its best and its elites, once they are known.
   void end_race();
   void add_state(const DesignStateRow& row);
+  void add_run(const EvaluationRow& row);
   void add_event(const EventRow& event);
 
   Output& output_;
   IraceRun run_;
   std::function<std::string()> date_;
   CandidateTable candidates_;
+  CallLog calls_;
   bool bounds_;  ///< whether there is a column for them
   bool in_table_ = false;
   std::optional<RaceStepRow> last_step_;
   std::vector<EliteRow> elites_;           ///< of the race that ends
   std::int64_t used_ = 0;                  ///< experiments of the run
+  std::int64_t iteration_ = 0;             ///< that runs
   std::int64_t used_before_ = 0;           ///< the current race
   std::optional<std::int64_t> remaining_;  ///< experiments, as max_time is good for
   TimePoint last_;                         ///< when the last line of the table was written

@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/plain_text.h"
 #include "cli/irace/stored_configurations.h"
+#include "coordinator/campaign/irace_campaign.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/iterated_race.h"
 
@@ -122,7 +124,10 @@ ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSe
     for (std::size_t i = 0; i < ids->size(); ++i)
       output.out << fmt::format("# {} here is configuration {} of the run\n", i + 1, (*ids)[i]);
   }
-  return run_scenario(output, again, StorePlace::beside(finished, "-psrace"), slots);
+  Campaign campaign = campaign_of(again, *again.seed);
+  const StorePlace place =
+      place_beside(finished, "-psrace", [&campaign](const StorePlace&) { return campaign; });
+  return run_campaign(output, again, place, std::move(campaign), slots);
 }
 
 }  // namespace swarmsmith::cli

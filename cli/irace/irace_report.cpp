@@ -97,16 +97,22 @@ Expected<IraceResult> read_irace_result(StoreReader& store, const ParameterSpace
 
 std::string best_text(const IraceResult& result, const Scenario& scenario) {
   const std::vector<std::int64_t> numbers = best_numbers(result);
+  std::string means;
+  for (const IraceResult::Best& best : result.best) {
+    means += fmt::format("{}{}: {:.10g} ({})", means.empty() ? "" : ", ", best.number, best.mean,
+                         best.pairs);
+  }
+  if (!means.empty()) means = "# Mean costs (and how many runs each is over): " + means + "\n";
   return fmt::format(
       "# Best configurations (first number is the configuration ID; listed from best to worst "
-      "according to {}):\n{}"
+      "according to {}):\n{}{}"
       "# Best configurations as commandlines (first number is the configuration ID; same order as "
       "above):\n{}",
-      irace_order(scenario), result.candidates.configurations(numbers),
+      irace_order(scenario), result.candidates.configurations(numbers), means,
       result.candidates.command_lines(numbers));
 }
 
-std::string testing_text(const IraceResult& result) {
+std::string testing_text(const IraceResult& result, const std::string& date) {
   if (result.tests.empty()) return "";
   std::vector<std::string> names;
   for (const auto& [instance, seed] : result.test_seeds)
@@ -121,8 +127,25 @@ std::string testing_text(const IraceResult& result) {
     columns.push_back({std::to_string(number), real_cells(costs)});
   }
   return fmt::format(
-      "# {}: Testing results (column number is configuration ID in no particular order):\n{}",
-      irace_date(), aligned_table(names, columns));
+      "# {}: Testing results (column number is configuration ID in no particular order):\n{}", date,
+      aligned_table(names, columns));
+}
+
+std::string end_date(StoreReader& store) {
+  std::time_t ended = 0;
+  (void)store.query(
+      "SELECT CAST(strftime('%s', coalesce(max(finished), max(created))) AS INTEGER) "
+      "FROM v_campaigns",
+      {}, [](const auto&) {},
+      [&ended](const std::vector<StoreReader::Cell>& cells) { ended = cells[0].integer(); });
+  return irace_date(ended);
+}
+
+std::string nothing_ran_text(const std::string& date, const std::filesystem::path& store) {
+  return fmt::format(
+      "Nothing was run: these are the results of {}, which {} holds. Move that file away to run "
+      "all of it again.",
+      date, store.string());
 }
 
 std::string result_json(const IraceResult& result, const std::string& store, std::int64_t seed) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,8 +38,12 @@ Expected<IraceResult> read_irace_result(StoreReader& store, const ParameterSpace
 /// irace's blocks at the end: best configurations as a table and as command lines. The second one
 /// is read by people's scripts (irace facts, 24).
 std::string best_text(const IraceResult& result, const Scenario& scenario);
-/// Costs of the test instances, a column a configuration; empty without any.
-std::string testing_text(const IraceResult& result);
+/// Costs of the test instances, a column a configuration; empty without any. `date` is theirs.
+std::string testing_text(const IraceResult& result, const std::string& date);
+/// When the last campaign of a store ended, as irace's lines have dates.
+std::string end_date(StoreReader& store);
+/// A command found its results in a store, and has run nothing.
+std::string nothing_ran_text(const std::string& date, const std::filesystem::path& store);
 /// The event {"v":1,"event":"done",...}, docs/command-line.md.
 std::string result_json(const IraceResult& result, const std::string& store, std::int64_t seed);
 

@@ -4,11 +4,13 @@
 #include <sys/resource.h>
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <random>
 #include <utility>
 #include <variant>
 
-#include "base/text/whole_file.h"
+#include "base/usable_processors.h"
+#include "cli/irace/irace_actions.h"
 #include "cli/irace/irace_console.h"
 #include "cli/irace/irace_report.h"
 #include "cli/output/progress.h"
@@ -18,7 +20,6 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/method_space.h"
-#include "irace_core/files/configurations_file.h"
 #include "irace_core/files/options.h"
 #include "irace_core/iterated_race.h"
 #include "programs/cost.h"
@@ -72,6 +73,27 @@ class CostEvents final : public RunListener {
   Progress& progress_;
 };
 
+/// Passes everything on, and notes whether anything was evaluated: a finished run may have been
+/// extended.
+class WorkWatch final : public RunListener {
+ public:
+  explicit WorkWatch(RunListener& teller) : teller_(teller) {}
+
+  void restore(std::size_t campaign, const Row& row) override { teller_.restore(campaign, row); }
+  void update(const LiveStatus& live, TimePoint now) override { teller_.update(live, now); }
+  void finish(const LiveStatus& live) override { teller_.finish(live); }
+  void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override {
+    saw_work_ = saw_work_ || std::holds_alternative<EvaluationRow>(row) ||
+                std::holds_alternative<RaceStepRow>(row);
+    teller_.add(campaign, row, now);
+  }
+  bool saw_work() const { return saw_work_; }
+
+ private:
+  RunListener& teller_;
+  bool saw_work_ = false;
+};
+
 std::string no_result(const std::string& reason) {
   return "there is no best configuration: " + with_irace_option_names(reason) +
          ". Mend the target or the scenario, and begin again with another store (--log-file NAME) "
@@ -93,13 +115,14 @@ class ScenarioRun {
     if (!console) return fail(output_, ExitCode::Failed, with_irace_option_names(console.error()));
     Progress progress(output_, design_rows(campaign_), begin_);
     CostEvents events(progress);
-    RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
+    WorkWatch teller(output_.json ? static_cast<RunListener&>(events) : *console);
     const bool begins = may_begin(campaign_);
     if (!campaign_.only_test && !is_finished() && begins && !output_.json) {
       console->write_begin();
       if (auto told = tell_what_was(*console); !told)
         return fail(output_, ExitCode::Failed, told.error());
     }
+    const std::string ended_before = date_of_end();
     const ExitCode ended = carry_out(output_, {campaign_}, options, teller).front();
     const std::int64_t more = ended == ExitCode::Store && !begins ? experiments_more() : 0;
     if (more > 0) {
@@ -108,6 +131,8 @@ class ScenarioRun {
           "--budget {}`, then this command with the old number.\n",
           campaign_.race.max_experiments - more, place_.file().string(), more);
     }
+    if (ended == ExitCode::Done && !ended_before.empty() && !teller.saw_work())
+      tell_that_nothing_ran(ended_before);
     return ended == ExitCode::Done ? report() : explain_end(output_, ended, begins);
   }
 
@@ -115,7 +140,7 @@ class ScenarioRun {
   /// With a budget of time the first estimate depends on how many runs are made at a time: one that
   /// goes on keeps the number that it began with, whatever this machine has.
   void keep_parallel() {
-    const std::optional<Campaign> stored = stored_campaign();
+    const std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored || stored->race.max_time <= 0) return;
     if (stored->race.parallel != campaign_.race.parallel) {
       print_note(output_, fmt::format("the store was begun with --parallel {}, which its budget of "
@@ -125,21 +150,10 @@ class ScenarioRun {
     campaign_.race.parallel = stored->race.parallel;
   }
 
-  /// What the store was made with, whether it is this run's or not.
-  std::optional<Campaign> stored_campaign() const {
-    std::error_code trouble;
-    if (!std::filesystem::exists(place_.file(), trouble)) return std::nullopt;
-    const auto store = StoreReader::open(place_.file());
-    if (!store) return std::nullopt;
-    auto campaign = parse_campaign((*store)->campaign().file, place_.file());
-    if (!campaign) return std::nullopt;
-    return std::move(*campaign);
-  }
-
   /// How many experiments more are asked for than the store was made with, when that is all that
   /// differs: there is a command for it.
   std::int64_t experiments_more() const {
-    std::optional<Campaign> stored = stored_campaign();
+    std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored) return 0;
     const std::int64_t more = campaign_.race.max_experiments - stored->race.max_experiments;
     stored->race.max_experiments = campaign_.race.max_experiments;
@@ -147,17 +161,36 @@ class ScenarioRun {
   }
 
   Expected<IraceConsole> make_console() {
-    if (campaign_.only_test)
-      return IraceConsole(output_, {.race = race_, .space = setup_.space}, begin_);
+    if (campaign_.only_test) return IraceConsole(output_, irace_run(), begin_);
     const auto race = IteratedRace::start(setup_.space, race_, setup_.initial);
     if (!race) return Unexpected(race.error());
-    return IraceConsole(output_,
-                        {.race = race_,
-                         .space = setup_.space,
-                         .seed = campaign_.seed,
-                         .n_iterations = race->n_iterations(),
-                         .budget = race_.max_time > 0 ? 0 : race->budget()},
-                        begin_);
+    IraceRun run = irace_run();
+    run.seed = campaign_.seed;
+    run.n_iterations = race->n_iterations();
+    run.budget = race_.max_time > 0 ? 0 : race->budget();
+    return IraceConsole(output_, std::move(run), begin_);
+  }
+
+  IraceRun irace_run() const {
+    return {.race = race_,
+            .space = setup_.space,
+            .debug_level = setup_.debug_level,
+            .target = *campaign_.target,
+            .instances = campaign_.missions.front().instances};
+  }
+
+  /// When the store's run ended; empty where it does not hold this run to its end.
+  std::string date_of_end() const {
+    const auto store = store_of(campaign_);
+    return store != nullptr && store->finished() ? end_date(*store) : "";
+  }
+
+  /// Who has changed the target since then must know.
+  void tell_that_nothing_ran(const std::string& ended) {
+    ended_ = ended;
+    const std::string text = nothing_ran_text(ended_, place_.file());
+    if (output_.json) print_note(output_, text);
+    if (!output_.json && !output_.quiet) output_.out << "# " << text << '\n';
   }
 
   /// Whether the store holds this run, to its end.
@@ -183,7 +216,8 @@ class ScenarioRun {
     if (output_.json) {
       output_.out << result_json(*result, place_.is_kept() ? place_.file().string() : "", seed);
     } else if (campaign_.only_test && !output_.quiet) {
-      output_.out << testing_text(*result) << finished_testing();
+      output_.out << testing_text(*result, date()) << finished_testing();
+      if (place_.is_kept()) print_note(output_, "The results are in " + place_.file().string());
     } else if (!output_.quiet && !has_failed) {
       output_.out << times_line(begin_) << best_text(*result, race_) << tests_text(*result)
                   << std::flush;
@@ -199,14 +233,15 @@ class ScenarioRun {
         "# Testing iteration configurations: {}\n",
         campaign_.test_nb_elites, campaign_.test_iteration_elites ? "TRUE" : "FALSE");
     if (setup_.test.empty()) {
-      return text + fmt::format("# {}: No test instances, skip testing\n", irace_date());
+      return text + fmt::format("# {}: No test instances, skip testing\n", date());
     }
-    return text + testing_text(result) + finished_testing();
+    return text + testing_text(result, date()) + finished_testing();
   }
 
-  static std::string finished_testing() {
-    return fmt::format("# {}: Finished testing\n", irace_date());
-  }
+  std::string finished_testing() const { return fmt::format("# {}: Finished testing\n", date()); }
+
+  /// Of the results.
+  std::string date() const { return ended_.empty() ? irace_date() : ended_; }
 
   void print_whereabouts() {
     if (!place_.is_kept()) {
@@ -225,19 +260,30 @@ class ScenarioRun {
   Campaign campaign_;
   Scenario race_;
   TimePoint begin_ = SystemClock().now();
+  std::string ended_;  ///< the date at which a run ended that was over before
 };
 
 }  // namespace
 
+std::optional<Campaign> stored_campaign(const std::filesystem::path& file) {
+  std::error_code trouble;
+  if (!std::filesystem::exists(file, trouble)) return std::nullopt;
+  const auto store = StoreReader::open(file);
+  if (!store) return std::nullopt;
+  auto campaign = parse_campaign((*store)->campaign().file, file);
+  if (!campaign) return std::nullopt;
+  return std::move(*campaign);
+}
+
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   RunOptions options;
   options.keeps_store = store.is_kept();
-  options.workers = slots.workers.value_or(1);
-  if (slots.parallel) {
-    const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
-    options.workers = std::min(*options.workers, all);
-    options.slots = (all + *options.workers - 1) / *options.workers;
-  }
+  // All cores, unless a number is given; worker processes that were asked for have a core each.
+  const std::int64_t all = slots.parallel ? std::max<std::int64_t>(*slots.parallel, 1)
+                                          : slots.workers.value_or(usable_processors());
+  const std::int64_t workers = std::min(slots.workers.value_or(1), all);
+  options.workers = workers;
+  options.slots = (all + workers - 1) / workers;
   return options;
 }
 
@@ -252,6 +298,18 @@ std::unique_ptr<StoreReader> store_of(const Campaign& campaign) {
 bool may_begin(const Campaign& campaign) {
   std::error_code trouble;
   return !std::filesystem::exists(campaign.store, trouble) || store_of(campaign) != nullptr;
+}
+
+StorePlace place_beside(const std::filesystem::path& file, const std::string& ending,
+                        const std::function<Campaign(const StorePlace&)>& campaign_at) {
+  for (int number = 1;; ++number) {
+    auto place =
+        StorePlace::beside(file, number == 1 ? ending : fmt::format("{}-{}", ending, number));
+    Campaign campaign = campaign_at(place);
+    campaign.store = place.file();
+    // What cannot be read is no campaign's yet: who opens it to write says what is wrong.
+    if (may_begin(campaign) || !StoreReader::open(place.file())) return place;
+  }
 }
 
 ExitCode explain_end(Output& output, ExitCode ended, bool began, bool named) {
@@ -275,26 +333,17 @@ std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store) {
   return 1 + device() % static_cast<std::uint64_t>(kLargestSeed);
 }
 
-ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
-                      const IraceSlots& slots) {
-  return ScenarioRun(output, setup, store, campaign_of(setup, seed_of(setup, store)))
-      .run(run_options(slots, store));
+ExitCode run_campaign(Output& output, const IraceSetup& setup, const StorePlace& store,
+                      Campaign campaign, const IraceSlots& slots) {
+  return ScenarioRun(output, setup, store, std::move(campaign)).run(run_options(slots, store));
 }
 
-ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
-                   const StorePlace& store, const IraceSlots& slots) {
-  auto text = read_whole_file(file);
-  if (!text) return fail(output, ExitCode::Failed, text.error());
-  const auto configurations = parse_configurations_file({*text, file.string()}, setup.space);
-  if (!configurations) return fail(output, ExitCode::Failed, configurations.error());
+ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
+                      const IraceSlots& slots) {
   Campaign campaign = campaign_of(setup, seed_of(setup, store));
-  campaign.only_test = true;
-  campaign.race = {.max_experiments = 1};
-  campaign.repair.clear();
-  campaign.methods.front().configurations = std::move(*text);
-  // Nothing is run on these.
-  campaign.missions.front().instances.training = {"none"};
-  return ScenarioRun(output, setup, store, std::move(campaign)).run(run_options(slots, store));
+  campaign.store = store.file();
+  if (has_other_tests(campaign)) return test_elites(output, setup, store, slots);
+  return run_campaign(output, setup, store, std::move(campaign), slots);
 }
 
 }  // namespace swarmsmith::cli

@@ -25,7 +25,7 @@ Target target_of(const IraceSetup& setup) {
                 .batch_mode = batch_mode_of(setup.batchmode),
                 .prints_time = setup.race.max_time > 0,
                 .min_measurable_time = setup.race.min_measurable_time,
-                .debug_level = static_cast<int>(setup.debug_level)};
+                .debug_level = static_cast<int>(std::min<std::int64_t>(setup.debug_level, 3))};
   if (!setup.target_cmdline.empty()) target.command_line = setup.target_cmdline;
   return target;
 }

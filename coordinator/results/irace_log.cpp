@@ -178,7 +178,9 @@ void read_runs(Reader reader, const Known& known, IraceLog& log) {
                .cost = reader.number(row, "cost"),
                .time = reader.number(row, "time").value_or(0),
                .bound = reader.number(row, "bound").value_or(0)};
-    if (run.iteration < 1) reader.complain(row, "iterations count from 1");
+    if (run.iteration < 0) reader.complain(row, "iterations count from 0");
+    // The runs that estimate a time come before the first race (irace facts, 16), and count for it.
+    run.iteration = std::max<std::int64_t>(run.iteration, 1);
     log.runs.push_back(run);
   }
 }

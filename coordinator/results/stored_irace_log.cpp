@@ -287,9 +287,9 @@ Expected<void> Reading::read_values() {
                              return;
                            }
                            const std::size_t at = configurations_.at(number_of_candidate(cells[0]));
-                           const bool is_text = cells[2].type == Cell::Type::Text;
+                           const bool is_real = cells[2].type == Cell::Type::Real;
                            log_.configurations[at].values[place->second] =
-                               is_text ? cells[2].text : fmt::format("{:.15g}", cells[2].real());
+                               is_real ? fmt::format("{:.15g}", cells[2].real()) : cells[2].text;
                          });
   if (!read) return read;
   if (unknown) {

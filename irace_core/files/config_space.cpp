@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -5,6 +6,7 @@
 #include "irace_core/files/foreign_space.h"
 #include "irace_core/files/internal/foreign_builder.h"
 #include "irace_core/files/number_text.h"
+#include "irace_core/internal/check_parameter.h"
 
 namespace swarmsmith {
 namespace {
@@ -19,9 +21,10 @@ constexpr int kDeepest = 100;
 Expected<std::string> text_of(const Json& value, const std::string& where) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return std::string(value.get<bool>() ? "True" : "False");
+  if (value.is_null()) return std::string("None");
   if (value.is_number_integer()) return value.dump();
   if (value.is_number()) return shortest_text(value.get<double>());
-  return bad_input("expected a text, a number, true or false, found " + value.dump(), where);
+  return bad_input("expected a text, a number, true, false or null, found " + value.dump(), where);
 }
 
 Expected<std::string> text_at(const Json& object, const char* key, const std::string& where) {
@@ -145,7 +148,9 @@ Expected<void> ConfigSpaceReader::read_parameter(const Json& object, const std::
       *name, options_.aclib ? *name : "--" + *name + " ", std::move(*domain), {}, where};
   for (const char* key : {"default", "default_value", "value"}) {
     const auto found = object.find(key);
-    if (found == object.end() || found->is_null()) continue;
+    const auto choices = irace::choice_values(parameter.domain);
+    const bool has_none = std::ranges::find(choices, "None") != choices.end();
+    if (found == object.end() || (found->is_null() && !has_none)) continue;
     auto text = text_of(*found, where + "." + key);
     if (!text) return Unexpected(text.error());
     parameter.initial = std::move(*text);

@@ -39,6 +39,8 @@ std::error_code add_files(const fs::path& folder, std::vector<fs::path>& above,
 }  // namespace
 
 std::vector<std::string> parse_instances(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<std::string> instances;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find_first_of(kLineEnds), text.size());

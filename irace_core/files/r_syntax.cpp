@@ -286,6 +286,11 @@ Expected<Statement> Parser::statement() {
     if (auto moved = advance(); !moved) return Unexpected(moved.error());
     tree = expression(kLoosest);
     if (!tree) return Unexpected(tree.error());
+  } else if (token_.is("->")) {
+    if (auto moved = advance(); !moved) return Unexpected(moved.error());
+    if (token_.kind != TokenKind::Name) return found_instead_of("a name behind it");
+    statement.name = token_.text;
+    if (auto moved = advance(); !moved) return Unexpected(moved.error());
   }
   statement.value = std::move(tree->node);
   return statement;

@@ -57,6 +57,8 @@ class ScenarioReader {
   ScenarioReader(const fs::path& top, const ScenarioSurroundings& surroundings)
       : top_(top), surroundings_(surroundings) {
     environment_.environment_variable = surroundings.environment_variable;
+    environment_.folder = surroundings.folder.empty() ? top.parent_path() : surroundings.folder;
+    environment_.read = surroundings.read;
   }
 
   void read(std::string_view text, const fs::path& file) {
@@ -220,7 +222,8 @@ IraceScenarioFileOrErrors read_irace_scenario(const fs::path& file) {
     const char* value = std::getenv(name.c_str());
     return value == nullptr ? std::nullopt : std::optional<std::string>(value);
   };
-  return parse_irace_scenario(*text, file, {read_whole_file, variable});
+  std::error_code none;
+  return parse_irace_scenario(*text, file, {read_whole_file, variable, fs::current_path(none)});
 }
 
 }  // namespace swarmsmith

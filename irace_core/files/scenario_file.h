@@ -25,6 +25,8 @@ struct ScenarioSurroundings {
   std::function<Expected<std::string>(const std::filesystem::path&)> read;
   /// Nothing for an environment variable that is not set.
   std::function<std::optional<std::string>(const std::string& name)> environment_variable;
+  /// Where the process is (getwd); empty: where the scenario is.
+  std::filesystem::path folder{};
 };
 
 /// Reads a scenario (irace facts, 23.1): options and own variables (whose names begin with a dot),

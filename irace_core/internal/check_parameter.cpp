@@ -12,7 +12,7 @@ namespace {
 bool is_name(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '.';
+           c == '.' || static_cast<unsigned char>(c) >= 0x80;
   });
 }
 
@@ -123,7 +123,8 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
     if (whole && *bound != std::floor(*bound)) {
       return bad_input("the bound " + to_fixed_text(*bound) + " is not a whole number", name);
     }
-    if (auto checked = check_decimals(*bound, digits, name); !checked) return checked;
+    const auto checked = whole ? check_whole(*bound, name) : check_decimals(*bound, digits, name);
+    if (!checked) return checked;
   }
   if (lower != nullptr && upper != nullptr && *lower >= *upper) {
     return bad_input("the lower bound must be below the upper one", name);
@@ -132,6 +133,14 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
 }
 
 }  // namespace
+
+Expected<void> check_whole(double bound, const std::string& name) {
+  if (std::fabs(bound) <= kLargestWhole) return {};
+  return bad_input("the bound " + to_fixed_text(bound) +
+                       " is too large: whole numbers are exact up to " +
+                       to_fixed_text(kLargestWhole) + "; tune its logarithm instead",
+                   name);
+}
 
 int digits_needed(std::span<const Parameter> parameters, int digits) {
   for (const Parameter& parameter : parameters) {

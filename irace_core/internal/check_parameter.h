@@ -32,6 +32,9 @@ bool fits_digits(double bound, int digits);
 /// How many the constant bounds of all reals need, `digits` at least.
 int digits_needed(std::span<const Parameter> parameters, int digits);
 
+/// Whether a bound of an integer is one that doubles hold exactly, with all below it.
+Expected<void> check_whole(double bound, const std::string& name);
+
 /// What can be said of a bound parameter alone: its name, its values or its constant bounds.
 Expected<void> check_parameter(const Parameter& parameter, int digits);
 

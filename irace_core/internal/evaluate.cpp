@@ -253,8 +253,9 @@ std::optional<Sequence> sequence(const Values& from, const Values& to) {
   const Scalar last = convert(to[0], Type::Real);
   const double width = std::fabs(first.number - last.number);
   if (first.missing || last.missing || !std::isfinite(width)) return std::nullopt;
+  const double largest = std::max(std::fabs(first.number), std::fabs(last.number));
   return Sequence{first.number, first.number <= last.number ? 1.0 : -1.0, std::floor(width + 1e-10),
-                  first.number == std::floor(first.number)};
+                  first.number == std::floor(first.number) && largest <= irace::kLargestInteger};
 }
 
 Values range(const Values& from, const Values& to) {

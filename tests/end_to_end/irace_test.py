@@ -146,9 +146,31 @@ class Usual(Irace):
     def test_a_finished_store_prints_the_report_again(self):
         first = self.irace()
         made = len(self.calls())
+        self.assertNotIn("Nothing was run", first.stdout)
+        # Another target: what was found with the old one is told as such.
+        self.write_runner("echo 1")
+        with sqlite3.connect(self.folder / "irace.db") as store:
+            store.execute("UPDATE campaign SET finished = '2024-02-03T12:00:00.123Z'")
         again = self.irace()
         self.assertEqual(self.best_lines(first.stdout), self.best_lines(again.stdout))
         self.assertEqual(len(self.calls()), made)
+        self.assertRegex(again.stdout, r"(?m)^# Nothing was run: these are the results of 2024-02-0\d \d\d:00:00 \S+, "
+                                       r"which .*/irace\.db holds\. Move that file away")
+        told = self.irace("--json")
+        self.assertIn("Nothing was run: these are the results of 2024-02-0", told.stderr)
+        self.assertEqual(json.loads(told.stdout.splitlines()[-1])["event"], "done")
+        # What an extension runs is no old result.
+        self.assertEqual(call("extend", self.folder / "irace.db", "d1", "--budget", "60").returncode, 0)
+        self.assertNotIn("Nothing was run", self.irace().stdout)
+        self.assertGreater(len(self.calls()), made)
+
+    def test_calls_run_on_all_cores_unless_a_number_is_given(self):
+        self.assertEqual(call("import", "scenario.txt", "-o", "campaign.toml", cwd=self.folder).returncode, 0)
+        cores = json.loads(call("check", "campaign.toml", "--json", cwd=self.folder).stdout)["slots"]
+        for words, slots in (((), cores), (("--parallel", "3"), 3), (("--workers", "1"), 1)):
+            done = self.irace("--json", "--log-file=", *words)
+            events = [json.loads(line) for line in done.stdout.splitlines()]
+            self.assertEqual({event["slots"] for event in events if event["event"] == "worker"}, {slots}, words)
 
     def test_without_a_seed_the_store_keeps_one(self):
         self.write_scenario(seed="")
@@ -372,6 +394,19 @@ class Parts(Irace):
         self.write_runner("echo oops")
         self.assertIn("oops", self.irace("--check", code=1).stderr)
 
+    def test_debug_level_2_shows_each_call_and_what_came_of_it(self):
+        done = self.irace("--debug-level", "2", "--log-file=")
+        shown = re.findall(r"(?m)^# [-0-9]+ [:0-9]+ \S+: \S*/target-runner (.*)\n"
+                           r"# .*: DONE \(\d+\) Elapsed wall-clock seconds: \d+\.\d\d\n\d+$", done.stdout)
+        self.assertEqual(sorted(re.sub(" +", " ", words) for words in shown), sorted(self.calls()))
+        self.assertGreater(len(shown), 90)
+        self.assertNotIn("Results for the race", done.stdout)
+        # The highest one of R, and what is above it.
+        more = self.irace("--debug-level", "5", "--log-file=").stdout
+        self.assertEqual(more.count("DONE ("), len(shown))
+        self.assertIn(": Results for the race of iteration 1 (from best to worst, according to the sum of ranks):", more)
+        self.assertNotIn("DONE (", self.irace("--log-file=").stdout)
+
     def test_init_writes_what_runs(self):
         folder = self.folder / "new"
         folder.mkdir()
@@ -405,6 +440,21 @@ class Parts(Irace):
         again = self.irace("--only-test", "two.txt")
         self.assertEqual(len(self.calls()), 12)
         self.assertIn(table[1], again.stdout)
+        self.assertRegex(again.stdout, "# Nothing was run: .*irace-test.db")
+        # Another file, and other instances, are tested for themselves, with the same seeds; the first is kept.
+        (self.folder / "one.txt").write_text("x mode y\n30 slow NA\n")
+        done = self.irace("--only-test", "one.txt")
+        self.assertIn("irace-test-2.db", done.stderr)
+        self.assertEqual(len(self.calls()), 18)
+        self.assertEqual({line.split()[2] for line in self.calls()[12:]}, {line.split()[2] for line in self.calls()[:12]})
+        (self.folder / "Tests" / "i7").write_text("7\n")
+        self.irace("--only-test", "two.txt")
+        self.assertEqual(len(self.calls()), 32)
+        self.assertTrue((self.folder / "irace-test-3.db").exists())
+        (self.folder / "Tests" / "i7").unlink()
+        for name, words in (("irace-test.db", ("two.txt",)), ("irace-test-2.db", ("one.txt",))):
+            self.assertRegex(self.irace("--only-test", *words).stdout, "# Nothing was run: .*" + name)
+        self.assertEqual(len(self.calls()), 32)
         (self.folder / "irace-test.db").unlink()
         done = self.irace("--only-test", "two.txt", "--json")
         tests = json.loads(done.stdout.splitlines()[-1])["tests"]
@@ -429,6 +479,27 @@ class Variants(Irace):
         self.assertRegex(table[2], r"^1t +\d+")
         tests = [line for line in self.calls() if "/Tests/" in line]
         self.assertEqual(len(tests), 6 * len(table[1].split()))
+
+    def test_other_test_instances_of_a_finished_run_are_tests_of_its_winners(self):
+        best = self.best_lines(self.runs())[0].split("  ", 1)[1].strip()
+        made, digest = len(self.calls()), self.digest()
+        self.write_scenario(testInstancesDir="Tests", testNbElites=2)
+        done = self.irace()
+        tests = self.calls()[made:]
+        self.assertEqual({line.split()[1] for line in tests}, {f"{number}t" for number in range(1, 7)})
+        self.assertIn("# 1 here is configuration ", done.stdout)
+        self.assertIn(best, {line.split(" ", 4)[4] for line in tests if line.startswith("1 ")})
+        self.assertEqual(self.digest(), digest)
+        self.assert_clean("irace-test.db")
+        # The same command again, and one with more instances.
+        self.assertRegex(self.irace().stdout, "# Nothing was run: .*irace-test.db")
+        (self.folder / "Tests" / "i7").write_text("7\n")
+        self.irace("--test-num-elites", "1")
+        more = self.calls()[made + len(tests):]
+        self.assertEqual(len(more), 7)
+        # With the seeds that were drawn for those that are in both.
+        self.assertEqual([line.split()[1:3] for line in sorted(more)][:6],
+                         [line.split()[1:3] for line in sorted(tests) if line.startswith("1 ")])
 
     def test_races_without_elites_that_are_kept(self):
         self.assertIn("# Non-elitist race\n", self.runs(elitist=0, maxExperiments=300))
@@ -542,19 +613,16 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.assertEqual(self.best_lines(self.irace(*words).stdout), lines)
         self.assertEqual(len(self.calls()), made + len(again))
         # Those that are named.
-        done = self.irace("--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "30",
-                          "--log-file", "irace.db", code=1)
-        self.assertIn("irace-psrace.db", done.stderr)
-        (self.folder / "irace-psrace.db").unlink()
         done = self.irace("--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "30")
+        self.assertIn("irace-psrace-2.db", done.stderr)
+        self.assertRegex(self.irace(*words).stdout, "# Nothing was run: .*irace-psrace.db")
         self.assertIn("# 2 here is configuration 5 of the run", done.stdout)
         self.assertIn("no configuration 999", self.irace(
             "--psrace", "--psrace-ids", "2,999", "--psrace-max-experiments", "30", code=1).stderr)
         self.assertIn("--psrace-max-experiments: a budget of 3", self.irace(
             "--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "3", code=1).stderr)
-        (self.folder / "irace-psrace.db").unlink()
         self.irace("--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "0.2")
-        with sqlite3.connect(self.folder / "irace-psrace.db") as store:
+        with sqlite3.connect(self.folder / "irace-psrace-3.db") as store:
             self.assertEqual(store.execute("SELECT budget FROM design").fetchall(), [(36,)])
         for budget in ("1.5", "-3", "0", "nan", "inf", "many", "60x"):
             self.assertIn("--psrace-max-experiments: is a whole number", self.irace(
@@ -637,7 +705,7 @@ configuration,step,on_path,changed,pair,instance,seed,cost
 
         def ablate(*words, code=0):
             done = self.irace("--ablation", "--ablation-csv", "ablation.csv", *words, code=code)
-            return re.sub(r"# 20[-0-9]+ [:0-9]+ \w+:", "# DATE:", done.stdout)
+            return re.sub(r"# 20[-0-9]+ [:0-9]+ \w+:", "# DATE:", re.sub(r"# Nothing was run: .*\n", "", done.stdout))
 
         self.assertEqual(ablate(), self.ABLATION)
         self.assertTrue((self.folder / "ablation.csv").read_text().startswith(self.ABLATION_CSV))
@@ -683,17 +751,33 @@ configuration,step,on_path,changed,pair,instance,seed,cost
         self.assertEqual(self.digest("there.db"), reference)
         self.assertEqual(len(self.calls()) - made, 20)
 
-    def test_an_ablation_of_another_run_is_refused(self):
+    def test_an_ablation_of_another_run_is_kept_beside_the_first(self):
         self.irace()
         self.irace("--ablation")
         made = len(self.calls())
         (self.folder / "irace.db").unlink()
         self.irace("--seed", "7")
-        done = self.irace("--ablation", "--seed", "7", code=1)
-        self.assertIn("irace-ablation.db", done.stderr)
-        self.assertIn("move it away", done.stderr)
-        self.assertNotIn("# Source", done.stdout)
+        before = (self.folder / "irace-ablation.db").read_bytes()
+        done = self.irace("--ablation", "--seed", "7")
+        self.assertIn("irace-ablation-2.db", done.stderr)
+        self.assertIn("# Source", done.stdout)
         self.assertGreater(len(self.calls()), made)
+        self.assertEqual((self.folder / "irace-ablation.db").read_bytes(), before)
+
+    def test_ablation_takes_configurations_from_files_and_the_switches_of_r(self):
+        (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+        (self.folder / "last.txt").write_text("x mode y\n30 slow NA\n")
+        (self.folder / "two.txt").write_text("x mode y\n30 slow NA\n31 slow NA\n")
+        self.irace()
+        done = self.irace("ablation", "-l", "irace.Rdata", "-S", "first.txt", "--target=last.txt", "-n", "1")
+        self.assertIn("Starting ablation from first.txt to last.txt", done.stdout)
+        self.assertIn("# Step 1: x: 90 -> 30\n", done.stdout)
+        self.assertTrue((self.folder / "irace-ablation-x1-from-first-to-last.db").exists())
+        self.assertIn("irace-ablation-from1-to-last.db", self.irace("ablation", "-S", "1", "-T", "last.txt").stderr)
+        self.assertIn("has 2 configurations, and --ablation-target wants one", self.irace("ablation", "-T", "two.txt", code=1).stderr)
+        self.assertIn("a file with one", self.irace("ablation", "-T", "none.txt", code=1).stderr)
+        for words, advice in ((("-o", "log.Rdata"), "--ablation-csv"), (("--plot", "x.pdf"), "--ablation-csv"), (("-P", "x"), "leave it out")):
+            self.assertIn(advice, self.irace("ablation", *words, code=1).stderr)
 
     def test_ablation_destroys_nothing_and_loses_nothing(self):
         (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")

@@ -1,6 +1,8 @@
 """irace for a Python function: ask and tell by the Python module."""
+import importlib.util
 import json
 import math
+import multiprocessing
 import os
 import pathlib
 import signal
@@ -9,6 +11,7 @@ import sys
 import tempfile
 import time
 import unittest
+import warnings
 
 from programs import call
 
@@ -16,6 +19,7 @@ SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 MODULE = SOURCE / "analysis" / "python"
 sys.path.insert(0, str(MODULE))
 import swarmsmith  # noqa: E402
+import swarmsmith_space  # noqa: E402
 
 SPACE = {"x": swarmsmith.Real(0, 1), "m": [None, (1, 2)], "size": swarmsmith.Ordinal(["small", "large"]),
          "n": swarmsmith.Integer(1, 50, log=True, when='m == "None"')}
@@ -38,6 +42,62 @@ print(best[0]["configuration"]["x"])
 def cost(trial):
     values = trial.configuration
     return (values["x"] - 0.3) ** 2 + (0.1 * abs(values["n"] - 4) if values["m"] is None else 3)
+
+
+class SpaceTest(unittest.TestCase):
+    """What Python writes, without a run."""
+
+    def lines(self, space):
+        return list(swarmsmith_space.Space(space).parameter_lines())
+
+    def refusal(self, space, kind=swarmsmith.SpaceError):
+        with self.assertRaises(kind) as raised:
+            swarmsmith_space.Space(space)
+        return str(raised.exception)
+
+    def test_a_tuple_of_two_numbers_is_a_range_and_a_list_a_choice(self):
+        self.assertEqual(self.lines({"x": (0.0, 1.0), "n": (1, 8), "m": (0, 0.5), "c": [0.0, 1.0], "d": ("a", "b"), "e": (1, 2, 3)}),
+                         ['x "x=" r (0.0, 1.0)', 'n "n=" i (1, 8)', 'm "m=" r (0.0, 0.5)', 'c "c=" c ("0.0", "1.0")',
+                          'd "d=" c ("a", "b")', 'e "e=" c ("1", "2", "3")'])
+        for domain in ("ab", 3, None, {"a": 1}):
+            self.assertIn("a tuple of two numbers is a range, a list is a choice", self.refusal({"x": domain}))
+        self.assertIn("x: the lower end of a range must be below the upper one", self.refusal({"x": (1, 0)}))
+        for call in (lambda: swarmsmith.Real(0, 1, log=True), lambda: swarmsmith.Integer(1.5, 3), lambda: swarmsmith.Real(0, math.inf),
+                     lambda: swarmsmith.Real("0.5", None), lambda: swarmsmith.Categorical([])):
+            self.assertRaises(swarmsmith.SpaceError, call)
+            self.assertRaises(ValueError, call)
+
+    def test_any_name_is_one(self):
+        space = swarmsmith_space.Space({"learning-rate": (0.1, 1.0), "_k": ["a b"], "größe 2": (1, 3), "x.y_1": (1, 3)})
+        self.assertEqual(list(space.names), ["learning_rate", "p_k", "gr__e_2", "x.y_1"])
+        self.assertEqual(space.values({"learning_rate": "0.5", "p_k": "a_b", "gr__e_2": None}), {"learning-rate": 0.5, "_k": "a b"})
+        self.assertEqual(space.expression("`learning-rate` > 0.5 & `_k` == 'a_b'"), "learning_rate > 0.5 & p_k == 'a_b'")
+        with self.assertRaisesRegex(swarmsmith.SpaceError, "did you mean 'learning-rate'"):
+            space.expression("`learning-rat` > 0.5")
+        self.assertIn("'a-b' and 'a_b' are both a_b", self.refusal({"a-b": (0, 1), "a_b": (0, 1)}))
+        self.assertIn("must be a text", self.refusal({3: (0, 1)}))
+
+    def test_digits_fit_the_space(self):
+        for domain, digits in (((0.0, 1.0), 4), ((0.0, 0.5), 4), ((0.0, 0.001), 6), ((0.123456, 2.0), 6), ((-1e6, 1e6), 4),
+                               (swarmsmith.Real(1e-4, 1, log=True), 7), (swarmsmith.Real(1e-6, 1, log=True), 9),
+                               (swarmsmith.Real(10, 1000, log=True), 4)):
+            self.assertEqual(swarmsmith_space.Space({"x": domain}).digits(), digits, domain)
+        with self.assertRaisesRegex(swarmsmith.SpaceError, "x: it needs 23 decimals, and irace has 15: tune its logarithm"):
+            swarmsmith_space.Space({"x": swarmsmith.Real(1e-20, 1, log=True)}).digits()
+
+    def test_whole_numbers_are_exact_or_refused(self):
+        large = swarmsmith.Integer(0, 2**53 - 1)
+        self.assertEqual(large.value(large.text(2**53 - 1)), 2**53 - 1)
+        self.assertIn("exact up to 9007199254740991", self.refusal({"x": (0, 2**53)}))
+
+    def test_configurations_are_checked(self):
+        space = swarmsmith_space.Space({"x": (0.0, 1.0), "m": ["a", None]})
+        self.assertEqual(space.configuration_line({"m": None, "x": 1}), '1.0 "None"')
+        for configuration, sentence in (({"y": 1}, "'y' is no parameter of the space: it has x, m"), ({"xx": 1}, "did you mean 'x'"),
+                                        ({"x": 2}, "x: 2 is not between 0.0 and 1.0"), ({"x": "a"}, "x: .* a number"),
+                                        ({"m": "b"}, "m: 'b' is none of its values")):
+            with self.assertRaisesRegex(swarmsmith.SpaceError, sentence):
+                space.configuration_line(configuration)
 
 
 class TunerTest(unittest.TestCase):
@@ -69,9 +129,19 @@ class TunerTest(unittest.TestCase):
         self.assertEqual(call("verify", self.store).returncode, 0)
         # Over: nothing is asked again.
         made = len(trials)
-        again = swarmsmith.tune(counted, SPACE, store=self.store, instances=["one", {"two": 2}],
-                                initial=[{"x": 0.5, "m": (1, 2), "size": "large"}], forbidden=["x > 0.9"], **OPTIONS)
+        with self.assertWarnsRegex(UserWarning, "nothing was run: these are the results that .*x.db holds"):
+            again = swarmsmith.tune(counted, SPACE, store=self.store, instances=["one", {"two": 2}],
+                                    initial=[{"x": 0.5, "m": (1, 2), "size": "large"}], forbidden=["x > 0.9"], **OPTIONS)
         self.assertEqual((again, len(trials)), (best, made))
+        # All that was run, as rows.
+        self.assertEqual(len(best.trials), made)
+        seen = {(str(trial.configuration), str(trial.instance), trial.seed): cost(trial) for trial in trials}
+        for row in best.trials:
+            self.assertAlmostEqual(row["cost"], seen[str(row["configuration"]), str(row["instance"]), row["seed"]], 12)
+        self.assertEqual(again.trials, best.trials)
+        if importlib.util.find_spec("pandas"):
+            self.assertEqual(list(best.trials_frame()["x"]), [row["configuration"]["x"] for row in best.trials])
+            self.assertIn("size", best.frame().columns)
 
     def test_several_at_a_time_give_the_same(self):
         most = 0
@@ -87,6 +157,74 @@ class TunerTest(unittest.TestCase):
             best = tuner.best
         self.assertLessEqual(most, 4)
         self.assertEqual(best, swarmsmith.tune(cost, SPACE, **OPTIONS))
+
+    def test_jobs_evaluate_at_a_time_and_give_the_same(self):
+        # Nobody goes on before four are there, which one at a time could not be.
+        meet, met = multiprocessing.Barrier(4), multiprocessing.Value("i", 0)
+
+        def waits(trial):
+            with met.get_lock():
+                met.value += 1
+                first = met.value <= 4
+            if first:
+                meet.wait(timeout=100)
+            return cost_of_x(trial)
+
+        def cost_of_x(trial):
+            return abs(trial.configuration["x"] - 0.3), 0.5
+        told = []
+        space, options = {"x": (0.0, 1.0)}, {"max_experiments": 72, "seed": 3, "first_test": 2, "mu": 2}
+        best = swarmsmith.tune(waits, space, n_jobs=4, progress=told.append, **options)
+        self.assertEqual(best, swarmsmith.tune(cost_of_x, space, progress=False, **options))
+        self.assertEqual(told[-1].budget, 72)
+        self.assertGreaterEqual(told[-1].trials, len(best.trials))
+        self.assertAlmostEqual(told[-1].best, best[0]["value"], 6)
+        self.assertEqual({row["time"] for row in best.trials}, {0.5})
+        # The other direction.
+        most = swarmsmith.tune(lambda trial: (-cost_of_x(trial)[0], 0.5), space, direction="maximize", **options)
+        self.assertEqual([(one["id"], one["value"], one["cost"]) for one in most],
+                         [(one["id"], -one["value"], one["value"]) for one in best])
+
+    def test_a_job_that_fails_or_is_killed_ends_the_run(self):
+        def breaks(trial):
+            raise ZeroDivisionError("of mine")
+
+        def dies(trial):
+            os.kill(os.getpid(), signal.SIGKILL)
+        with self.assertRaisesRegex(ZeroDivisionError, "of mine") as raised:
+            swarmsmith.tune(breaks, SPACE, n_jobs=2, **OPTIONS)
+        self.assertIn("in breaks", str(raised.exception.__cause__))
+        with self.assertRaisesRegex(swarmsmith.Error, "was killed"):
+            swarmsmith.tune(dies, SPACE, n_jobs=2, **OPTIONS)
+        for answer in (None, "0.5", math.nan, [1]):
+            for jobs in (1, 2):
+                with self.assertRaisesRegex(swarmsmith.CostError, r"the value of trial \d is"):
+                    swarmsmith.tune(lambda trial: answer, SPACE, n_jobs=jobs, **OPTIONS)
+
+    def test_jobs_end_with_their_process(self):
+        program = PROGRAM.replace("seed=1", "seed=1, n_jobs=3").replace("time.sleep(0.01)", "print(__import__('os').getpid(), "
+                                                                        "file=open('pids.txt', 'a')); time.sleep(600)")
+        first = subprocess.Popen([sys.executable, "-c", program], cwd=self.folder, env={**os.environ, "PYTHONPATH": str(MODULE)})
+        file = self.folder / "pids.txt"
+        while not file.exists() or len(file.read_text().split()) < 3:
+            self.assertIsNone(first.poll())
+            time.sleep(0.05)
+        first.kill()
+        first.wait()
+        for pid in file.read_text().split():
+            deadline = time.monotonic() + 60
+            while pathlib.Path("/proc", pid).exists() and "Z" not in pathlib.Path("/proc", pid, "stat").read_text().split(")")[1][:3]:
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.05)
+
+    def test_a_store_of_earlier_digits_goes_on(self):
+        space = {"x": swarmsmith.Real(1e-4, 1, log=True)}
+        function = lambda trial: abs(math.log10(trial.configuration["x"]) + 2)  # noqa: E731
+        options = {"max_experiments": 72, "seed": 3, "first_test": 2, "mu": 2, "store": self.store}
+        best = swarmsmith.tune(function, space, digits=4, **options)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertEqual(swarmsmith.tune(function, space, **options), best)
 
     def test_an_exception_ends_the_run_and_the_same_call_goes_on(self):
         made = []
@@ -127,7 +265,7 @@ class TunerTest(unittest.TestCase):
         self.assertIsNone(best[0]["configuration"]["m"])
         with swarmsmith.Tuner(SPACE, **OPTIONS) as tuner:
             trial = tuner.ask()[0]
-            with self.assertRaisesRegex(swarmsmith.Error, "not a number"):
+            with self.assertRaisesRegex(swarmsmith.CostError, "not a number"):
                 tuner.tell(trial.id, math.nan)
             tuner.fail(trial.id, "out of memory")
             with self.assertRaisesRegex(swarmsmith.Error, "told already"):
@@ -136,13 +274,43 @@ class TunerTest(unittest.TestCase):
                 tuner.ask()
 
     def test_what_is_wrong_is_said(self):
-        for space, options, sentence in (({"a b": [1]}, {}, "no name of a parameter"),
-                                         ({"a": ["x y", "x,y"]}, {}, "written alike"),
-                                         (SPACE, {**OPTIONS, "test_instances": ["a"]}, "has no effect here"),
-                                         (SPACE, {"max_experiments": 10}, "too small"),
-                                         (SPACE, {**OPTIONS, "frist_test": 3}, "firstTest")):
-            with self.assertRaisesRegex(swarmsmith.Error, sentence):
-                swarmsmith.tune(cost, space, **options)
+        names, options = {"learning-rate": (0.1, 1.0), "k": swarmsmith.Integer(1, 3, when="`learning-rate` > 0.5")}, OPTIONS
+        wrong_space, wrong_option = swarmsmith.SpaceError, swarmsmith.OptionError
+        for kind, space, more, sentence in (
+                (wrong_space, {"a b": [1], "a_b": [2]}, {}, "are both a_b for irace"),
+                (wrong_space, {"a": ["x y", "x,y"]}, {}, "written alike"),
+                (wrong_option, SPACE, {"test_instances": ["a"]}, "has no effect here"),
+                (wrong_option, SPACE, {"max_experiments": 10}, "^max_experiments: a budget of 10 experiments is too small"),
+                (wrong_option, SPACE, {"frist_test": 3}, '^frist_test: .*did you mean "first_test"'),
+                (wrong_option, SPACE, {"seed": "one"}, "^seed: "),
+                (wrong_option, SPACE, {"direction": "up"}, "direction"),
+                (wrong_option, SPACE, {"n_jobs": 0}, "n_jobs"),
+                (wrong_space, SPACE, {"initial": [{"x": 0.5, "y": 1}]}, r"^initial\[0\]: 'y' is no parameter"),
+                (wrong_space, names, {"initial": [{"learning-rate": 0.6}]}, r"^initial\[0\]: .*'k'"),
+                (wrong_space, names, {"forbidden": ["k > ["]}, r"^forbidden: k > \[: found"),
+                (wrong_space, {"x": (0, 1), "y": swarmsmith.Real(0, 1, when="z > 3")}, {}, "^space: y: there is no parameter 'z'")):
+            with self.subTest(sentence), self.assertRaisesRegex(kind, sentence) as raised:
+                swarmsmith.tune(cost, space, **{**options, **more})
+            self.assertNotRegex(str(raised.exception), r"\.txt|[a-z][A-Z]")
+        with self.assertRaisesRegex(swarmsmith.Error, "SWARMSMITH_BIN"):
+            swarmsmith.tune(cost, SPACE, program="/nowhere/swarmsmith", **OPTIONS)
+
+    def test_whole_numbers_beyond_those_of_r_are_kept(self):
+        space = {"n": (0, 2**53 - 1), "m": swarmsmith.Integer(1, 9, when="n > 3e9")}
+        seen = []
+        best = swarmsmith.tune(lambda trial: seen.append(trial.configuration) or abs(trial.configuration["n"] - 5e15) / 1e15, space,
+                               max_experiments=96, seed=3, first_test=2, mu=2, store=self.store)
+        self.assertIn(best[0]["configuration"], seen)
+        self.assertGreater(best[0]["configuration"]["n"], 2**50)
+        self.assertTrue(all(("m" in one) == (one["n"] > 3e9) for one in seen))
+        with swarmsmith.Store(self.store) as store:
+            kept = {row["value"] for row in store.query("SELECT value FROM v_parameters WHERE parameter = 'n'")}
+        self.assertEqual(kept, {one["n"] for one in seen})
+
+    def test_none_leaves_an_option_out(self):
+        space = {"x": (0.0, 1.0)}
+        swarmsmith.tune(lambda trial: trial.configuration["x"], space, max_experiments=72, first_test=2, mu=2, seed=None,
+                        confidence=None, instances=None, initial=None)
 
     def test_over_a_pipe(self):
         process = subprocess.Popen([sys.executable, "-m", "swarmsmith"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,

@@ -68,11 +68,26 @@ TEST(Expression, WritesNumbersInTheShorterNotation) {
   EXPECT_EQ(to_text(Scalar{}), "NA");
 }
 
+TEST(Expression, AWholeNumberBeyondThoseOfRIsNoMissingValue) {
+  const Expression largest = Expression::integer(2147483647);
+  EXPECT_EQ(value(call(Add, largest, Expression::integer(1))).number, 2147483648);
+  EXPECT_EQ(value(call(Multiply, largest, largest)).number, 2147483647.0 * 2147483647);
+  EXPECT_EQ(value(call(AsInteger, number(5e9))).number, 5e9);
+  const Scalar large[] = {Scalar::integer(5e9)};
+  Expression condition = call(Greater, name("n"), number(3e9));
+  const std::string names[] = {"n"};
+  ASSERT_TRUE(condition.bind(names));
+  EXPECT_TRUE(condition.is_true(large));
+  Expression in = call(In, name("n"), call(Range, number(4999999999), number(5000000001)));
+  ASSERT_TRUE(in.bind(names));
+  EXPECT_TRUE(in.is_true(large));
+  EXPECT_TRUE(Scalar::integer(HUGE_VAL).missing);
+}
+
 TEST(Expression, CalculatesAsRDoes) {
   EXPECT_EQ(value(call(Power, number(2), negate_of(2))).number, 0.25);
   EXPECT_EQ(value(call(Modulo, number(5.5), number(2))).number, 1.5);
   EXPECT_TRUE(value(call(Modulo, Expression::integer(5), Expression::integer(0))).missing);
-  EXPECT_TRUE(value(call(Add, Expression::integer(2147483647), Expression::integer(1))).missing);
   EXPECT_TRUE(value(call(Add, text("1"), number(1))).missing);
   EXPECT_EQ(value(call(Round, number(2.345), number(1))).number, 2.3);
   EXPECT_EQ(value(call(Log, number(8), number(2))).number, 3);

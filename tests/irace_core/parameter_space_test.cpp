@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "irace_core/internal/rounding.h"
 #include "tests/irace_core/spaces.h"
 
 namespace swarmsmith {
@@ -88,6 +89,28 @@ TEST(ParameterSpace, EvaluatesDependentDomainsWithWhatTheyDependOn) {
   EXPECT_EQ(space.interval(1, values).value(), std::nullopt);  // n is not set
   values.set(0, 5);
   EXPECT_EQ(space.interval(1, values).value(), (Interval{0, 2}));  // truncated
+}
+
+TEST(ParameterSpace, IntegersAreExactUpTo53BitsAndRefusedBeyond) {
+  const ParameterSpace space = space_of(
+      {make_integer("n", 0, irace::kLargestWhole),
+       active_when(make_real("r", 0, 1), call(Operation::Greater, name("n"), number(3e9)))});
+  EXPECT_EQ(to_fixed_text(space.scalar(0, irace::kLargestWhole).number), "9007199254740991");
+  Assignment values(space);
+  values.set(0, 5e9);
+  EXPECT_TRUE(space.is_active(1, values));
+  EXPECT_THAT(
+      refusal({make_integer("n", 0, 18446744073709551615.0)}),
+      HasSubstr("the bound 18446744073709551616 is too large: whole numbers are exact up to "
+                "9007199254740991"));
+  const ParameterSpace product =
+      space_of({make_integer("n", 1, 1e10),
+                {"m", "", Integer{0.0, call(Operation::Multiply, name("n"), name("n"))}, {}}});
+  Assignment factors(product);
+  factors.set(0, 1e5);
+  EXPECT_EQ(product.interval(1, factors).value(), (Interval{0, 1e10}));
+  factors.set(0, 1e10);
+  EXPECT_THAT(product.interval(1, factors).error().message, HasSubstr("is too large"));
 }
 
 TEST(ParameterSpace, TabulatedConditionsAgreeWithTheirExpression) {

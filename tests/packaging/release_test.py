@@ -26,7 +26,8 @@ case $1 in
     echo "$version" >build/packages/swarmsmith_${version}_amd64.deb
     for name in z a b/c; do echo "$version" >build/manual/$name; done
     ;;
-  bundle) mkdir build/bundle; echo "$version" >build/bundle/swarmsmith-worker-$version-x86_64.tar.xz ;;
+  bundle) mkdir build/bundle; echo "$version" >build/bundle/swarmsmith-worker-$version-x86_64.tar.xz
+    echo "$version" >build/bundle/swarmsmith-$version-py3-none-manylinux1_x86_64.whl ;;
 esac
 """
 
@@ -82,7 +83,8 @@ class Release(unittest.TestCase):
         done = self.release("0.2.0")
         self.assertEqual(done.returncode, 0, done.stderr)
         files = self.made("0.2.0")
-        self.assertEqual(sorted(files), ["swarmsmith-0.2.0.tar.xz", "swarmsmith-manual-0.2.0.tar.xz",
+        self.assertEqual(sorted(files), ["swarmsmith-0.2.0-py3-none-manylinux1_x86_64.whl", "swarmsmith-0.2.0.tar.xz",
+                                         "swarmsmith-manual-0.2.0.tar.xz",
                                          "swarmsmith-worker-0.2.0-x86_64.tar.xz", "swarmsmith_0.2.0_amd64.deb"])
         self.assertEqual(files["swarmsmith_0.2.0_amd64.deb"], b"0.2.0\n")
         self.assertEqual(self.git("rev-parse", "HEAD^"), before)

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "base/process/guard.h"
@@ -114,11 +116,22 @@ std::vector<char*> argument_pointers(const std::vector<std::string>& words) {
   return pointers;
 }
 
+/// Whether the first line ends as Windows has it: the system then looks for a program of such a
+/// name.
+bool first_line_ends_with_cr(const std::string& program) {
+  std::ifstream file(program, std::ios::binary);
+  std::array<char, 256> begin{};
+  file.getline(begin.data(), begin.size());
+  return std::string_view(begin.data()).ends_with('\r');
+}
+
 Unexpected cannot(const std::string& program, const Birth& birth) {
   const std::string step = birth.step;
   std::string why = std::strerror(birth.error);
   if (birth.error == ENOENT && step.empty() && access(program.c_str(), F_OK) == 0) {
-    why = "the program that its first line (#!) names does not exist";
+    why = first_line_ends_with_cr(program)
+              ? "its lines end as on Windows, with a carriage return: convert it (dos2unix)"
+              : "the program that its first line (#!) names does not exist";
   } else if (birth.error == EACCES && step.empty() && access(program.c_str(), X_OK) != 0) {
     why = "it is not executable (chmod +x)";
   } else if (birth.error == E2BIG) {

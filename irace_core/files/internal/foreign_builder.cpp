@@ -14,6 +14,7 @@ namespace swarmsmith::irace {
 namespace {
 
 constexpr int kMostDigits = 15;
+constexpr int kRenamedTold = 3;  ///< one by one; hundreds of names may be like that
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -97,8 +98,11 @@ Expected<void> ForeignBuilder::add(ForeignParameter parameter) {
                      parameter.where);
   }
   if (name != parameter.name) {
-    warn(parameter.where, "'" + parameter.name + "' is called '" + name +
-                              "' here, as irace's names are; the switch keeps the name");
+    if (++renamed_ <= kRenamedTold) {
+      warn(parameter.where, "'" + parameter.name + "' is called '" + name +
+                                "' here, as irace's names are; the switch keeps the name");
+    }
+    last_renamed_ = warnings_.size();
   }
   by_name_.emplace(parameter.name, known_.size());
   known_.push_back({std::move(parameter), std::move(name), {}});
@@ -235,6 +239,12 @@ Expected<ForeignSpace> ForeignBuilder::build(const ForeignSpaceOptions& options)
   if (!text) return Unexpected(placed(std::move(text.error())));
   if (auto again = parse_parameter_file({.parameters = {*text, "the converted file"}}); !again) {
     return Unexpected(again.error());
+  }
+  if (const int more = renamed_ - kRenamedTold; more > 0) {
+    warnings_.insert(warnings_.begin() + static_cast<std::ptrdiff_t>(last_renamed_),
+                     file_ + ": " + std::to_string(more) +
+                         (more == 1 ? " more name is" : " more names are") +
+                         " changed like this; --check prints them all");
   }
   auto initial = defaults(*space);
   if (!initial) return Unexpected(initial.error());

@@ -59,6 +59,8 @@ class ForeignBuilder {
   std::map<std::string, std::size_t> by_name_;  ///< the file's
   std::vector<Expression> forbidden_;
   std::vector<std::string> warnings_;
+  int renamed_ = 0;               ///< names that irace cannot have
+  std::size_t last_renamed_ = 0;  ///< warnings when the last one came
 };
 
 }  // namespace swarmsmith::irace

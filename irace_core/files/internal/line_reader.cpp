@@ -44,10 +44,13 @@ std::string_view LineReader::take_name() {
   const std::size_t first = at_;
   const auto fits = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '.';
+           c == '.' || static_cast<unsigned char>(c) >= 0x80;
   };
-  while (!at_end() && fits(line_[at_]))
-    ++at_;
+  while (!at_end() && fits(line_[at_])) {
+    const std::size_t length = r::character_length(line_.substr(at_));
+    if (r::is_typographic(line_.substr(at_, length))) break;
+    at_ += length;
+  }
   return line_.substr(first, at_ - first);
 }
 

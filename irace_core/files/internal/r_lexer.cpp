@@ -14,11 +14,6 @@ bool is_name_byte(char c) {
          c == '.' || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Blanks, dashes and quotes that word processors put in place of plain ones.
-bool is_typographic(std::string_view character) {
-  return character == "\u00a0" || character == "\ufeff" || character.substr(0, 2) == "\xe2\x80";
-}
-
 std::string shortened(std::string_view text) {
   constexpr std::size_t kMost = 40;
   if (text.size() <= kMost) return std::string(text);
@@ -77,7 +72,8 @@ Expected<Token> Lexer::next() {
   if (rest_.empty()) return take(TokenKind::End, 0);
   const char c = rest_.front();
   if (c == '\n') return take(TokenKind::LineEnd, 1);
-  if (c == '"' || c == '\'') return quoted();
+  if (c == '"' || c == '\'') return quoted(read_text(rest_));
+  if (auto raw = read_raw_text(rest_)) return quoted(std::move(*raw));
   const NumberLiteral literal = read_number(rest_);
   if (literal.bytes > 0) {
     Token token = take(TokenKind::Number, literal.bytes);
@@ -88,8 +84,7 @@ Expected<Token> Lexer::next() {
   return operation();
 }
 
-Expected<Token> Lexer::quoted() {
-  auto literal = read_text(rest_);
+Expected<Token> Lexer::quoted(Expected<TextLiteral> literal) {
   if (!literal) {
     const std::string message = literal.error().message;
     advance(static_cast<std::size_t>(std::atoi(literal.error().where.c_str())));

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "base/expected.h"
+#include "irace_core/files/internal/r_literal.h"
 #include "irace_core/files/r_syntax.h"
 
 namespace swarmsmith::r {
@@ -40,7 +41,7 @@ class Lexer {
   void advance(std::size_t bytes);
   void skip_blanks();
   Expected<Token> number();
-  Expected<Token> quoted();
+  Expected<Token> quoted(Expected<TextLiteral> literal);
   Expected<Token> name();
   Expected<Token> operation();
   Token take(TokenKind kind, std::size_t bytes);

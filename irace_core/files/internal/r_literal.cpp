@@ -174,6 +174,30 @@ Expected<TextLiteral> read_text(std::string_view text) {
   return literal;
 }
 
+std::optional<Expected<TextLiteral>> read_raw_text(std::string_view text) {
+  if ((at(text, 0) | 0x20) != 'r' || (at(text, 1) != '"' && at(text, 1) != '\''))
+    return std::nullopt;
+  std::size_t begin = 2;
+  while (at(text, begin) == '-')
+    ++begin;
+  constexpr std::string_view kOpen = "([{";
+  const std::size_t kind = begin < text.size() ? kOpen.find(text[begin]) : std::string_view::npos;
+  if (kind == std::string_view::npos) return std::nullopt;
+  const std::string close = std::string(1, ")]}"[kind]) + std::string(begin - 2, '-') + text[1];
+  const std::size_t end = text.find(close, begin + 1);
+  using Result = Expected<TextLiteral>;
+  if (end == std::string_view::npos)
+    return Result(bad_input("this string is not closed: expected " + close, "0"));
+  const std::string_view value = text.substr(begin + 1, end - begin - 1);
+  if (value.find('\0') != std::string_view::npos)
+    return Result(bad_input("found a zero byte in a string", "0"));
+  return Result(TextLiteral{std::string(value), end + close.size()});
+}
+
+bool is_typographic(std::string_view character) {
+  return character == "\u00a0" || character == "\ufeff" || character.substr(0, 2) == "\xe2\x80";
+}
+
 std::size_t character_length(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   const std::size_t length = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;

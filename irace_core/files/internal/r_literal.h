@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,13 @@ struct TextLiteral {
   std::size_t bytes = 0;
 };
 Expected<TextLiteral> read_text(std::string_view text);
+
+/// The raw string that `text` begins with, as r"(C:\temp)": nothing when it does not begin with
+/// one. Errors as those of read_text.
+std::optional<Expected<TextLiteral>> read_raw_text(std::string_view text);
+
+/// Blanks, dashes and quotes that word processors put in place of plain ones.
+bool is_typographic(std::string_view character);
 
 /// Length in bytes of the character of UTF-8 that `text` begins with; 1 when it is damaged.
 std::size_t character_length(std::string_view text);

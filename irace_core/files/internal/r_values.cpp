@@ -7,6 +7,7 @@
 #include "base/overloaded.h"
 #include "base/plain_text.h"
 #include "base/suggestion.h"
+#include "irace_core/files/internal/r_functions.h"
 #include "irace_core/files/internal/r_operators.h"
 #include "irace_core/files/internal/r_texts.h"
 
@@ -113,10 +114,12 @@ class Evaluator {
     // Before the arguments: library(x) is not to be blamed for x.
     const std::string& name = call.function;
     const auto operation = operation_of(name, call.arguments.size());
-    if (!operation && std::ranges::find(kOthers, name) == kOthers.end()) {
+    const bool is_ours = is_scenario_function(name);
+    if (!operation && !is_ours && std::ranges::find(kOthers, name) == kOthers.end()) {
       return wrong(node, "found the function `" + name +
                              "`: programs in R are not read here, only values, made with " +
                              "list paste paste0 file.path Sys.getenv " +
+                             std::string(scenario_function_names()) + " " +
                              std::string(irace::function_names()));
     }
     std::vector<Part> parts;
@@ -130,6 +133,7 @@ class Evaluator {
     if (name == "file.path") return paste(node, std::move(parts), "fsep", "/");
     if (name == "c" || name == "list") return combine(node, parts, name == "c");
     if (name == "Sys.getenv") return environment_variable(node, std::move(parts), environment_);
+    if (is_ours) return call_scenario_function(node, name, std::move(parts), environment_);
     if (name == "+" && parts.size() == 1) return parts.front().value;
     return apply(node, name, *operation, parts);
   }

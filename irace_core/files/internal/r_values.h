@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -20,11 +21,14 @@ struct Environment {
   std::map<std::string, Vector> variables;  ///< assigned before
   /// An environment variable's value; nothing when it is not set.
   std::function<std::optional<std::string>(const std::string& name)> environment_variable;
+  std::filesystem::path folder{};  ///< R's working directory
+  /// The text of a file, for readLines.
+  std::function<Expected<std::string>(const std::filesystem::path&)> read{};
 };
 
 /// The value of an expression with constants, variables, the operators and functions of conditions
-/// (irace facts, 8.2), and paste, paste0, file.path, list and Sys.getenv (irace facts, 23.1). What
-/// else there is in R is an error, whose place is line:column.
+/// (irace facts, 8.2), paste, paste0, file.path, list and Sys.getenv (irace facts, 23.1), and those
+/// of r_functions.h. What else there is in R is an error, whose place is line:column.
 Expected<Vector> evaluate(const Node& node, const Environment& environment);
 
 /// Each element as R's as.character writes it.

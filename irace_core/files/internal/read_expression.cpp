@@ -14,6 +14,13 @@ Expected<Expression> with_file(const std::string& file, std::vector<Error>& warn
   return expression;
 }
 
+/// Whether an expression can be true or false: a comparison, or something made of such.
+bool is_statement(const Expression& expression) {
+  const Operation operation = expression.operation();
+  return (operation >= Operation::Not && operation <= Operation::In) ||
+         operation == Operation::IsMissing || operation == Operation::IfElse;
+}
+
 /// A constant at once, so that spaces that say the same compare equal.
 Bound to_bound(Expression expression) {
   if (expression.operation() == Operation::Constant) {
@@ -36,7 +43,7 @@ Expected<Expression> read_forbidden_line(const Piece& piece, const std::string& 
                                          std::span<const std::string> names,
                                          std::vector<Error>& warnings) {
   auto clause = read_expression(piece, file, names, ExpressionUse::Forbidden, warnings);
-  if (!clause || !clause->operands().empty() || !clause->name().empty()) return clause;
+  if (!clause || is_statement(*clause)) return clause;
   return bad_input(
       "a value alone forbids everything or nothing; write a comparison, such as algorithm == "
       "\"as\"",

@@ -72,13 +72,6 @@ void check_folders(SetupWork& work) {
   }
 }
 
-void check_debug_level(SetupWork& work) {
-  constexpr std::int64_t kMost = 3;
-  if (work.setup.debug_level <= kMost) return;
-  work.complain("debugLevel", "must be 0 to " + std::to_string(kMost) + ", found " +
-                                  std::to_string(work.setup.debug_level));
-}
-
 void check_race(SetupWork& work) {
   const Scenario& race = work.setup.race;
   const bool tunes = work.action != IraceAction::OnlyTest;
@@ -125,7 +118,6 @@ void check_setup(SetupWork& work) {
   check_folders(work);
   check_programs(work);
   check_command_line(work);
-  check_debug_level(work);
   check_race(work);
   check_budget(work);
 }

@@ -15,7 +15,8 @@ struct Cell {
   bool quoted = false;
   r::Place place;
 
-  bool is_missing() const { return text == "NA" || text == "<NA>"; }
+  /// An empty text is missing, too, as R reads it.
+  bool is_missing() const { return text.empty() || text == "NA" || text == "<NA>"; }
 };
 
 /// The non-empty rows of a table with blanks between its fields, as R's read.table reads them:

@@ -175,6 +175,8 @@ TEST_F(Programs, ThatCannotStartSayWhy) {
   EXPECT_NE(why(folder / "missing").find("No such file"), std::string::npos);
   EXPECT_NE(why(script("plain", "echo 1\n", false)).find("chmod +x"), std::string::npos);
   EXPECT_NE(why(script("lost", "#!/no/such/shell\n")).find("first line"), std::string::npos);
+  EXPECT_NE(why(script("windows", "#!/bin/sh\r\necho 1\r\n")).find("carriage return"),
+            std::string::npos);
   EXPECT_NE(why(folder.path()).find("cannot be started"), std::string::npos);
   EXPECT_NE(why("/bin/true", "/no/such/folder").find("/no/such/folder"), std::string::npos);
   EXPECT_NE(why("no-such-program-at-all").find("in PATH"), std::string::npos);

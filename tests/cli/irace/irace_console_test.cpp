@@ -170,11 +170,12 @@ TEST_F(ConsoleOfAStore, ReportsAsIraceDoes) {
             "  algorithm  alpha ants     q0\n"
             "2       eas 3.5000   17     NA\n"
             "1      mmas 3.8452   93 0.8626\n"
+            "# Mean costs (and how many runs each is over): 2: 9.4 (2), 1: 11 (2)\n"
             "# Best configurations as commandlines (first number is the configuration ID; same "
             "order as above):\n"
             "2  --eas --alpha 3.5 --ants 17\n"
             "1  --mmas --alpha 3.8452 --ants 93 --q0 0.8626\n");
-  EXPECT_EQ(testing_text(*result), "");
+  EXPECT_EQ(testing_text(*result, "DATE"), "");
   Scenario by_mean;
   by_mean.test_type = TestType::TTest;
   EXPECT_THAT(best_text(*result, by_mean), HasSubstr("according to the mean value):"));
@@ -202,7 +203,7 @@ class ConsoleOfTests : public ConsoleOfAStore {
 TEST_F(ConsoleOfTests, ShowsCostsOfTestInstances) {
   const auto result = read_irace_result(*reader(), ant_space());
   ASSERT_TRUE(result);
-  EXPECT_THAT(testing_text(*result),
+  EXPECT_THAT(testing_text(*result, "DATE"),
               HasSubstr(": Testing results (column number is configuration ID in no particular "
                         "order):\n"
                         "      1    2\n"

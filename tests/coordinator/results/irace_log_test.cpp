@@ -111,6 +111,24 @@ TEST(IraceLog, WorksOutWhoWasAliveAndWhoLeft) {
   EXPECT_EQ(rows_of<DesignStateRow>(*addition).front().best, CandidateId{2});
 }
 
+TEST(IraceLog, RunsThatEstimateATimeCountForTheFirstRace) {
+  Texts texts = by_hand();
+  texts["runs.csv"] =
+      "iteration,pair,configuration,cost,time,bound\n"
+      "0,1,1,4,,\n0,1,2,3,1.5,9\n1,2,2,5,,\n1,2,3,1,,\n2,1,3,Inf,,\n";
+  const auto log = read_irace_log(texts);
+  ASSERT_TRUE(log) << to_string(log.error().front());
+  const auto addition =
+      irace_log_addition(*log, {.campaign = "theirs", .flavour = {}, .designs = {}});
+  ASSERT_TRUE(addition);
+  EXPECT_EQ(rows_of<EvaluationRow>(*addition).front().iteration, 1);
+  EXPECT_EQ(rows_of<CandidateRow>(*addition).front().iteration, 1);
+  EXPECT_EQ(rows_of<IterationRow>(*addition).front().budget, 4);
+  texts["runs.csv"] += "-1,1,1,4,,\n";
+  EXPECT_THAT(to_string(read_irace_log(texts).error().front()),
+              HasSubstr("iterations count from 0"));
+}
+
 TEST(IraceLog, OfAnUnfinishedRunIsADesignThatStopped) {
   Texts texts = by_hand();
   texts["log.csv"] = "key,value\ncompleted,Incomplete\n";

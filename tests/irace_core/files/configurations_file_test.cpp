@@ -48,6 +48,18 @@ TEST(ConfigurationsFile, ReadsTheTablesThatRWrites) {
   EXPECT_EQ((*found)[1][1], 0.1);
 }
 
+TEST(ConfigurationsFile, AnEmptyTextIsMissingUnlessItIsAValue) {
+  const ParameterSpace space =
+      space_of("a \"\" c (x, \"\")\nb \"\" r (0,1) | a == \"x\"\nc \"\" c (u, v) | a == \"x\"");
+  const auto found = parse_configurations_file({"a b c\n\"\" \"\" ''\nx 0.5 u\n", "c"}, space);
+  ASSERT_TRUE(found) << to_string(found.error());
+  EXPECT_EQ((*found)[0].choice(0), 1U);
+  EXPECT_FALSE((*found)[0].is_active(1));
+  EXPECT_FALSE((*found)[0].is_active(2));
+  EXPECT_THAT(error_of(space, "a b c\nx 0.5 \"\"\n"),
+              ::testing::HasSubstr("parameter 'c': is active and needs a value"));
+}
+
 TEST(ConfigurationsFile, WhatIsPrintedReadsBackAsTheSame) {
   Rng rng(234);
   std::size_t compared = 0;

@@ -75,6 +75,29 @@ TEST(PcsFile, SwitchesForAclibAndDigitsAreAsAsked) {
   EXPECT_EQ(text_of(read), "r \"r\" r (0, 1)\n\n[global]\ndigits = 2\n");
 }
 
+TEST(PcsFile, ManyNamesThatIraceCannotHaveAreOneWarning) {
+  std::string text;
+  for (int i = 0; i < 500; ++i)
+    text += "a-" + std::to_string(i) + " {x, y}[x]\n";
+  const auto read = pcs(text);
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->warnings.size(), 4U);
+  EXPECT_THAT(read->warnings[2], HasSubstr("p.pcs:3:1: 'a-2' is called 'a_2'"));
+  EXPECT_EQ(read->warnings[3],
+            "p.pcs: 497 more names are changed like this; --check prints them all");
+}
+
+TEST(ConfigSpace, NullIsAValueAsPythonWritesIt) {
+  const auto read = json(R"({"hyperparameters": [
+    {"name": "w", "type": "categorical", "choices": [null, "balanced"], "default_value": null},
+    {"name": "r", "type": "uniform_float", "lower": 0, "upper": 1, "default": 0.5}],
+    "conditions": [{"child": "r", "parent": "w", "type": "EQ", "value": null}]})");
+  EXPECT_EQ(text_of(read),
+            "w \"--w \" c (None, balanced)\nr \"--r \" r (0, 1) | w == \"None\"\n"
+            "\n[global]\ndigits = 4\n");
+  EXPECT_EQ(defaults_of(read), "--w None --r 0.5");
+}
+
 TEST(PcsFile, SaysWhatItCannotRead) {
   const auto error = [](std::string text) {
     return text_of(pcs("a {x, y}[x]\nn [1,9][5]i\n" + std::move(text)));

@@ -21,6 +21,12 @@ void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }
 
+TEST(InstancesFile, AByteOrderMarkBelongsToNoInstance) {
+  EXPECT_THAT(parse_instances("\xef\xbb\xbf"
+                              "a\nb\n"),
+              testing::ElementsAre("a", "b"));
+}
+
 TEST(InstancesFile, CommentsAndBlanksBeforeInstancesGo) {
   EXPECT_THAT(parse_instances("a.tsp\n # all of it\n\t b c  # a part\n\n  \nlast"),
               ElementsAre("a.tsp", "b c  ", "last"));

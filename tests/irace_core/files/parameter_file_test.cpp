@@ -116,8 +116,19 @@ TEST(ParameterFile, DigitsFromOutsideRoundBoundsAsIrace35Does) {
                                           "for digits = 2"));
 }
 
+TEST(ParameterFile, NamesMayHaveLettersOfAnyLanguage) {
+  const auto file = parse_parameter_file(
+      {.parameters = {"gr\u00f6\u00dfe \"--g \" i (1,9)\nb \"\" r (0,1) | gr\u00f6\u00dfe > 3\n"
+                      "[forbidden]\ngr\u00f6\u00dfe == 5\n",
+                      "p.txt"}});
+  ASSERT_TRUE(file) << to_string(file.error());
+  EXPECT_EQ(file->space[0].name, "gr\u00f6\u00dfe");
+  EXPECT_EQ(file->space.forbidden().size(), 1U);
+  EXPECT_THAT(error_of("a\u00a0\"--a \" i (1,9)\n"), HasSubstr("p.txt:1:2"));
+}
+
 TEST(ParameterFile, AForbiddenLineIsNoValueAlone) {
-  for (const char* line : {"TRUE", "0", "\"a\"", "NA"}) {
+  for (const char* line : {"TRUE", "0", "\"a\"", "NA", "a", "a + 1", "max(a, 1)"}) {
     EXPECT_THAT(error_of("a \"\" i (1,2)\n[forbidden]\n" + std::string(line)),
                 HasSubstr("p.txt:3:1: a value alone forbids everything or nothing"));
   }

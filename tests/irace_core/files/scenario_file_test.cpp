@@ -47,6 +47,58 @@ struct World {
   }
 };
 
+TEST(ScenarioFile, KnowsTheFunctionsOfRealScenarios) {
+  World world;
+  world.files["/tune/lists/names.txt"] = "first\r\nsecond\nthird";
+  const auto text = [&](const std::string& value) {
+    return world.value("trainInstancesDir = " + value, "trainInstancesDir");
+  };
+  EXPECT_EQ(text("getwd()"), "\"/tune\"");
+  EXPECT_EQ(text("dirname(getwd())"), "\"/\"");
+  EXPECT_EQ(text("dirname(\"a/b/\")"), "\"a\"");
+  EXPECT_EQ(text("dirname(\"a\")"), "\".\"");
+  EXPECT_EQ(text("basename(\"/x/y.txt\")"), "\"y.txt\"");
+  EXPECT_EQ(text("normalizePath(\"../data\", mustWork = FALSE)"), "\"/data\"");
+  EXPECT_EQ(text("sub(\"tune$\", \"work\", getwd())"), "\"/work\"");
+  EXPECT_EQ(text("gsub(\"([a-z])[0-9]+\", \"\\\\1-\", \"a1b22c\")"), "\"a-b-c\"");
+  EXPECT_EQ(text("gsub(\".\", \"$1\", \"a.b.c\", fixed = TRUE)"), "\"a$1b$1c\"");
+  EXPECT_EQ(text("gsub(\"[[:space:]]\", \"$\", \"a b\")"), "\"a$b\"");
+  EXPECT_EQ(text("sprintf(\"%s/%03d-%.1f%%\", \"x\", 7, 0.25)"), "\"x/007-0.2%\"");
+  EXPECT_EQ(text("readLines(\"lists/names.txt\", n = 1)"), "\"first\"");
+  EXPECT_EQ(text("r\"(a\\b)\""), "\"a\\\\b\"");
+  EXPECT_EQ(text("R'--[x]-\"]--'"), "\"x]-\\\"\"");
+  const auto texts = [&](const std::string& value) {
+    return world.value("instances = " + value, "instances");
+  };
+  EXPECT_EQ(texts("paste0(\"i\", seq(1, 7, by = 3))"),
+            world.value("instances = c(\"i1\", \"i4\", \"i7\")", "instances"));
+  EXPECT_EQ(texts("sprintf(\"i%d\", seq_len(2))"),
+            world.value("instances = c(\"i1\", \"i2\")", "instances"));
+  EXPECT_EQ(texts("readLines(\"lists/names.txt\")"),
+            world.value("instances = c(\"first\", \"second\", \"third\")", "instances"));
+  EXPECT_EQ(world.value("100 * 5 -> maxExperiments", "maxExperiments"), "500");
+  EXPECT_EQ(world.value(".n = 3; .n + 1 -> firstTest # right", "firstTest"), "4");
+}
+
+TEST(ScenarioFile, SaysWhatIsWrongWithACallOfAFunction) {
+  const World world;
+  const auto error = [&](const std::string& value) {
+    const auto errors = world.errors("trainInstancesDir = " + value);
+    return errors.empty() ? std::string("none") : errors.front();
+  };
+  EXPECT_THAT(error("sub(\"(\", \"\", \"a\")"),
+              HasSubstr("the pattern \"(\" is not one that is read here"));
+  EXPECT_THAT(error("sprintf(\"%s %s\", \"a\")"), HasSubstr("more places than values"));
+  EXPECT_THAT(error("sprintf(\"%n\", 3)"), HasSubstr("sprintf knows"));
+  EXPECT_THAT(error("sprintf(\"%d\", 0.5)"), HasSubstr("wants a whole number, found 0.5"));
+  EXPECT_THAT(error("readLines(\"none.txt\")"), HasSubstr("readLines: there is no such file"));
+  EXPECT_THAT(error("seq(1, 9, by = -1)"), HasSubstr("seq cannot come from 1 to 9 by -1"));
+  EXPECT_THAT(error("seq(1, 1e9)"), HasSubstr("too long a vector"));
+  EXPECT_THAT(error("dirname(file = \"a\")"), HasSubstr("`dirname` has no argument `file` here"));
+  EXPECT_THAT(error("r\"(a"), HasSubstr("not closed"));
+  EXPECT_THAT(error("system(\"ls\")"), HasSubstr("programs in R are not read here"));
+}
+
 TEST(ScenarioFile, ReadsAssignmentsInEveryForm) {
   const World world;
   const std::string text =

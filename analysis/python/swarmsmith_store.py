@@ -1,0 +1,80 @@
+"""Swarmsmith's stores, read alone, and the scores of its program."""
+import json
+import os
+import pathlib
+import sqlite3
+import subprocess
+
+from swarmsmith_space import Error
+
+
+def program_path(program):
+    """The one that is named, else that of SWARMSMITH_BIN, of the wheel that the module came with, or of PATH."""
+    if program is None:
+        beside = pathlib.Path(__file__).resolve().parent / "swarmsmith_programs/bin"
+        folder = os.environ.get("SWARMSMITH_BIN") or (beside if beside.is_dir() else None)
+        program = pathlib.Path(folder) / "swarmsmith" if folder else "swarmsmith"
+    return str(program)
+
+
+class Store:
+    """A campaign's store. Each query sees one state of it; queries one after the other may see a later one."""
+
+    def __init__(self, path):
+        self.path = pathlib.Path(path)
+        if not self.path.is_file():
+            raise Error(f"{self.path}: there is no such store")
+        self._connection = sqlite3.connect(self.path.resolve().as_uri() + "?mode=ro", uri=True, timeout=5)
+        self._connection.row_factory = sqlite3.Row
+        try:
+            views = {row["name"] for row in self.query("SELECT name FROM sqlite_master WHERE type = 'view'")}
+        except sqlite3.DatabaseError as error:
+            raise Error(f"{self.path}: {error}") from error
+        if "v_design_scores" not in views:
+            raise Error(f"{self.path}: this is no store of Swarmsmith")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self._connection.close()
+
+    def query(self, sql, *parameters):
+        """The rows of a statement, as dictionaries."""
+        return [dict(row) for row in self._connection.execute(sql, parameters)]
+
+    def frame(self, sql, *parameters):
+        """The same as a pandas.DataFrame, which keeps the columns of an answer without rows."""
+        import pandas
+        return pandas.read_sql_query(sql, self._connection, params=parameters)
+
+    def design_means(self, purpose="test"):
+        """A row a finished design and source: mission, method, design, candidate, source, mean, runs. These are the
+        values of figures, tables and tests. `purpose`: `test`, the campaign's own, or `score`, asked for later."""
+        return self.query(
+            "SELECT mission, method, design, candidate, source, avg(score) AS mean, count(*) AS runs "
+            "FROM v_design_scores WHERE purpose = ? GROUP BY design, source ORDER BY design, source", purpose)
+
+    def machine(self, candidate):
+        """The text of the grammar of a candidate: 812, or "c812"."""
+        number = int(str(candidate).removeprefix("c"))
+        rows = self.query("SELECT fsm_config FROM v_candidates WHERE candidate = ?", number)
+        if not rows:
+            raise Error(f"{self.path}: there is no candidate c{number}")
+        return rows[0]["fsm_config"]
+
+
+def evaluate(machine, seeds=None, *options, program=None):
+    """{seed: score} of a machine: a file that `swarmsmith export` wrote, or a text of the grammar, with options of
+    `swarmsmith evaluate`: evaluate(text, "1-10", "--flavour", "watermelon", "--mission", "aggregation"). Larger is
+    better. The program is `program`, else the one of SWARMSMITH_BIN, else `swarmsmith` in PATH."""
+    words = [program_path(program), "evaluate", str(machine), "--json", "--quiet", *map(str, options)]
+    if seeds is not None:
+        words += ["--seeds", str(seeds)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise Error(done.stderr.strip().removeprefix("swarmsmith: "))
+    return {run["seed"]: run["score"] for run in map(json.loads, done.stdout.splitlines())}
