@@ -124,7 +124,7 @@ TEST(ParameterFile, NamesMayHaveLettersOfAnyLanguage) {
   ASSERT_TRUE(file) << to_string(file.error());
   EXPECT_EQ(file->space[0].name, "gr\u00f6\u00dfe");
   EXPECT_EQ(file->space.forbidden().size(), 1U);
-  EXPECT_THAT(error_of("a\u00a0\"--a \" i (1,9)\n"), HasSubstr("p.txt:1:2"));
+  EXPECT_THAT(error_of("a\u00a0\"--a \" i (1,9)\n"), HasSubstr("p.txt:1:1"));
 }
 
 TEST(ParameterFile, AForbiddenLineIsNoValueAlone) {

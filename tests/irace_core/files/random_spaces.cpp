@@ -89,9 +89,13 @@ ParameterSpace random_space(Rng& rng) {
   std::vector<Expression> forbidden;
   for (std::int64_t i = below(rng, 3); i > 0; --i) {
     Expression clause = RandomExpressions(rng, names).any(4);
-    // A value alone is no line of a file.
-    const bool is_value = clause.operands().empty() && clause.name().empty();
-    if (!is_value) forbidden.push_back(std::move(clause));
+    // A line of a file is a comparison, or made of such; the rest is compared with a number.
+    const Operation operation = clause.operation();
+    const bool is_statement = (operation >= Operation::Not && operation <= Operation::In) ||
+                              operation == Operation::IsMissing || operation == Operation::IfElse;
+    if (!is_statement)
+      clause = Expression::call(Operation::Less, {std::move(clause), Expression::number(0.5)});
+    forbidden.push_back(std::move(clause));
   }
   auto space = ParameterSpace::make(std::move(parameters), std::move(forbidden), digits);
   if (!space) throw std::logic_error("a random space is wrong: " + to_string(space.error()));
