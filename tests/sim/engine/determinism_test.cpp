@@ -192,7 +192,7 @@ TEST(EngineVersion, IsAnotherWhereTheExactModelMeetsObstacles) {
   round.body = CircleOutline{0.1};
   EXPECT_EQ(engine_version_of(round, exact), kEngineVersion);
   Mission bent = mission;
-  bent.arena.walls = {{1, -1}, {1, 1}, {0, 0.5}, {-1, 1}, {-1, -1}};
+  bent.arena.walls = walls_around({{1, -1}, {1, 1}, {0, 0.5}, {-1, 1}, {-1, -1}});
   EXPECT_EQ(engine_version_of(bent, exact), kEngineVersion);
   EXPECT_EQ(engine_version_of(mission_with_solids(), exact), kEngineVersion);
 }
