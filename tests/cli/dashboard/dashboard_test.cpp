@@ -214,12 +214,12 @@ TEST_F(DashboardTest, LiveNumbersAreThoseOfTheLoop) {
   status.workers = 3;
   status.used_per_s = 10;
   CampaignStatus campaign{.name = "demo"};
-  campaign.designs.push_back({.id = 1,
+  campaign.designs.push_back({.id = DesignId{1},
                               .state = DesignState::Racing,
                               .used = 500,
                               .budget = 2000,
                               .iteration = 2,
-                              .best = 2,
+                              .best = CandidateId{2},
                               .best_mean = 7,
                               .paused = true});
   status.campaigns =
@@ -261,7 +261,7 @@ TEST_F(DashboardTest, WhatNeedsALookIsSaidWithItsPage) {
   status.lost_workers = 2;
   status.failed = 3;
   CampaignStatus campaign{.name = "demo", .trouble = "the disk is full"};
-  campaign.designs.push_back({.id = 1, .state = DesignState::Stopped});
+  campaign.designs.push_back({.id = DesignId{1}, .state = DesignState::Stopped});
   status.campaigns =
       std::make_shared<const std::vector<CampaignStatus>>(std::vector{std::move(campaign)});
   std::vector<std::pair<std::string, std::string>> found;
