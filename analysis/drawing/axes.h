@@ -96,7 +96,7 @@ double draw_heading(Svg& svg, std::string_view title, const std::vector<std::str
 /// empty.
 void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);
 
-/// The most ticks of a horizontal axis of which the texts stand clear of each other.
+/// The most ticks of a horizontal axis whose texts do not overlap.
 std::size_t ticks_across(const Axis& axis);
 /// The line below the area with ticks, their texts and the label below them, if there is one.
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);

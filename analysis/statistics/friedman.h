@@ -29,7 +29,7 @@ struct FriedmanTest {
   /// fewer than two blocks.
   std::optional<double> half_width;
 
-  /// Whether treatments differ at 5 %. Without that no two of them are told apart, whatever their
+  /// Whether treatments differ at 5 %. Without that no two of them differ, whatever their
   /// intervals look like (Conover, the same section).
   bool finds_a_difference() const { return p_value && *p_value < 0.05; }
 

@@ -264,7 +264,7 @@ class CampaignRun {
     return ExitCode::Done;
   }
 
-  /// A page that somebody looks at asks once a second, and should not be left behind at "97 %".
+  /// An open page asks once a second. It should see the end, and not stay at "97 %".
   void let_pages_hear() const {
     using Clock = std::chrono::steady_clock;
     using std::chrono::milliseconds;

@@ -44,7 +44,7 @@ struct TaskRecord {
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
-  /// The referee has it, or somebody's word on it waits for the referee: no worker gets it.
+  /// The referee has the task, or an answer to it waits for the referee: no worker gets it.
   bool parked = false;
   /// Look-ahead that would end its campaign: not tried again before it is wanted.
   bool troubled = false;

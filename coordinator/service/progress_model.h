@@ -93,7 +93,7 @@ class ProgressModel {
                          const Searches& searches = {});
 
   void add(const Row& row);
-  /// Tests of before, of which no rows come.
+  /// Tests from before this process: their rows do not come again.
   void add(const TestedDesign& tested);
   /// The process ends: what steps had begun counts when they are done.
   void drop_open_steps();

@@ -147,7 +147,7 @@ class Usual(Irace):
         first = self.irace()
         made = len(self.calls())
         self.assertNotIn("Nothing was run", first.stdout)
-        # Another target: what was found with the old one is told as such.
+        # Another target: the answer says that the results are those of the old one.
         self.write_runner("echo 1")
         with sqlite3.connect(self.folder / "irace.db") as store:
             store.execute("UPDATE campaign SET finished = '2024-02-03T12:00:00.123Z'")

@@ -159,7 +159,7 @@ class TunerTest(unittest.TestCase):
         self.assertEqual(best, swarmsmith.tune(cost, SPACE, **OPTIONS))
 
     def test_jobs_evaluate_at_a_time_and_give_the_same(self):
-        # Nobody goes on before four are there, which one at a time could not be.
+        # A call waits until four run at once, which they cannot one at a time.
         meet, met = multiprocessing.Barrier(4), multiprocessing.Value("i", 0)
 
         def waits(trial):

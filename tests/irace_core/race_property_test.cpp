@@ -274,7 +274,7 @@ TEST(RaceProperty, StopsOnlyWhenASurvivorHasSeenEachNewAndPastPair) {
       const std::int64_t pair = settings.pairs[task];
       EXPECT_TRUE(std::ranges::any_of(
           seen, [&](const auto& survivor) { return survivor.second.contains(pair); }))
-          << "nobody alive has seen pair " << pair << "; " << outcome.reason;
+          << "no survivor has seen pair " << pair << "; " << outcome.reason;
     }
     for (const auto& [id, pairs] : seen) {
       EXPECT_EQ(static_cast<std::int64_t>(pairs.size()) % settings.pairs_between_tests, 0)

@@ -178,7 +178,7 @@ TEST_F(CandidateCodeTest, ARowThatComesAgainMakesNoPhrases) {
             "0");
 }
 
-/// A phrase has four parameters, or five of which a number ends it, and is never empty.
+/// A phrase has four parameters, or five with a number at the end, and is never empty.
 TEST_F(CandidateCodeTest, PhrasesAreShortAndNeverEmpty) {
   const auto phrases_of = [](int choices, const std::string& number) {
     CandidateRow row{.id = {1}, .parent = {}, .parameters = {}, .machine = {}, .modules = {}};
