@@ -179,7 +179,7 @@ void SshWorkers::on_sent(Worker& worker, bool well, TimePoint now) {
   const WorkerBundle* bundle = std::exchange(worker.sends, nullptr);
   worker.sent = well;
   if (well) {
-    sent_.insert(bundle);
+    sent_.try_emplace(bundle, now);
     worker.trouble.clear();
     worker.start_at = now;
   } else {
@@ -194,9 +194,12 @@ void SshWorkers::on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoin
     worker.start_at = now + worker.backoff.next();
     return;
   }
-  worker.trouble = "the worker is sent there";
   worker.start_at = now;
-  const bool wait = !sent_.contains(&bundle) && is_sent_now(&bundle);
+  const auto sent = sent_.find(&bundle);
+  // It looked before the bundle was on another host, and the two may share a cache: it looks again.
+  if (sent != sent_.end() && worker.started < sent->second) return;
+  worker.trouble = "the worker is sent there";
+  const bool wait = sent == sent_.end() && is_sent_now(&bundle);
   (wait ? worker.after : worker.sends) = &bundle;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <set>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,7 +85,7 @@ class SshWorkers final : public Launcher {
   bool is_sent_now(const WorkerBundle* bundle) const;
 
   SshWorkersOptions options_;
-  std::set<const WorkerBundle*> sent_;  ///< to one host at least
+  std::map<const WorkerBundle*, TimePoint> sent_;  ///< when it first was, to any host
   std::vector<Worker> workers_;
   int most_logins_;  ///< under way at a time
 };

@@ -298,6 +298,18 @@ TEST_F(ShippedBySsh, HostsThatShareACacheGetOne) {
   EXPECT_EQ(log().size(), 2) << "and none for the next campaign";
 }
 
+TEST_F(ShippedBySsh, AHostThatLookedBeforeTheBundleCameLooksAgain) {
+  const std::string looked = (folder / "looked").string();
+  const std::string started = (folder / "started").string();
+  SshWorkers workers = start({{"a"}, {"b"}, {"c"}},
+                             "if test $host = c && test ! -e " + looked + "; then touch " + looked +
+                                 "; " + (folder / "host").string() +
+                                 " \"$last\"; code=$?; until test $(cat " + started +
+                                 " | wc -l) = 2; do sleep 0.01; done; exit $code; fi\n");
+  wait_for_started(workers, 3);
+  EXPECT_THAT(log(), testing::AnyOf("a\n", "b\n"));
+}
+
 TEST_F(ShippedBySsh, HostsWithCachesOfTheirOwnGetOneEach) {
   SshWorkers workers =
       start({{"a"}, {"b"}, {"c"}},
