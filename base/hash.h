@@ -19,7 +19,7 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 }
 
 /// An order-dependent 128-bit digest of a stream of words and texts, the same on every machine. It
-/// finds differences and damage; it is no defence against somebody who makes them on purpose.
+/// finds differences and damage; it does not protect against damage that is done on purpose.
 class Digest {
  public:
   void add(std::uint64_t word);

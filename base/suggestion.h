@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The known word that somebody who typed `word` may have meant: the one with the smallest number
+/// The known word that a person who typed `word` may have meant: the one with the smallest number
 /// of inserted, dropped, replaced or swapped letters, unless that is more than a third of the word
 /// (and more than one). Letters are compared without case, `-` equals `_`. The first of equals.
 std::optional<std::string> closest(std::string_view word, std::span<const std::string> known);

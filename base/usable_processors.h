@@ -6,7 +6,7 @@
 namespace swarmsmith {
 
 /// How many processors this process may keep busy, at least 1: those of its affinity mask, but not
-/// more than its control groups grant (base/cgroup.h). Whoever decides how much to do at a time
+/// more than its control groups grant (base/cgroup.h). Code that decides how much to do at a time
 /// asks this function, and no other.
 int usable_processors(const std::filesystem::path& root = "/");
 

@@ -189,7 +189,7 @@ BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr_grid, "watermelon", "rvr", C
                   "grid");
 BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr_color, "watermelon", "rvr", ContactModel::Exact,
                   "color");
-// The same flavour without noise: what is left of rvr is the noise's price.
+// The same flavour without noise: the difference to rvr is the noise's price.
 BENCHMARK_CAPTURE(thesis_designs_on, watermelon_without_noise, "watermelon", "argos3",
                   ContactModel::Exact, kAll);
 BENCHMARK_CAPTURE(networks_on, watermelon_rvr, "watermelon", "rvr");

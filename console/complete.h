@@ -29,7 +29,7 @@ struct Offer {
 using OfferValues = void (*)(std::string_view kind, std::span<const std::string> words,
                              Offer& offer);
 
-/// What may follow the whole words of a command, as its next word, of which `begin` is typed.
+/// What may follow the whole words of a command, as its next word; `begin` of it is typed.
 Offer offer_next(const std::vector<DeclaredOption>& options, std::span<const std::string> words,
                  std::string_view begin, OfferValues values);
 
@@ -37,7 +37,7 @@ Offer offer_next(const std::vector<DeclaredOption>& options, std::span<const std
 /// to list: `:files`, `:stores` or `:folders`.
 void write_offer(std::ostream& out, const Offer& offer, std::string_view begin);
 
-/// The words as a shell gives them, the last of which is being typed: bash cuts `--option=value` in
+/// The words as a shell gives them; the last one is being typed: bash cuts `--option=value` in
 /// three. Never empty.
 std::vector<std::string> typed_words(std::span<const std::string> given);
 

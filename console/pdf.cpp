@@ -102,7 +102,7 @@ Expected<std::string> pdf_of_svg(std::string_view svg) {
 
 Expected<std::string> png_of_svg(std::string_view svg) {
   const std::string page(svg);
-  // The size that the picture says is in mm, of which it takes 90 to the inch unless told.
+  // The size that the picture says is in mm, and it takes 90 pixels to the inch unless told.
   return converted({"PNG", "\x89PNG", {"-f", "png", "-d", "300", "-p", "300", "-b", "white"}},
                    {&page, 1});
 }

@@ -236,7 +236,7 @@ void Ablation::ask() {
 
 void Ablation::tell(std::span<const Measurement> measurements) {
   if (measurements.size() != wanted_.size())
-    throw std::invalid_argument("an ablation is told a cost for each run that it wants");
+    throw std::invalid_argument("an ablation must get a cost for each run that it wants");
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     const Experiment& run = wanted_[i];
     if (run.is_evaluation != scenario_.target_evaluator) continue;

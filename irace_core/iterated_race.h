@@ -75,8 +75,8 @@ class IteratedRace : public Search {
   /// configuration); empty once finished. Valid until the next tell().
   std::span<const Experiment> wanted() const override;
   /// What the race would want after that, in canonical order, on up to `pairs` further pairs, if
-  /// its tests dropped nobody: for slots that would idle. It moves no generator; what is told does
-  /// not depend on it. Empty where results decide more than who is alive: capping, a
+  /// its tests dropped no candidate: for slots that would idle. It moves no generator; what is told
+  /// does not depend on it. Empty where results decide more than who is alive: capping, a
   /// targetEvaluator, max_time; and with one_task_at_a_time.
   std::vector<Experiment> ahead(std::int64_t pairs) const override;
   /// Costs of all wanted() in the same order, smaller is better. An infinite cost rejects the
@@ -85,7 +85,7 @@ class IteratedRace : public Search {
   void tell(std::span<const Measurement> measurements) override;
   /// The same of a target that does not measure its time.
   void tell(std::span<const double> costs);
-  /// Ids of all that are alive in the current race, ascending: what a targetEvaluator is told.
+  /// Ids of all that are alive in the current race, ascending: what a targetEvaluator gets.
   std::vector<std::int64_t> alive() const override;
   /// What happened since the last call, in order.
   std::vector<RaceEvent> take_events() override;

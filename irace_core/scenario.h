@@ -45,7 +45,7 @@ struct Scenario {
   std::int64_t nb_iterations = 0;      ///< 2 + log2(variable parameters), and then no limit
   std::int64_t min_nb_survival = 0;    ///< 2 + log2(variable parameters)
   std::int64_t nb_configurations = 0;  ///< per race; from the budget
-  std::int64_t nb_experiments_per_iteration = 0;  ///< an equal share of what is left
+  std::int64_t nb_experiments_per_iteration = 0;  ///< an equal share of the rest
   std::int64_t mu = 5;  ///< experiments a new configuration is planned with; raised to first_test
 
   bool elitist = true;
@@ -55,7 +55,7 @@ struct Scenario {
       2;  ///< a race ends after so many tests in a row without a drop; 0 = none
   bool soft_restart = true;
   double soft_restart_threshold = 1e-4;
-  bool postselection = true;  ///< a last race with what is left; elitist only, not with max_time
+  bool postselection = true;  ///< a last race with the rest; elitist only, not with max_time
 
   /// The budget as the sum of the targets' times, in place of max_experiments; 0 = none.
   double max_time = 0;

@@ -139,7 +139,7 @@ Expected<void> wait_for_job(BatchMode mode, const std::string& job, milliseconds
     return unexpected(ErrorKind::Unavailable, commands.ask[0] + " does not say how job " + job +
                                                   " is: " + printable(answer->errors.text, 500));
   }
-  // Nobody waits for the job any more. The interrupt is over for this last call.
+  // The caller does not wait for the job any more. The interrupt is over for this last call.
   const Interrupt none;
   const Expected<ProcessEnd> ended =
       run_process({.words = with_job(commands.end, job), .limit = kEndLimit}, none);

@@ -141,7 +141,7 @@ tl::expected<TargetResult, TargetFailure> TargetRunner::run_once(const Command& 
   return TargetResult{*reading, std::isinf(reading->cost)};
 }
 
-/// A launcher is told the file behind the runner's name.
+/// A launcher gets the file behind the runner's name.
 tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::runner_command(
     const RunnerCall& call) const {
   if (target_.launcher.empty()) return command(target_.runner, arguments_of(target_, call));

@@ -3,7 +3,7 @@
 namespace swarmsmith {
 
 /// What a peer may do, by its key. On a connection without keys, which only loopback has unless
-/// somebody insisted, everybody may do everything.
+/// --insecure was given, all clients may do everything.
 enum class Role {
   Anyone,    ///< no key: all that the others may
   Worker,    ///< takes tasks, and nothing else

@@ -66,7 +66,7 @@ struct Refusals {
   /// By reason: "unlisted key", "expired key", "revoked key", "plaintext", "wrong server key", "bad
   /// handshake", "no handshake" (rubbish, silence, or a peer that hung up first), "another user",
   /// "too many connections", "too many connections of one host", "too much at once" (bytes that
-  /// nobody could take), "reads too slowly".
+  /// no worker could take), "reads too slowly".
   std::map<std::string, std::uint64_t> counts;
   std::map<std::string, std::string> last_from;  ///< address or key's name, where it is known
 

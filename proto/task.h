@@ -19,7 +19,7 @@ struct EvaluationInput {
   /// Text of the grammar; for a target the switches and values of its configuration.
   std::string machine{};
   double bound = 0;  ///< most time that a target's run may take, in its unit; 0 for none
-  /// Numbers (irace's ids) of the configurations that a targetEvaluator is told; else empty.
+  /// Numbers (irace's ids) of the configurations that a targetEvaluator gets; else empty.
   std::vector<std::int64_t> alive{};
 };
 

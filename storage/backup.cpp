@@ -106,7 +106,7 @@ Expected<Backup> back_up(const fs::path& store, const fs::path& copy, const OnCo
   if (!file) return Unexpected(file.error());
   auto made = copy_store(store, file->path(), on_copied);
   if (!made) {
-    // Its own name says nothing to anybody.
+    // Its own name says nothing to a person.
     if (made.error().where == file->path().string()) made.error().where = copy.string();
     return made;
   }

@@ -365,7 +365,7 @@ std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign,
                         " WHERE campaign = ?1 AND state <> {}))",
                         static_cast<int>(DesignState::Finished)))
       .run(campaign.id, is_trusted_again_);
-  // A number that stands without a name was the campaign's own source, of which there is one.
+  // A number that stands without a name was the campaign's own source. There is one of these.
   if (!source.empty()) {
     const std::string nameless = " WHERE source NOT IN (SELECT id FROM source) AND purpose IN " +
                                  numbers_in_sql(has_own_source) +

@@ -194,7 +194,7 @@ class StoreReader {
     /// stay in memory. Errors of our own statements are about the store and name its file, and
     /// their large sorts go to temporary files beside it.
     bool typed = false;
-    /// Views that somebody has added to the file can be read: for statements of a person's own.
+    /// Views that a user has added to the file can be read: for statements of a person's own.
     bool views_of_file = false;
   };
   struct Cell {

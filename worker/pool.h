@@ -19,7 +19,7 @@ namespace swarmsmith {
 /// Evaluates a task: an exception and a score that is no number are failures with a sentence.
 Result evaluate(const Evaluator& evaluator, const LeasedTask& item);
 
-/// What slots did since somebody asked, in order.
+/// What slots did since the last call, in order.
 struct ItemStarted {
   PackedKey key = 0;
 };

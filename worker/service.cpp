@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 
 /// Time for the last words to leave the socket.
 constexpr milliseconds kLinger{500};
-/// Without a coordinator, before a person is told.
+/// Without a coordinator, before a message says so.
 constexpr std::chrono::seconds kLonely{3};
 /// While results come, the slots do not wake the loop for each.
 constexpr milliseconds kLookAgain{5};

@@ -46,7 +46,7 @@ Expected<std::string> allowed_file(const std::string& program,
                         *file);
 }
 
-/// An instance as programs are told of it.
+/// An instance as programs get it.
 struct NamedInstance {
   std::string id;
   std::string text;

@@ -68,7 +68,7 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   comparison.notes.push_back(comparison.unranked.back());
 }
 
-/// A method that used much less than it might, or was extended, is told beside one that did not.
+/// A method that used much less than its budget, or was extended, is marked beside the others.
 void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& comparison) {
   constexpr double kNearlyAll = 0.95;
   struct Runs {

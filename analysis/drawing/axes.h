@@ -12,7 +12,7 @@ namespace swarmsmith {
 /// What plots with axes have in common: ranges, ticks, the frame around the data. Lengths are mm on
 /// the page.
 
-/// The values from `low` to `high`, of which neither is NaN.
+/// The values from `low` to `high`; neither is NaN.
 struct ValueRange {
   double low = 0;
   double high = 1;
@@ -24,7 +24,7 @@ struct ValueRange {
 /// unit, or a tenth of themselves, on both sides, so that there is a range.
 ValueRange range_over(const std::vector<double>& values);
 
-/// The distance of round ticks (1, 2 or 5 times a power of ten) of which at most `most` fit.
+/// The distance of round ticks (1, 2 or 5 times a power of ten), so that at most `most` fit.
 double tick_step(ValueRange range, std::size_t most);
 
 /// Ticks of an axis, at most.

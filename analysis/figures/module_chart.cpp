@@ -54,7 +54,7 @@ ChartLayout layout_of(const ModuleChart& chart) {
   ChartLayout layout{.names_methods = chart.blocks.size() > 1};
   const double room = chart.width_mm - 2 * kMargin;
   for (const std::string& module : chart.modules) {
-    // On two lines, the longer of which is as short as can be.
+    // On two lines; the longer one is as short as can be.
     double shortest = text_width(module, kLabelSize);
     for (std::size_t blank = 0; (blank = module.find(' ', blank)) != std::string::npos; ++blank) {
       const std::string_view text = module;

@@ -113,7 +113,7 @@ std::vector<MarkerStretch> marker_stretches(const RacePlot& plot, bool each) {
 }
 
 /// One letter a step; where steps are narrower than a letter can be read, one for each stretch of
-/// equal ones, as far as there is room: those that dropped somebody come first.
+/// equal ones, as far as there is room: those that dropped a candidate come first.
 void draw_markers(Svg& svg, const RacePlot& plot, const Layout& at) {
   constexpr double kLeast = 1.6;      ///< size of letters that are still read
   constexpr double kOfStretch = 2.2;  ///< size where not each step has one

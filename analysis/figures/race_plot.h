@@ -32,7 +32,7 @@ struct RacePlot {
 
   std::string title;
   std::vector<std::string> details;
-  std::string description;  ///< what a reader who cannot see the picture is told
+  std::string description;  ///< for readers who cannot see the picture
   std::vector<Step> steps;
   std::vector<Row> rows;  ///< from above
   double width_mm = 84;

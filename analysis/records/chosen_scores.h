@@ -21,7 +21,7 @@ enum class ScoreUnit {
 struct ScoreChoice {
   /// `test`: of the campaign's own tests; `score`: asked for later; `all`. Empty: of each mission
   /// and source the tests, and where there are none what was asked for later. So nothing that
-  /// somebody evaluates afterwards changes the numbers of a campaign that tests its winners.
+  /// a user evaluates afterwards changes the numbers of a campaign that tests its winners.
   std::string purpose;
   /// None: a design, but a run where no mission, method and source has more than one design.
   std::optional<ScoreUnit> unit;

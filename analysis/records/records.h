@@ -16,7 +16,7 @@ namespace swarmsmith {
 /// (docs/storage.md) as plain values, in the order of the view's keys. They read nothing but the
 /// views, so that anyone can have the same numbers by SQL.
 
-/// Nobody looks at more, and a figure of it could not be drawn.
+/// A figure of more could not be drawn.
 inline constexpr StoreReader::QueryLimits kRecordLimits{
     .rows = 50'000'000,
     .seconds = 600,
@@ -61,7 +61,7 @@ struct DesignRecord {
   std::optional<double> best_mean;
   std::string machine;  ///< of the best; text of the grammar, empty without one
   /// That it is written in; empty for the parameters of a program, and in stores of a schema before
-  /// 4 that nobody has written to since.
+  /// 4 that no program has written to since.
   std::string flavour;
 };
 

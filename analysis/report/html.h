@@ -29,7 +29,7 @@ struct HtmlTable {
 };
 
 /// A page that grows piece by piece: well-formed XML that is HTML too, with a style sheet for
-/// screens, light and dark, and for paper. It has no script and asks nobody for anything, which its
+/// screens, light and dark, and for paper. It has no script and loads nothing, which its
 /// content security policy makes the browser hold it to.
 class HtmlPage {
  public:

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Friedman's test: do k treatments rank differently over blocks, within each of which all of them
+/// Friedman's test: do k treatments rank differently over blocks, where in each block all of them
 /// were measured?
 struct FriedmanTest {
   std::size_t treatments = 0;  ///< k

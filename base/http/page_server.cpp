@@ -54,7 +54,7 @@ class HeadStream : public httplib::Stream {
     written_.append(data, size);
     return static_cast<ssize_t>(size);
   }
-  // Nobody asks for these: see PageServer::socket_of_request.
+  // No program asks for these: see PageServer::socket_of_request.
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
   socket_t socket() const override { return socket_; }

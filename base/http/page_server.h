@@ -48,7 +48,7 @@ class PageServer : public httplib::Server {
 
   /// For handlers: the socket that the request of this thread came by; -1 outside of them.
   static int socket_of_request();
-  /// Whether who asked has gone away since.
+  /// Whether the client has disconnected since.
   static bool is_asker_gone();
 
   /// The header Accept-Encoding, which the library would act upon.

@@ -33,7 +33,7 @@ void tell(pid_t word) {
   for (const int ignored : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
     std::signal(ignored, SIG_IGN);
   prctl(PR_SET_NAME, "swarmsmith-grd");
-  // Whoever waits for the end of the guarded process's output shall not wait for this one.
+  // A program that waits for the end of the guarded process's output shall not wait for this one.
   const auto own = static_cast<unsigned>(descriptor);
   if (own > 0) close_range(0, own - 1, 0);
   close_range(own + 1, ~0U, 0);

@@ -18,7 +18,7 @@ Interrupt::~Interrupt() {
 
 void Interrupt::trigger() {
   triggered_ = true;
-  eventfd_write(descriptor_, 1);  // cannot fail: nobody reads, and once is enough
+  eventfd_write(descriptor_, 1);  // cannot fail: it is never read, and once is enough
 }
 
 bool Interrupt::wait_ms(int milliseconds) const {

@@ -98,7 +98,7 @@ class Running {
     }
   }
 
-  /// Without reaping: as long as the process is a zombie, nobody else can have its group's number.
+  /// Without reaping: as long as the process is a zombie, no other one can have its group's number.
   void look_for_end() {
     if (ended_) return;
     siginfo_t info{};

@@ -68,7 +68,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 }
 
 /// Levels of tables, lists and parts of keys, far more than any file of ours has. The parser and
-/// whoever walks its tree call themselves for each.
+/// functions that walk its tree call themselves for each.
 constexpr std::size_t kDeepest = 64;
 
 /// Values of a text, far more than any file of ours has: the trees of parser and reader take some

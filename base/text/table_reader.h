@@ -92,11 +92,11 @@ class TableReader {
 
   /// The key, whatever is in it, as asked for.
   const Node* take(std::string_view key);
-  /// Keys that nobody asked for, now as readers of tables (for tables with names as keys).
+  /// Keys that were not asked for, now as readers of tables (for tables with names as keys).
   std::vector<std::pair<std::string, const Node*>> take_all();
 
-  /// Complains about keys that nobody asked for. `not_yet` names keys that exist elsewhere and that
-  /// this version lacks.
+  /// Complains about keys that were not asked for. `not_yet` names keys that exist elsewhere and
+  /// that this version lacks.
   void finish(std::span<const std::string> not_yet = {});
 
  private:

@@ -19,7 +19,7 @@
 namespace swarmsmith::bench {
 namespace {
 
-/// The loop looks after everybody so often, and results wait as long at most.
+/// The loop looks after all workers so often, and results wait as long at most.
 constexpr std::chrono::milliseconds kRound{2};
 
 class Member {

@@ -9,7 +9,7 @@
 
 namespace swarmsmith::bench {
 
-/// Independent tasks without a barrier, some ten thousand wanted at a time: what is left is the
+/// Independent tasks without a barrier, some ten thousand wanted at a time: the rest is the
 /// price of leases, messages and rows. A hundred evaluations a candidate, 100,000 a design; designs
 /// end one after the other.
 class FlatCampaign final : public WorkSource {

@@ -229,7 +229,7 @@ class Model {
   std::map<std::int64_t, std::deque<Item>> wanted_;  ///< by design
   std::int64_t queued_ = 0;                          ///< in them
   std::int64_t leased_ = 0;
-  std::map<EvaluationKey, double> ahead_;  ///< asked for ahead, not given to anybody
+  std::map<EvaluationKey, double> ahead_;  ///< asked for ahead, not given to a worker
   std::set<EvaluationKey> given_ahead_;
   std::int64_t started_ = 0;
   double free_ = 0;

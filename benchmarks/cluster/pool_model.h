@@ -9,8 +9,8 @@ namespace swarmsmith::bench {
 /// A pool of workers and its coordinator, as a model: events on a simulated clock. What holds a
 /// real one up is in it: tests that wait for their last evaluation, messages that take their time,
 /// workers that hold more than they run, the coordinator's one thread. Rules of leasing are those
-/// of the scheduler: credit for 20 ms of work, no more than half a share of what is left, the
-/// design that is next to its test first, looking ahead only for slots that idle.
+/// of the scheduler: credit for 20 ms of work, no more than half a share of the remaining queue,
+/// the design that is next to its test first, looking ahead only for slots that idle.
 struct ModelShape {
   std::int64_t slots = 64;         ///< of the pool
   std::int64_t worker_slots = 64;  ///< of each worker at most

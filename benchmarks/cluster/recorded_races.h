@@ -26,8 +26,8 @@ Expected<std::vector<RecordedRace>> read_races(const std::filesystem::path& file
 
 /// Designs whose races go as recorded ones did: as many evaluations before each test, as many
 /// survivors. Who survives is drawn from a fixed stream. Design n takes the recorded races in turn.
-/// Looks `ahead` tests ahead within an iteration: everybody who is alive is offered on the next
-/// pairs.
+/// Looks `ahead` tests ahead within an iteration: each candidate that is alive is offered on the
+/// next pairs.
 class RecordedRaces final : public WorkSource {
  public:
   RecordedRaces(const std::vector<RecordedRace>& races, int designs, std::size_t ahead = 0);

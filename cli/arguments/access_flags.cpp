@@ -34,7 +34,7 @@ void AccessFlags::declare(Options& options) {
                "clients.toml may connect (default beyond loopback: SWARMSMITH_KEYS, else "
                "~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", insecure_plaintext,
-               "Listen beyond loopback without encryption, to anybody");
+               "Listen beyond loopback without encryption, to any client");
   options.text("--coordinator-file FILE", coordinator_file,
                "File for the coordinator's address (default: STORE.coordinator)");
   options.text("--advertise HOST", advertise,

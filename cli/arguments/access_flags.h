@@ -33,7 +33,7 @@ struct Access {
   std::shared_ptr<AllowListWatch> watch;
 };
 
-/// Reads the keys when they are named or needed: always beyond loopback, unless somebody insists.
+/// Reads the keys when they are named or needed: always beyond loopback, except with --insecure.
 /// All that is wrong, each with its file.
 tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,
                                                      const std::string& bind);

@@ -54,7 +54,7 @@ Examples:
 
 constexpr std::string_view kPauseDetails =
     R"(Workers get no new evaluations of the designs; running ones end, and count. Designs stay paused until
-somebody resumes them, also when the coordinator restarts. The answer does not change.
+you resume them, also when the coordinator restarts. The answer does not change.
 
 Examples:
   swarmsmith pause demo.db

@@ -24,8 +24,8 @@ struct Difference {
   std::string sentence;
 };
 
-/// Evaluates stored evaluations again, each where its crash harms nobody, and compares bits; that
-/// it has no score is an outcome too. Errors: no process can be started.
+/// Evaluates stored evaluations again, each where its crash harms no other process, and compares
+/// bits; that it has no score is an outcome too. Errors: no process can be started.
 Expected<std::vector<Difference>> compare_again(StoredRuns& runs, std::span<const std::string> ids,
                                                 Counter& counter);
 

@@ -155,7 +155,7 @@ class Control {
   }
 
  private:
-  /// Somebody runs the campaign: the file beside the store says where, or the environment.
+  /// The campaign runs: the file beside the store says where, or the environment.
   std::string file_of_runner(const Error& in_use) {
     const std::filesystem::path beside = coordinator_file_of(real_store(wish_.store));
     const std::string named = environment("SWARMSMITH_COORDINATOR");

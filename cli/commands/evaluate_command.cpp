@@ -49,7 +49,7 @@ Recorder with_counter(Recorder recorder, const Mission& mission, Counter& counte
           sensors};
 }
 
-/// One run as it is told.
+/// One run as it is printed.
 struct Told {
   const EvaluationJob* job = nullptr;
   std::int64_t seed = 0;

@@ -69,7 +69,7 @@ const char* name_of_text(const std::string& text) {
   return "machine";
 }
 
-/// The steps as people read them: without tests nothing is marked, and nobody leaves.
+/// The steps as people read them: without tests nothing is marked, and no candidate leaves.
 Rows told_steps(const EvaluationHistory& history) {
   Rows steps = history.steps;
   if (history.is_race()) return steps;

@@ -163,7 +163,7 @@ std::vector<CandidateId> candidates_of(const Rows& rows) {
   return candidates;
 }
 
-/// Nothing to export is ordinary, unless somebody named it.
+/// Nothing to export is ordinary, unless the user named it.
 ExitCode nothing_found(const ExportArguments& arguments, Output& output) {
   if (arguments.design.empty() && arguments.candidate.empty()) {
     print_note(output, "the store has no such machines yet");

@@ -26,7 +26,7 @@ void list(Output& output) {
     output.out << name << "\n";
 }
 
-/// All that a file of one's own says, that of its base included, as a file.
+/// All that a user's profile says, with what its base says, as a file.
 std::string whole_text(const Profile& profile) {
   const std::string root = "profile";
   std::string text = "format = 1\n";

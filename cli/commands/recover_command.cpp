@@ -22,7 +22,7 @@ struct RecoverArguments {
   std::string without_key;
 };
 
-/// What is told at the end.
+/// What is printed at the end.
 struct Report {
   std::vector<Rebuilt::Design> designs;  ///< by the ids of the new store
   std::vector<std::string> complaints;

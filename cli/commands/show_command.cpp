@@ -33,7 +33,7 @@ std::string scores_of(const std::string& number, const std::string& purpose, boo
          number + of + " GROUP BY candidate, source";
 }
 
-/// Statements that show a thing, the first of which has one row if it exists.
+/// Statements that show a thing; the first one has one row if it exists.
 std::vector<Part> parts_of_design(const std::string& number, bool has_purposes) {
   std::vector<Part> parts = {
       {"design", "SELECT * FROM v_designs WHERE design = " + number},

@@ -16,7 +16,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Scores that are evaluated again when nobody says how many: well below a second.
+/// Scores that are evaluated again by default: well below a second.
 constexpr std::int64_t kUsualSample = 64;
 constexpr std::int64_t kLargest = 2'147'483'647;
 
@@ -71,7 +71,7 @@ void write_text(Output& output, const Verification& found, const std::optional<S
   output.out << "\n";
 }
 
-/// Without --seed other evaluations each time, so that nobody knows in advance which.
+/// Without --seed other evaluations each time, so that a worker cannot know in advance which.
 std::int64_t drawn_seed() {
   return static_cast<std::int64_t>(std::random_device{}() % kLargest);
 }

@@ -10,7 +10,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// How the program is told where the coordinator is.
+/// How the program learns where the coordinator is.
 Expected<std::vector<std::string>> where_words(const std::string& connect,
                                                const std::string& coordinator) {
   if (connect.empty() == coordinator.empty()) {

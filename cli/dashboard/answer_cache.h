@@ -28,7 +28,7 @@ struct KeptAnswer {
   bool is_final = false;  ///< it stays as it is
 };
 
-/// Answers that are the same for everybody who asks: equal questions at the same time share one
+/// Answers that are the same for all clients: equal questions at the same time share one
 /// computation, and the newest answers are kept, least recently used ones dropped.
 class AnswerCache {
  public:
@@ -53,7 +53,7 @@ class AnswerCache {
     bool shared = false;   ///< see `get`
   };
   /// The same, made in a thread of its own that lives as long as it takes. When the answer is not
-  /// there after `patience`, whoever asks again finds it under way; then, whatever it is, it is
+  /// there after `patience`, the next client finds it under way; then, whatever it is, it is
   /// the answer for the next kLate, so that it can be fetched from a store that goes on.
   SoFar get_within(const std::string& question, const std::string& stamp, Clock::time_point oldest,
                    std::function<KeptAnswer()> make, const Turn& turn,

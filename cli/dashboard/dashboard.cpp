@@ -395,7 +395,7 @@ Expected<void> write_token(const std::filesystem::path& file, const std::string&
         std::string("the token of the dashboard cannot be written: ") + std::strerror(errno),
         file.string());
   };
-  // A new file, so that nobody has it open already.
+  // A new file, so that no process has it open already.
   ::unlink(file.c_str());
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (fd < 0) return failed();

@@ -26,12 +26,12 @@ struct DashboardStore {
 struct DashboardOptions {
   std::vector<DashboardStore> stores{};
   /// Carries out what a person asks of a campaign; a sentence that says what was done, when it is
-  /// on disk. Empty: nobody may act.
+  /// on disk. Empty: acts are refused.
   std::function<Expected<std::string>(const std::filesystem::path& store, const CommandRow&)> act{};
   /// The program that runs statements: `swarmsmith`.
   std::string program{};
   std::string version{};  ///< of this program
-  /// For a file that is given away: nothing of this host, this process or this moment is told.
+  /// For a file that is given away: it has nothing of this host, this process or this moment.
   bool is_snapshot = false;
   /// What is asked before each `live`: it may publish. Empty: nothing.
   std::function<void()> before_live{};

@@ -39,8 +39,8 @@ struct StoredCampaignState {
 Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written,
                                                   const CampaignStatus* now);
 
-/// The element of `campaigns` of `live`. `left_s`: as seconds_left says. Nobody acts on campaigns
-/// that were merged or imported.
+/// The element of `campaigns` of `live`. `left_s`: as seconds_left says. There are no acts on
+/// campaigns that were merged or imported.
 JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
                          const StoredCampaignState& state, double left_s, bool may_act);
 

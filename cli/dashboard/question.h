@@ -32,7 +32,7 @@ struct Question {
   Parameters parameters{};
   std::string id{};  ///< of the thing in the path: "c812", "e81200007", "r7", a kind of figure
   DesignId design{};
-  /// Whether who asked has gone away since; empty: is never asked.
+  /// Whether the client has disconnected since; empty: is never asked.
   std::function<bool()> is_gone{};
   bool is_snapshot = false;  ///< see DashboardOptions
 

@@ -109,8 +109,9 @@ Expected<RoundTexts> round_of(const Question& question, std::int64_t iteration) 
   texts.title.front() = static_cast<char>(std::toupper(texts.title.front()));
   const SearchWords& words = words_of(search->kind);
   if (!words.has_tests)
-    texts.note = fmt::format(
-        "This is no race: {} compares means, and no statistical test drops anybody.", words.name);
+    texts.note =
+        fmt::format("This is no race: {} compares means, and no statistical test drops candidates.",
+                    words.name);
   return texts;
 }
 

@@ -171,7 +171,7 @@ class Track {
     put(y_, pose.y);
     put(theta_, pose.theta);
   }
-  /// Where nobody knows.
+  /// Where it is not known.
   void add_nothing() {
     for (std::string* column : {&x_, &y_, &theta_})
       *column += column->empty() ? "null" : ",null";
@@ -421,7 +421,7 @@ Expected<Answer> trajectory_answer(const Question& question) {
   }
   const auto run = find_run(question, *name);
   if (run) return simulated_answer(question, *run);
-  // The store has it, but nobody can simulate it: that is no failure.
+  // The store has it, but it cannot be simulated. This is not an error.
   if (run.error().kind != ErrorKind::BadInput || run.error().where == name->profile)
     return Unexpected(run.error());
   return json_answer(answer_object().add("nothing", to_string(run.error())));

@@ -14,7 +14,7 @@ namespace swarmsmith::cli {
 struct SnapshotOptions {
   std::vector<DesignId> designs{};  ///< empty: all
   std::string version{};            ///< of this program
-  /// Is told how many answers are made, and how many there will be.
+  /// Called with how many answers are made, and how many there will be.
   std::function<void(std::int64_t made, std::int64_t of)> progress{};
 };
 

@@ -12,7 +12,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Triggers when who asked goes away.
+/// Triggers when the client disconnects.
 class Watch {
  public:
   explicit Watch(const std::function<bool()>& is_gone) {
@@ -35,7 +35,7 @@ class Watch {
   std::jthread thread_;
 };
 
-/// The program's sentence without its name and the statement, which who typed it knows.
+/// The program's sentence without its name and the statement, which the user has typed.
 std::string sentence_of(std::string_view errors, const std::string& sql) {
   constexpr std::string_view kName = "swarmsmith: ";
   if (errors.starts_with(kName)) errors.remove_prefix(kName.size());
@@ -79,7 +79,7 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (end->why == ProcessEnd::Why::Interrupted)
-    return unexpected(ErrorKind::Unavailable, "who asked has gone away");
+    return unexpected(ErrorKind::Unavailable, "the client disconnected");
   if (end->why == ProcessEnd::Why::Limit) {
     return bad_input("the statement was ended after " + std::to_string(kSqlSeconds) +
                          " s; ask for one design, or type it into `swarmsmith query`",

@@ -12,8 +12,8 @@ inline constexpr std::int64_t kSqlSeconds = 10;
 inline constexpr std::size_t kSqlBytes = std::size_t{8} << 20U;
 
 /// Runs a person's statement in a process of its own, `program query`, that ends with its time,
-/// with too long an answer, or when who asked goes away: whatever it needs, the campaign's process
-/// does not feel it.
+/// with too long an answer, or when the client disconnects: whatever it needs, the campaign's
+/// process does not feel it.
 Expected<Answer> sql_answer(const Question& question, const std::string& program);
 
 }  // namespace swarmsmith::cli

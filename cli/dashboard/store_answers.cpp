@@ -74,8 +74,8 @@ struct Happening {
 };
 
 /// A list of things that happened, its first column the time. Audits that found the same bits, some
-/// a second, are none: they would hide all else. A failure is told once, by v_failures, which knows
-/// most of it.
+/// a second, are none: they would hide all else. A failure is shown once, by v_failures, which
+/// knows most of it.
 struct List {
   const char* kind;
   const char* severity;

@@ -9,7 +9,7 @@
 
 namespace swarmsmith::cli {
 
-/// Where a run's store is: a file that somebody named, or one in a temporary folder that goes with
+/// Where a run's store is: a file that the user named, or one in a temporary folder that goes with
 /// this object.
 class StorePlace {
  public:

@@ -34,7 +34,7 @@ struct EvaluationHistory {
 /// Empty parts where the store has nothing; `id` is of an evaluation. Errors: as a query's.
 Expected<EvaluationHistory> read_history(StoreReader& store, const ThingId& id);
 
-/// Who asked for it, and for what: "the race of iteration 3, first in step 40".
+/// What asked for it, and for what: "the race of iteration 3, first in step 40".
 std::string why(const EvaluationHistory& history);
 
 /// As `explain --json` writes it.

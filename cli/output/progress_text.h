@@ -23,7 +23,7 @@ std::string best_text(const ProgressModel& model, const DesignStateRow& state);
 ///   designs 3/10  d4 iteration 5/~10  [####------]  52 418/100 000  best 2.71  ETA 1m55s
 ///   412 sim/s  alive 17/58  failed 3
 /// Another search than iterated racing says where it is in its own words, and who is alive only
-/// where tests drop somebody: d4 generation 41 of 90, 12 of 20 members.
+/// where tests drop candidates: d4 generation 41 of 90, 12 of 20 members.
 /// What is needed least is left out first: alive, bar, iteration, rate. Of several campaigns, their
 /// sums: campaigns 0/2  designs 3/20  [####------]  ...
 std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
@@ -37,7 +37,7 @@ std::string plain_status(std::span<const ProgressModel> models, const LiveStatus
 std::string race_headline();
 std::string race_line(const RaceStepRow& step, const std::string& mean_best, double elapsed_s);
 
-/// Whether the design's search has races, which are told step by step.
+/// Whether the design's search has races, which are shown step by step.
 bool has_tests(const DesignProgress& progress);
 /// A race, a generation or another part of a search begins: its size and budget.
 std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress);
@@ -47,7 +47,7 @@ std::string elite_line(const EliteRow& elite, const DesignProgress& progress,
 /// A design's state changed.
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
                        const std::string& best_mean);
-/// Somebody asked for something, or it acts now.
+/// A user asked for something, or it acts now.
 std::string command_line(const CommandRow& command);
 /// Something happened that a person may want to know.
 std::string event_line(const EventRow& event);

@@ -11,8 +11,8 @@ namespace swarmsmith::cli {
 /// Who is in quarantine as the store has it: of a campaign at rest, and after a restart.
 Expected<std::vector<QuarantineStatus>> stored_quarantine(StoreReader& store);
 
-/// "in quarantine: ..." and how it ends; a line each, none when nobody is. `store` as a person
-/// would type it.
+/// "in quarantine: ..." and how it ends; a line each, none without a worker in quarantine. `store`
+/// as a person would type it.
 std::vector<std::string> quarantine_lines(const std::vector<QuarantineStatus>& quarantine,
                                           const std::string& store);
 

@@ -156,7 +156,7 @@ void StoredStages::tell(Rows& rows) const {
     const SearchOptions* known = search(id);
     if (known != nullptr && state && cells[*state].text == "racing")
       cells[*state].text = words_of(known->kind).at_work;
-    // What ends one race is no limit that anybody set.
+    // What ends one race is not a limit that the user set.
     if (known != nullptr && known->kind == SearchKind::FRace && reason &&
         cells[*reason].text == "limit of iterations") {
       cells[*reason].text = find(id)->now.alive == 1 ? "one configuration is left"

@@ -24,7 +24,7 @@ namespace {
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
 constexpr const char* kTurnClock = "--turn-clock";
 
-/// The same text is another machine under another flavour: nobody guesses which one is meant. A
+/// The same text is another machine under another flavour, so the flavour is not guessed. A
 /// candidate's method has a say in its flavour's constants; another flavour has its own.
 Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMachine& named) {
   const std::string name = arguments.flavour.empty() ? named.flavour : arguments.flavour;

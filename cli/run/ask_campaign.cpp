@@ -22,7 +22,7 @@ Expected<std::string> ask_campaign(const std::filesystem::path& path,
   }
   if ((*reader)->campaigns().front().state == "imported") {
     return unexpected(ErrorKind::Conflict,
-                      "the campaign was imported: nobody runs it, so nothing can be asked of it",
+                      "the campaign was imported: it does not run, so nothing can be asked of it",
                       path.string());
   }
   const CampaignRow campaign = (*reader)->campaign();

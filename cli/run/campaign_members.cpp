@@ -41,7 +41,7 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     const Campaign& campaign = *members_[i].campaign;
     StoreOptions options;
     options.patience = kPatience;
-    // A run of a program may have cost minutes: it waits for nobody.
+    // A run of a program may have cost minutes: it is stored at once.
     if (campaign.target) options.gather = std::chrono::milliseconds(0);
     auto store =
         Store::open(campaign.store, campaign_row(campaign), design_rows(campaign), options);

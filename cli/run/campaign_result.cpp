@@ -132,7 +132,7 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
     if (!name.empty()) output.out << "campaign " << as_shown(name, Layout::Escaped) << "\n";
     write_text(output, *rows, *stages, *costs);
   }
-  // A design that somebody cancelled has failed nobody.
+  // A cancelled design is not a failed one.
   const bool failed = std::ranges::any_of(rows->cells, [](const auto& cells) {
     return cells[4].text == "stopped" && cells[12].text != "cancelled";
   });

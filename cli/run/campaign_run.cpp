@@ -142,7 +142,7 @@ class CampaignRun {
                                                               : DashboardSetup::Secret::OfOnesOwn);
   }
 
-  /// Nobody asked for an address that is usual: without it the campaign goes on.
+  /// A default address was not asked for: without it the campaign goes on.
   Expected<void> show_pages() {
     make_dashboard();
     auto pages = dashboard_ ? open_pages(options_, dashboard_->site(), dashboard_->token())

@@ -9,7 +9,7 @@
 namespace swarmsmith::cli {
 
 /// Writes a command of a person (its kind, design, budget and who; no design: all that are not
-/// over) into the store of a campaign that nobody runs; it acts when the campaign is run again.
+/// over) into the store of a campaign that does not run; it acts when the campaign is run again.
 /// Returns a sentence that says so. What cannot be is refused as a running coordinator would: the
 /// design is played again for that, which takes as long as `verify` of it. `known` is the campaign
 /// of the store. Errors: BadInput (with what can be done), Corrupt.

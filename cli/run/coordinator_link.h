@@ -31,7 +31,7 @@ Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std
                                       std::chrono::seconds patience = std::chrono::seconds(10));
 
 /// The status of a running coordinator as JSON (docs/observability.md), asked over the wire.
-/// Errors: Unavailable (nobody answers in time), BadInput (it does not let this program read).
+/// Errors: Unavailable (no answer in time), BadInput (it does not let this program read).
 Expected<std::string> ask_status(const FoundCoordinator& coordinator,
                                  std::chrono::milliseconds patience);
 

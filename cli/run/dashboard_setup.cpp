@@ -25,7 +25,7 @@ std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
       setup->token_ = read_token(file).value_or("");
     if (setup->token_.empty()) {
       setup->token_ = new_token();
-      // A store in somebody else's folder can be looked at, and no more.
+      // A store in another user's folder can be looked at, and no more.
       if (write_token(file, setup->token_)) {
         setup->file_ = file;
       } else {

@@ -30,7 +30,7 @@ class DashboardSetup {
   DashboardSetup& operator=(const DashboardSetup&) = delete;
 
   const std::shared_ptr<HttpSite>& site() const { return site_; }
-  /// Empty where the token is one's own.
+  /// Empty where the user gave the token.
   const std::string& token() const { return token_; }
   /// Says where the pages are, and how they are reached from elsewhere; the secret to a terminal
   /// alone. `address`: HOST:PORT.

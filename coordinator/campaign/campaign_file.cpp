@@ -48,7 +48,7 @@ void read_identity(TableReader& root, Campaign& campaign, const std::filesystem:
   table->finish();
 }
 
-/// All missions travel to the workers in one message, of which pictures are the only part that can
+/// All missions travel to the workers in one message. Pictures are the only part of it that can
 /// become large (proto/wire.h).
 void check_pictures(TableReader& root, const Campaign& campaign) {
   constexpr std::size_t kMostBytes = 24U << 20U;

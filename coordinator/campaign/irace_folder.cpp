@@ -152,7 +152,7 @@ Expected<ParameterSpace> space_in_grammar(const Method& method, const Flavour& f
   return ParameterSpace::make(std::move(weights), {}, digits);
 }
 
-/// What irace is told of a design of control software: one instance, the mission, whose runs differ
+/// What irace gets of a design of control software: one instance, the mission, whose runs differ
 /// in their seeds; as many test instances as the winner is tested on seeds.
 Expected<IraceSetup> setup_of_simulations(const Campaign& campaign, const Method& method,
                                           const CampaignMission& mission) {
@@ -178,7 +178,7 @@ std::string_view word_of(BatchMode mode) {
   return kWords.at(static_cast<std::size_t>(mode));
 }
 
-/// The reverse of `campaign_of`: what irace is told of a design that programs evaluate.
+/// The reverse of `campaign_of`: what irace gets of a design that programs evaluate.
 Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& method,
                                      const CampaignMission& mission) {
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));

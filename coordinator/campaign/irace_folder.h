@@ -24,7 +24,7 @@ struct IraceFolder {
   std::vector<std::string> remarks;  ///< what that irace cannot be told, a sentence each
 };
 
-/// What irace is told of a design: options, instances, and the space, which of machines and trees
+/// What irace gets of a design: options, instances, and the space, which of machines and trees
 /// is in the words of their text grammar, and of networks the weights. Fails for what irace cannot
 /// express.
 Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& design);

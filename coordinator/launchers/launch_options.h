@@ -39,7 +39,7 @@ struct LaunchOptions {
   friend bool operator==(const LaunchOptions&, const LaunchOptions&) = default;
 };
 
-/// What workers are told of the coordinator.
+/// What workers must know of the coordinator.
 struct WorkerAddress {
   std::string endpoint;               ///< tcp://host:port
   std::filesystem::path coordinator;  ///< a coordinator file, which wins over `endpoint`; or empty

@@ -33,7 +33,7 @@ class Launcher {
   /// Looks after the workers; several times a second. Returns why workers can never be had, if so:
   /// what may pass by itself is a note of the status, and is tried again.
   virtual std::string tend(TimePoint now) = 0;
-  /// Asks the workers to drain, waits at most about `grace`, and ends what is left. Returns what a
+  /// Asks the workers to drain, waits at most about `grace`, and ends the others. Returns what a
   /// person has to end by hand, if anything.
   virtual std::string stop(Duration grace) = 0;
   virtual LauncherStatus status() const = 0;

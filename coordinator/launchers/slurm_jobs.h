@@ -39,9 +39,9 @@ struct SlurmTimes {
 ///
 /// Nothing is submitted but on a fresh view of the queue: so jobs of an earlier coordinator of the
 /// same campaign are found and counted, and a submission whose answer got lost is not made twice.
-/// A job that ended while work is left is replaced, except when somebody cancelled it: whoever
+/// A job that ended while work is left is replaced, except when a person cancelled it: who
 /// does that wants fewer workers. Workers end well only when they are asked to: if jobs complete as
-/// soon as they run, again and again, their program is none. Jobs that somebody submitted by hand
+/// soon as they run, again and again, their program is none. Jobs that a person submitted by hand
 /// under the same name count.
 class SlurmJobs {
  public:

@@ -54,7 +54,7 @@ Expected<void> write_script(const fs::path& file, const std::string& text) {
   // What workers say is written there.
   if (fs::create_directories(file.parent_path(), failed))
     fs::permissions(file.parent_path(), fs::perms::owner_all, failed);
-  // Somebody may submit it right now: it is replaced as a whole.
+  // Another process may submit it right now: it is replaced as a whole.
   const fs::path next = file.string() + ".new";
   std::ofstream stream(next, std::ios::binary | std::ios::trunc);
   stream << text;

@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// What a campaign's workers need, whoever starts them.
+/// What a campaign's workers need, however they are started.
 struct WorkersSetup {
   LaunchOptions launch;
   WorkerAddress address;

@@ -55,7 +55,7 @@ struct Case {
 };
 
 /// What the referee has to evaluate: the coordinator's own child, one evaluation after the other.
-/// Cases that somebody waits for go before audits. Pure bookkeeping: the scheduler opens cases, and
+/// Cases that a design waits for go before audits. Pure bookkeeping: the scheduler opens cases, and
 /// does what follows from the rulings.
 class Cases {
  public:

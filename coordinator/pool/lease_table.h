@@ -103,7 +103,7 @@ class LeaseTable {
   /// Keeps a queued task from all workers, or lets it go to them again.
   void park(TaskRecord& record);
   void unpark(TaskRecord& record);
-  /// Keeps queued look-ahead until somebody wants it.
+  /// Keeps queued look-ahead until a design wants it.
   void shelve(TaskRecord& record);
 
   /// Keys leased to a worker, the oldest lease first; second copies too.

@@ -16,7 +16,7 @@ constexpr int kDeathsOfARejection = 3;
 /// Silent losses are mostly the network's: tolerated much longer.
 constexpr int kLossesUntilAlone = 2;
 constexpr int kLossesUntilRuled = 12;
-/// Losses with workers of which nothing is known say nothing of the task. But where nobody can
+/// Losses with workers that are not known yet say nothing of the task. But where no worker can
 /// prove himself, since each dies of it, the referee breaks the circle: one such task at a time.
 constexpr int kStraysUntilRuled = 6;
 
@@ -99,7 +99,7 @@ LostWorkers::Blame LostWorkers::blame_of_program(WorkerEntry& entry, TaskRecord&
   const Lease& lease = *record.lease;
   const bool is_death = loss == Loss::Death;
   if (is_death && lease.alone && lease.began) {
-    // Where there is somebody else, the same one is not asked three times.
+    // Where there is another worker, the same one is not asked three times.
     const std::string& name = entry.principal->name;
     const bool is_new = std::ranges::find(record.died_with, name) == record.died_with.end();
     if (is_new || trust_->proven_present() <= record.died_with.size()) {

@@ -59,8 +59,8 @@ void Scheduler::on_results(const Sender& sender, std::span<const Result> results
     } else if (result.failure.empty()) {
       on_score(*entry, result, now);
     } else {
-      // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
-      // may forget it at once.
+      // A failure is reported once: for the lease under which it ran. Nothing is written, so the
+      // worker may forget it at once.
       acknowledged.keys.push_back(result.key);
       on_failure(*entry, result, now);
     }
@@ -225,7 +225,7 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
 }
 
 /// Leases of the worker's last connection that it does not hold went astray; those that it holds,
-/// was given by an earlier process, and nobody else has are its own.
+/// was given by an earlier process, and no other worker has are its own.
 void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   std::unordered_set<PackedKey> held;
   if (entry.hello.same_scenario) {

@@ -133,7 +133,7 @@ void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now
     if (next == principal.waiting.end()) break;
     const Principal::Waiting one = std::move(principal.waiting.extract(next).mapped());
     const TaskRecord* record = book_->leases.find(one.result.key);
-    // Somebody else was faster: it is compared when it is sent again.
+    // Another worker was faster: it is compared when it is sent again.
     if (record == nullptr) continue;
     ++standing.on_trial;
     cases_.open(record->task,
@@ -184,7 +184,7 @@ bool Trust::is_drawn(PackedKey key, double share) const {
 void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result) {
   const std::int64_t every = book_->policy_of(record).audit_every;
   if (every == 0 || book_->options.evaluates_programs || result.rejected) return;
-  // Where somebody's word is before the referee already, this one costs nothing more.
+  // Where the referee already has an answer to judge, this one costs nothing more.
   const bool has_word = cases_.knows(result.key);
   const double backlog_us = referee_us_ * static_cast<double>(cases_.size());
   if (!has_word && cases_.audits() > 0 && backlog_us > kMostBacklogUs) return;

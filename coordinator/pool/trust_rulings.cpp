@@ -79,7 +79,7 @@ void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
 }
 
 /// Another result with other bits: of another task, when a crash took away why that one had the
-/// key; or the campaign is not deterministic, or somebody lies. That is seen when the campaign has
+/// key; or the campaign is not deterministic, or a worker lies. That is seen when the campaign has
 /// told the task.
 void Trust::dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result) {
   if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
@@ -228,8 +228,8 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
   if (said.on_trial) try_waiting(*principal, said.worker, now);
 }
 
-/// It is made again by no later process, and whoever gave other bits was wrong. Who gave the kept
-/// one of a dispute is not known.
+/// It is made again by no later process, and workers that gave other bits were wrong. Who gave the
+/// kept one of a dispute is not known.
 void Trust::note_audited(const Said& said, Principal* principal, const Ruling& ruling) {
   const std::uint32_t campaign = campaign_of(ruling.key);
   if (principal != nullptr) --principal->standing(said.worker).unchecked_of(campaign);
@@ -241,7 +241,7 @@ void Trust::note_audited(const Said& said, Principal* principal, const Ruling& r
                            .outcome = AttemptOutcome::Audited}});
 }
 
-/// The outcome that counts may be the wrong one, whoever gave it.
+/// The outcome that counts may be the wrong one.
 void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
   if (ruling.kind == Ruling::Kind::TimedOut) return;
   for (const Said& said : ruled.said) {

@@ -18,8 +18,8 @@ using WorkerNumber = std::int64_t;
 struct WorkerLoad {
   std::list<PackedKey> leases;  ///< the oldest first
   std::size_t ahead = 0;        ///< of these: look-ahead
-  /// What it was given and somebody else finished: it has them still, so they take its places until
-  /// it says what came of them. With the time of its last word about them.
+  /// What it was given and another worker finished: it has them still, so they take its places
+  /// until it says what came of them. With the time of its last word about them.
   std::unordered_map<PackedKey, TimePoint> lingering;
   std::size_t slots = 0;
   std::size_t credit = 0;  ///< how many it wants to hold

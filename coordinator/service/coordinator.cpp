@@ -210,8 +210,8 @@ void Coordinator::on_tick(TimePoint now) {
   sample_due_ = true;
 }
 
-// What people ask of running campaigns. Commands are rows, and whoever asked is told when they are
-// on disk: what was confirmed outlives a crash.
+// What people ask of running campaigns. Commands are rows, and the client gets an answer when they
+// are on disk: what was confirmed outlives a crash.
 
 void Coordinator::on_command(const Peer& peer, const pb::Command& command, TimePoint now) {
   if (!budgets_.may_command(now)) {

@@ -65,7 +65,7 @@ struct AppendRows {
   /// The last so many are of the pool, and in the units of all campaigns.
   std::size_t of_pool = 0;
 };
-/// Somebody asks how it goes: to be answered with `status_reply_of`.
+/// A client asks for the status: to be answered with `status_reply_of`.
 struct AnswerStatus {
   PeerId peer = 0;
 };

@@ -29,7 +29,7 @@ Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options)
   if (options.insecure_plaintext) {
     log_event(
         LogLevel::Warning, "coordinator",
-        "listening beyond loopback without encryption: anybody who reaches the port can read the "
+        "listening beyond loopback without encryption: any host that reaches the port can read the "
         "campaign, send results and give commands",
         {{"address", options.bind}});
   }

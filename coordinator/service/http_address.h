@@ -9,7 +9,7 @@
 
 namespace swarmsmith {
 
-/// Whether a request's Host header means us, and not a name that somebody pointed at us (DNS
+/// Whether a request's Host header means us, and not another name that points at us (DNS
 /// rebinding): on loopback, its names and numbers; elsewhere the name that we listen on, this
 /// host's name, and any number, since browsers do not look numbers up.
 bool is_our_host(std::string_view header, const Address& address, const std::string& host_name);

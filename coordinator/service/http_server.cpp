@@ -103,7 +103,8 @@ class Pages final : public HttpServer {
     return options_.token.empty() || has_token_of(request, options_.token);
   }
   /// Whether a user of this host asks who may not: without a token those may look who run this
-  /// process, and root. Whoever knows the secret of acts is no stranger, whatever the kernel says.
+  /// process, and root. A client that knows the secret of acts is trusted, whatever the kernel
+  /// says.
   bool is_other_user(const httplib::Request& request) const {
     return options_.token.empty() && !is_of_same_user(PageServer::socket_of_request()) &&
            !has_token_of(request, options_.act_token);
@@ -172,7 +173,7 @@ class Pages final : public HttpServer {
   Handled refuse_other_user(const httplib::Request& request, httplib::Response& response) const {
     return refuse(request, response, 403, "other_user",
                   "these pages belong to another user of this host; with --http-token-file they "
-                  "open to everybody who has the token");
+                  "open to all who have the token");
   }
 
   /// For the store's list of commands.

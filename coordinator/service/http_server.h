@@ -32,7 +32,7 @@ struct HttpOptions {
 /// Serves what the coordinator's loop publishes, from threads of its own: /metrics (Prometheus),
 /// /healthz, /readyz, /status (JSON), and a site. One request a connection, bounded in size, number
 /// and time. The pages of health need no token, say no more than "ok" without one, and wait for
-/// nobody: not for slow connections, nor for those who read the other pages.
+/// no client: not for slow connections, nor for those who read the other pages.
 ///
 /// The site's pages are shown to whom the token lets in; on loopback, without one, to the user of
 /// this process and to root. Only the site's acts may be asked for by POST, always with a token,

@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// What somebody asks for who may ask for it.
+/// What a client that may ask asks for.
 struct SiteRequest {
   bool acts = false;   ///< POST; the token was there
   std::string path{};  ///< "/api/v1/live"
@@ -19,7 +19,7 @@ struct SiteRequest {
   std::string peer{};  ///< who acts: "anna@127.0.0.1"
   std::string etag{};  ///< of what the asker has already
   bool accepts_gzip = false;
-  /// Whether who asked has gone away since; empty: is never asked.
+  /// Whether the client has disconnected since; empty: is never asked.
   std::function<bool()> is_gone{};
 };
 
@@ -35,7 +35,7 @@ class HttpSite {
  public:
   virtual ~HttpSite() = default;
 
-  /// Whether everybody may have it who names the right host: it says nothing about anybody.
+  /// Whether each client that names the right host may have it: it holds nothing private.
   virtual bool is_open(std::string_view path) const = 0;
   /// Whether errors of this path are JSON, as its answers are.
   virtual bool is_api(std::string_view path) const = 0;

@@ -48,7 +48,7 @@ struct QuarantineStatus {
 
 /// "in quarantine since ...: node@10.0.0.5 (2 workers here): it gave ...".
 std::string quarantine_line(const QuarantineStatus& status);
-/// What a person reads who lets them work again, or who meant somebody else: with that in it.
+/// What a person reads who lets them work again, or who meant another worker: with that in it.
 inline constexpr const char* kNotInQuarantine = "it is not in quarantine";
 std::string sentence_of_forgiven(const std::vector<std::string>& names);
 Expected<std::string> not_in_quarantine(const std::string& word,
@@ -112,7 +112,7 @@ struct LiveStatus {
   SlotTimes slot_times_last_minute;
   std::string trouble;      ///< why nothing can be written; empty when well
   LauncherStatus launcher;  ///< of workers that this process starts; without name: none
-  /// Other hosts can connect without keys, because somebody insisted.
+  /// Other hosts can connect without keys (--insecure).
   bool insecure_plaintext = false;
   std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
   std::vector<QuarantineStatus> quarantine;

@@ -66,7 +66,7 @@ struct DesignProgress : DesignStatus {
   std::int64_t iterations = 0;  ///< as planned when the iteration began
   std::int64_t configurations = 0;
   std::int64_t alive = 0;
-  /// None for an iterated race; the others are told of by SearchPoint.
+  /// None for an iterated race; SearchPoint has the others.
   std::optional<SearchOptions> options{};
   bool is_final = false;         ///< the iteration is the final stage
   std::int64_t extensions = 0;   ///< that have acted: each follows a final stage

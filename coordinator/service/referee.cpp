@@ -34,7 +34,7 @@ constexpr int kTries = 3;
 /// Deaths by its own fault that are the evaluation's.
 constexpr int kFaults = 2;
 
-/// Raised by what a program does, and not by somebody else.
+/// Raised by what a program does, and not by another process.
 bool is_fault(int signal) {
   return signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE ||
          signal == SIGILL || signal == SIGTRAP || signal == SIGSYS;

@@ -38,7 +38,8 @@ struct RefereeOptions {
 ///   by a signal that a fault of the program raises;
 /// - TimedOut when it takes longer than it may;
 /// - NoWord when the process cannot be had, is of another build, ends before it began, runs out of
-///   memory, or is killed by somebody else three times: then it is this host that has to be mended.
+///   memory, or is killed by another process three times: then it is this host that has to be
+///   mended.
 std::unique_ptr<Referee> make_process_referee(RefereeOptions options);
 
 }  // namespace swarmsmith

@@ -290,7 +290,7 @@ class Loop final : public Service {
     carry_out();
     stores_.flush();
     hear_news();
-    // A worker that did not hear of the end would look for the coordinator until somebody stops it.
+    // A worker that did not hear of the end would look for the coordinator until a person stops it.
     const TimePoint until = clock_.now() + kFarewell;
     while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
       step();
@@ -334,7 +334,7 @@ class Loop final : public Service {
   RowLog row_log_;
   RefusalLog refusal_log_;
   LiveStatus status_;
-  std::string status_json_;  ///< of it; empty until somebody asks
+  std::string status_json_;  ///< of it; empty until a client asks
   TimePoint looked_;
   bool too_slow_ = false;  ///< the disk
   TimePoint next_tick_{};

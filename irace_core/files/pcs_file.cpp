@@ -37,7 +37,7 @@ std::vector<std::string> split_list(std::string_view text) {
   }
 }
 
-/// What stands between two brackets, the first of which comes next.
+/// What stands between two brackets; the first one comes next.
 Expected<std::string> take_bracketed(LineReader& line, char open, char close) {
   line.skip_blanks();
   const std::string wanted = {open, '.', '.', '.', close};

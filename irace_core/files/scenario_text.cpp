@@ -88,7 +88,7 @@ class Printer {
     line("digits", std::int64_t{setup_.space.digits()});
     if (!names_.forbidden.empty()) line("forbiddenFile", names_.forbidden);
     if (setup_.race.postselection) {
-      remark("postselection", "is left out: irace 3.5 has no last race with what is left");
+      remark("postselection", "is left out: irace 3.5 has no last race with the remaining budget");
     }
   }
 

@@ -43,7 +43,7 @@ std::string pack(const Configuration& configuration) {
   return packed;
 }
 
-/// Of as many parameters as `configuration` has, all of which are inactive.
+/// Of as many parameters as `configuration` has; all of them are inactive.
 void unpack(const std::string& packed, Configuration& configuration) {
   std::size_t parameter = 0;
   for (std::size_t i = 0; i < packed.size();) {

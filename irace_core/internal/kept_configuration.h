@@ -7,9 +7,9 @@
 
 namespace swarmsmith::irace {
 
-/// A configuration that can be put away: a design tries tens of thousands, of which few are looked
-/// at again. Most parameters of one are inactive, and most values small whole numbers: what is put
-/// away takes some hundred bytes where it took kilobytes. Not for several threads.
+/// A configuration that can be put away: a design tries tens of thousands, and few of them are
+/// looked at again. Most parameters of one are inactive, and most values small whole numbers: what
+/// is put away takes some hundred bytes where it took kilobytes. Not for several threads.
 class KeptConfiguration {
  public:
   KeptConfiguration(Configuration configuration)  // NOLINT(google-explicit-constructor)

@@ -164,7 +164,7 @@ class IteratedRace::State {
   Expected<bool> ask_estimate(std::int64_t count);
   void tell_estimate(std::span<const Measurement> measurements);
   Expected<void> check_bounds(std::span<const Measurement> measurements) const;
-  /// The batch is told: its results, and what follows.
+  /// The results of the batch are there: takes them, and decides what follows.
   Expected<void> end_batch(std::span<const Measurement> costs);
   Expected<void> end_estimate();
   void lower_bound_max(double bound);
@@ -198,7 +198,7 @@ class IteratedRace::State {
   std::int64_t initial_count_ = 0;
   std::int64_t used_before_race_ = 0;
   bool nothing_was_run_ = false;  ///< in the last race: its first task needed more than was left
-  std::int64_t pairs_seen_ = 0;   ///< rows 1 .. pairs_seen_ of the list were tried by somebody
+  std::int64_t pairs_seen_ = 0;   ///< rows 1 .. pairs_seen_ of the list were tried by a candidate
   std::int64_t races_ = 0;
   std::int64_t steps_ = 0;                 ///< tasks of the design so far, of the estimate too
   std::uint64_t sampling_drawn_ = 0;       ///< numbers that sampling has used in this iteration

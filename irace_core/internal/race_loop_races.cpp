@@ -74,7 +74,7 @@ void IteratedRace::State::order_pairs(irace::RaceSettings& settings) {
 }
 
 /// By blocks, so that each is tried as a whole (R shuffles single pairs: irace facts, 25.7). A
-/// block of which rejections left a part unseen stays last, before its rest.
+/// block that rejections left unseen in part stays last, before its rest.
 void IteratedRace::State::shuffle_past(std::span<std::int64_t> past) const {
   const std::int64_t size = scenario.block_size;
   std::vector<std::int64_t> blocks(past.size() / static_cast<std::size_t>(size));
@@ -224,8 +224,8 @@ void IteratedRace::State::reject(std::int64_t id) {
   forbidden_.add_rejected(candidate(id).configuration.get());
 }
 
-/// After a race pairs_seen_ pairs from the first on have been tried by somebody: tasks take unused
-/// pairs in the order of the list.
+/// After a race pairs_seen_ pairs from the first on have been tried by a candidate: tasks take
+/// unused pairs in the order of the list.
 void IteratedRace::State::take_over_results() {
   for (std::size_t column = 0; column < race->size(); ++column) {
     const std::int64_t id = race->contestant(column).id;

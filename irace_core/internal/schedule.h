@@ -79,10 +79,10 @@ class Schedule {
   /// are for: one, or what nb_experiments_per_iteration makes of them.
   void extend(std::int64_t last_iteration, std::int64_t remaining);
 
-  /// The plan of the next race, given what is left and what was made so far: the elites (before the
-  /// first race those of the time estimate), and how many pairs were seen. Each call that returns a
-  /// race counts as an iteration; one that returns the end leaves no trace (an extension plans as
-  /// if it had not been made).
+  /// The plan of the next race, given the remaining budget and what was made so far: the elites
+  /// (before the first race those of the time estimate), and how many pairs were seen. Each call
+  /// that returns a race counts as an iteration; one that returns the end leaves no trace (an
+  /// extension plans as if it had not been made).
   std::variant<RacePlan, NoMoreRaces> next(std::int64_t remaining, std::int64_t elites,
                                            std::int64_t old_pairs);
 

@@ -30,7 +30,7 @@ std::int64_t most_runs_of(const AnnealingOptions& options) {
   return options.window + 2 * options.moved;
 }
 
-/// What is left of the start temperature, as a factor.
+/// The end temperature as a factor of the start temperature.
 double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
   const auto walked = static_cast<double>(used - scale_runs_of(options));
   const auto all = static_cast<double>(budget - scale_runs_of(options) - 2 * options.final_runs);

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kAnnealingBlock = 100;  ///< iterations of it in o
 
 /// Whether there is room for a further iteration before the final stage.
 bool walks_on(const AnnealingOptions& options, std::int64_t budget, std::int64_t used);
-/// The temperature of iteration `number`, from 1, as people are told of it: in the unit of the
+/// The temperature of iteration `number`, from 1, as it is shown: in the unit of the
 /// options, and in score units where it is the published one.
 double told_temperature(const AnnealingOptions& options, std::int64_t budget, std::int64_t used,
                         std::int64_t number);

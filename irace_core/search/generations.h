@@ -77,7 +77,7 @@ class Generations final : public Strategy {
 
 /// Generations of `population` x `runs` in a budget, each with a final stage of all its members.
 /// `final_runs` 0: as published for EvoStick, 20 for 10,000, 100 for 50,000 and 100,000, 500 for
-/// 200,000 (ARGoS3-NEAT, params/; docs/methods.md). What is left over goes to the final stage.
+/// 200,000 (ARGoS3-NEAT, params/; docs/methods.md). The rest goes to the final stage.
 Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t population,
                                           std::int64_t runs, std::int64_t final_runs);
 

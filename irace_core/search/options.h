@@ -12,14 +12,14 @@ namespace swarmsmith {
 /// is "automatic", and follows from the budget as said.
 enum class SearchKind {
   Irace,      ///< iterated F-race (irace_core/iterated_race.h)
-  Random,     ///< uniform draws, the best of which are run again
+  Random,     ///< uniform draws; the best are run again
   FRace,      ///< one race of uniform draws (Vanilla)
   Evolution,  ///< EvoStick's genetic algorithm
   CmaEs,      ///< covariance matrix adaptation
   Annealing,  ///< simulated annealing; with start_temperature = 0 iterative improvement
 };
 
-/// All of them, in the order in which people are told of them.
+/// All of them, in the order in which they are listed.
 std::span<const SearchKind> all_searches();
 
 /// What people call a search and its parts.

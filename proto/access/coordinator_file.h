@@ -18,7 +18,7 @@ struct CoordinatorFile {
   /// The same with numbers in place of this host's name, which other hosts may not know.
   std::vector<std::string> others{};
   std::string public_key;  ///< empty: connections are not encrypted
-  /// Not encrypted and reachable from other hosts, because somebody insisted.
+  /// Not encrypted and reachable from other hosts (--insecure).
   bool insecure_plaintext = false;
   std::int64_t pid = 0;
   std::string host;

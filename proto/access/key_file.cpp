@@ -12,7 +12,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr const char* kWarning =
-    "# Secret: anybody who reads this file can connect with it. Mode 0600; copy it with scp or on "
+    "# Secret: anyone who reads this file can connect with it. Mode 0600; copy it with scp or on "
     "a\n"
     "# file system that others cannot read, never by mail or into a repository.\n";
 constexpr const char* kServerRole = "server";

@@ -44,7 +44,7 @@ std::string objection_to(const struct stat& status, const std::filesystem::path&
     }
     return "";
   }
-  // What the administrator wrote is as good as one's own.
+  // A file of root is as good as a file of this user.
   if (status.st_uid != geteuid() && status.st_uid != 0) {
     return "the file belongs to another user (id " + std::to_string(status.st_uid) +
            "), who could admit anybody; take it over: chown " + std::to_string(geteuid()) + " " +

@@ -16,7 +16,7 @@ enum class Privacy {
 };
 
 /// The bytes of a file of this user, at most 1 MB. Errors name the file and never show what is in
-/// it: not there, no file, somebody else's, open to others (with the chmod that mends it).
+/// it: not there, no file, another user's, open to others (with the chmod that mends it).
 Expected<std::string> read_private_file(const std::filesystem::path& file, const std::string& what,
                                         Privacy privacy);
 

@@ -80,7 +80,7 @@ class Gate {
 
   zmq::socket_t* server_;
   Wakeup stop_;
-  zmq::socket_t requests_;  ///< the thread's; empty when everybody comes in
+  zmq::socket_t requests_;  ///< the thread's; empty when all clients come in
   zmq::socket_t monitor_;   ///< the thread's
 
   // Connections; the thread's. Their descriptors name them.

@@ -8,7 +8,7 @@ void catch_stop_signals();
 /// The signal that asked for an end; 0: none did.
 int stop_signal();
 
-/// Whether whoever holds the other end of standard input has closed it; does not wait, and reads
+/// Whether the other end of standard input is closed; does not wait, and reads
 /// what comes.
 bool input_has_ended();
 

@@ -28,7 +28,7 @@ struct TransportWords {
   void declare(Options& options);
 };
 
-/// The ends by those words. `end` is what both ends must agree on. Where a node listens is told.
+/// The ends by those words. `end` is what both ends must agree on. Where a node listens is printed.
 Expected<std::unique_ptr<RobotEnd>> open_robot_end(const TransportWords& words,
                                                    const std::string& name, const EndOptions& end,
                                                    Output& output);

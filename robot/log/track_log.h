@@ -43,7 +43,7 @@ struct StartedRun {
   double at_clock_s = 0;        ///< CLOCK_MONOTONIC of the operator's host when the robots began
   std::string video;            ///< from the run log's folder on; empty: none was named
   std::string camera;           ///< as in the arena file; may be empty
-  std::optional<int> sync_tag;  ///< that somebody covers at the start: a check
+  std::optional<int> sync_tag;  ///< that a person covers at the start: a check
   std::vector<NodeReport> nodes;
 };
 

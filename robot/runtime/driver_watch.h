@@ -109,7 +109,7 @@ class DriverWatch {
   std::deque<Commanded> commands_;
   std::vector<Listener> listeners_;
   TimePoint listened_{};                ///< when a driver last listened
-  std::optional<DrivenMessage> last_;   ///< of the driver; outside of runs of anybody
+  std::optional<DrivenMessage> last_;   ///< of the driver; outside of runs of any sender
   std::optional<DrivenMessage> other_;  ///< the last of another one than `last_`
   std::optional<Spell> rival_;
 

@@ -27,14 +27,14 @@ struct WorldRun {
 struct WorldOptions {
   /// Until a robot's answer; then the run ends. The last command is never used again.
   Duration patience = std::chrono::seconds(5);
-  /// Is told what a person should know while it runs.
+  /// Called with what a person should know while it runs.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
-  /// Whether somebody wants the world to end.
+  /// Whether the world is to end.
   std::function<bool()> is_over = [] { return false; };
 };
 
 /// Waits until every robot's node listens. Unavailable, with the names of those that are missing,
-/// when `most` is over; what is missing is told every few seconds.
+/// when `most` is over; what is missing is reported every few seconds.
 Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions& options);
 
 /// Runs the mission with the robots' nodes in lock-step: each control cycle's readings travel, and

@@ -75,7 +75,7 @@ class Laboratory final : public Decider {
   std::optional<Answer> answer(int index) override {
     Robot& robot = robots_[static_cast<std::size_t>(index)];
     const auto treads = robot.driver.act(now_);
-    // A second node is told before the start, too: nodes that wait for it say that they stand.
+    // A second node is reported before the start, too: nodes that wait for it say that they stand.
     const bool rivals_changed = robot.driver.has_rivals() != robot.had_rivals;
     for (const std::string& event : robot.driver.take_events()) {
       if (!waits_ || rivals_changed) {
@@ -87,7 +87,7 @@ class Laboratory final : public Decider {
     stops_by_rivals_ += robot.driver.has_rivals() && !robot.had_rivals ? 1 : 0;
     robot.was_silent = robot.driver.silent();
     robot.had_rivals = robot.driver.has_rivals();
-    // While they wait for the start, robots that are told to drive do: real ones would. Here they
+    // While they wait for the start, robots that get commands drive: real ones would. Here they
     // would not start where the mission says, so that it is refused.
     if (!treads) return std::nullopt;
     say_driven(static_cast<std::size_t>(index));

@@ -447,7 +447,7 @@ std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool ha
       return Error{ErrorKind::BadInput,
                    place.endpoint +
                        " is on another host: connections there need a key, else "
-                       "anybody could drive the robots",
+                       "any host could drive the robots",
                    place.name};
     }
   }
@@ -469,7 +469,7 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
   }
   SocketOptions socket_options;
   socket_options.linger = kLastFrames;
-  socket_options.probes_newcomers = false;  // drivers are anybody's programs
+  socket_options.probes_newcomers = false;  // drivers are programs of others
   auto socket = ServerSocket::bind(options.endpoint, socket_options, std::move(options.keys));
   if (!socket) return tl::unexpected(socket.error());
   NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};

@@ -14,7 +14,7 @@ namespace swarmsmith {
 /// The three ends over ZeroMQ, for laboratories without ROS: each node listens at an address of its
 /// own, and drivers, worlds and operators connect to it (docs/robot-messages.md). With keys,
 /// connections are encrypted, and the key says who may do what: a worker's feeds sensors and gets
-/// commands, an operator's gives orders. Without, everybody may do all; loopback only.
+/// commands, an operator's gives orders. Without, all clients may do all; loopback only.
 
 struct NodeServerOptions {
   EndOptions end{};

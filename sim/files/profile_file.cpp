@@ -35,7 +35,7 @@ void read_fields(TableReader& table, Profile& profile) {
   read_profile_fields(table, profile);
 }
 
-/// What nobody may call his own profile: a stored "rvr" must mean ours.
+/// Names that a user's profile may not have: a stored "rvr" must mean ours.
 bool takes_a_name_of_ours(const Profile& profile) {
   const auto ours = built_in_profile(profile.name);
   return ours && *ours != profile;

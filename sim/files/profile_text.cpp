@@ -24,7 +24,7 @@ class FieldWriter {
     drop_empty();
     sections_->push_back({"[" + path + "]", path + ".", {}});
   }
-  /// A device of which nothing is told has no header; to be called after the visit, too.
+  /// A device without values has no header; to be called after the visit, too.
   void drop_empty() {
     if (sections_->back().lines.empty()) sections_->pop_back();
   }

@@ -5,8 +5,8 @@
 namespace swarmsmith {
 
 /// How a store recognises its own file. What its last writer closed it remembers by inode, birth
-/// and time of change; a copy, a file that somebody has written since, and one whose writer was
-/// killed, are others, and are checked as a whole before anybody writes on.
+/// and time of change; a copy, a file that another program has written since, and one whose writer
+/// was killed, are others, and are checked as a whole before they are written on.
 
 /// Folds the log into the file and remembers the file, as the last thing that is done with it.
 /// Where that fails, the next writer checks. Before, all is on disk already.

@@ -15,7 +15,7 @@ Expected<Backup> copy_store(const std::filesystem::path& store, const std::files
 /// is left.
 Unexpected damaged(const std::filesystem::path& store, const std::string& fault);
 
-/// What an exception of SQLite means to somebody who made `to` out of `from`.
+/// What an exception of SQLite means to the user who made `to` out of `from`.
 Unexpected copying_failed(const sqlite::SqliteError& error, const std::filesystem::path& from,
                           const std::filesystem::path& to);
 

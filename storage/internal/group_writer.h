@@ -75,7 +75,7 @@ class GroupWriter final : public Store {
   std::vector<Batch> queue_;
   std::uint64_t last_ticket_ = 0;
   std::uint64_t committed_ = 0;
-  std::uint64_t awaited_ = 0;  ///< somebody waits in flush() for this ticket
+  std::uint64_t awaited_ = 0;  ///< a thread waits in flush() for this ticket
   std::optional<Error> lost_;  ///< the file; nothing is written any more
 
   std::mutex listener_mutex_;

@@ -18,7 +18,7 @@ namespace swarmsmith {
 /// flock would stand in SQLite's own way.
 class HeldFile {
  public:
-  /// Of a fresh connection, which must outlive this. Conflict when somebody else
+  /// Of a fresh connection, which must outlive this. Conflict when another process
   /// has the right (pid and host), or the file has lost its name meanwhile; BadInput when it has a
   /// second name, which would have another log.
   static Expected<HeldFile> hold(const sqlite::Connection& connection,

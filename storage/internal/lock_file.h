@@ -10,7 +10,7 @@ namespace swarmsmith {
 
 /// "pid=... host=...", of a process of this host.
 std::string holder_text(const std::string& pid);
-/// That somebody else writes a store: for people.
+/// That another process writes a store: for people.
 std::string in_use_text(const std::string& holder);
 
 /// The right to be the next to write the store of a name: an flock on the file `<store>.lock`,

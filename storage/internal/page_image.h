@@ -27,7 +27,7 @@ class PageImage {
   std::size_t page_size() const { return page_size_; }
   /// For a file whose header does not say it.
   void set_page_size(std::size_t bytes);
-  /// The pages that there are, in order: those of the file, of which the last one may be cut off
+  /// The pages that there are, in order: those of the file, where the last one may be cut off
   /// and is not counted then, and those that only the log has. A damaged log may give them any
   /// number.
   std::vector<std::uint32_t> numbers() const;

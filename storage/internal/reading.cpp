@@ -41,8 +41,8 @@ bool cannot_make_files(const fs::path& path) {
   return ::access(folder.c_str(), W_OK) != 0;
 }
 
-/// A store in WAL mode needs a -shm file beside it. Where none can be made and no log waits, nobody
-/// can be writing, and the file may be read as it is.
+/// A store in WAL mode needs a -shm file beside it. Where none can be made and no log waits, no
+/// program can be writing, and the file may be read as it is.
 Expected<sqlite::Connection> connect_for_reading(const fs::path& path) {
   const bool still = cannot_make_files(path) && !has_pending_log(path);
   Connection connection =

@@ -16,7 +16,7 @@
 namespace swarmsmith {
 
 /// A hash of the cells of a row in order, by type and value. Finds damage, and is no defence
-/// against somebody who makes it on purpose.
+/// against damage on purpose.
 class RowHash {
  public:
   RowHash& add(std::int64_t value) { return add(1, static_cast<std::uint64_t>(value)); }

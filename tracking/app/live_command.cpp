@@ -104,7 +104,7 @@ struct Watched {
   std::optional<Error> error;
 };
 
-/// Until the source ends or somebody asks for an end.
+/// Until the source ends or the user ends it.
 Watched watch(FrameSource& source, LiveTracker& tracker, BoardWatch* board, LivePages& pages,
               LiveRecording* recording, Output& output) {
   NewestFrame::OnFrame keep;

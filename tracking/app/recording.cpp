@@ -130,7 +130,7 @@ Expected<void> Recording::keep(double time, double clock) {
   return sidecar_.add(frames_++, time, clock);
 }
 
-/// Until a frame is due, or somebody wants to stop.
+/// Until a frame is due, or the user wants to stop.
 void Recording::wait_until(double time) const {
   const auto due =
       started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));

@@ -45,7 +45,7 @@ class Recording {
   /// `source` must outlive it.
   Recording(FrameSource& source, VideoWriter writer, Sidecar sidecar, RecordingOptions options);
 
-  /// All frames, until the source ends, the time is over, or somebody asks to stop. What is
+  /// All frames, until the source ends, the time is over, or the user asks to stop. What is
   /// recorded is whole when it comes back, with an error or without; unless the disk is full.
   Expected<void> run(Output& output);
   /// Takes the line of progress away.

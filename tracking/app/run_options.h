@@ -13,7 +13,7 @@ namespace swarmsmith {
 Error wrong_option(const std::string& text, const std::string& option);
 
 /// What the words of the command line change about the log; returns everything that is wrong with
-/// them, and that nobody says when the run begins.
+/// them, and without a time at which the run begins.
 std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log);
 
 }  // namespace swarmsmith

@@ -81,7 +81,7 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
 }
 
 /// The store, and what ran: with its mission when the log does not say one. The machine,
-/// when anybody says what ran.
+/// when anything says what ran.
 OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& arguments,
                                                     RunPlan& plan) {
   plan.store = !arguments.into.empty() ? arguments.into : store_word(arguments.store);
@@ -136,7 +136,7 @@ OrRefusal<void> settle_layout(RunLog& log) {
   return {};
 }
 
-/// Opens what is looked at; the first of several videos that cannot be opened is told.
+/// Opens what is looked at; the first of several videos that cannot be opened is reported.
 OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
   for (std::size_t i = 0; i < files.videos.size(); ++i) {
     auto source = FrameSource::open(files.videos[i].string());

@@ -103,7 +103,7 @@ class Pages final : public LivePages {
   }
 
  private:
-  /// Somebody who waits for a picture.
+  /// A client that waits for a picture.
   class Watching {
    public:
     explicit Watching(std::atomic<int>& watchers) : watchers_(&watchers) { ++*watchers_; }
@@ -115,7 +115,7 @@ class Pages final : public LivePages {
     std::atomic<int>* watchers_;
   };
 
-  /// A name that somebody else pointed at this host (DNS rebinding) is not ours, and neither is
+  /// Another name that points at this host (DNS rebinding) is not ours, and neither is
   /// another user of it.
   httplib::Server::HandlerResponse gate(const httplib::Request& request,
                                         httplib::Response& response) const {

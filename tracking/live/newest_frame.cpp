@@ -70,7 +70,7 @@ void NewestFrame::run() {
       const std::scoped_lock lock(mutex_);
       if (newest_.has_value()) {
         ++dropped_;
-        // Somebody waits for the colours, whichever frame has them.
+        // A client waits for the colours, whichever frame has them.
         if (!grabbed.color.has_value()) last_color_.reset();
       }
       newest_ = std::move(grabbed);

@@ -21,7 +21,7 @@ struct GrabbedFrame {
   double time_s = 0;
   ImageSize size;
   std::vector<std::uint8_t> gray;
-  std::optional<ColorImage> color;           ///< now and then, while somebody wants it
+  std::optional<ColorImage> color;           ///< now and then, while a client wants it
   std::chrono::steady_clock::time_point in;  ///< when the source had it
 
   GrayImage image() const { return {gray.data(), size.width, size.height, size.width}; }

@@ -15,7 +15,7 @@ inline double instant_s(int cycle) {
   return cycle * kControlPeriod_s;
 }
 
-/// Times nearer than this are one: what is left of a clock's offset when it is subtracted.
+/// Times nearer than this are one: the rounding of a clock's offset when it is subtracted.
 inline constexpr double kSameInstant_s = 1e-6;
 
 /// A robot's centre at a time of the run.

@@ -38,8 +38,9 @@ double exposed_at(const CameraSetup& camera, double stamp_s, double v, int rows)
 
 /// What one camera saw from the first frame to the last, with its sightings in order. Fails when
 /// the video cannot be read at all, is mirrored, or its times cannot be trusted; a video that
-/// breaks off is a record with E_VIDEO_TRUNCATED. Frames that were dropped are told by their times,
-/// not here. A picture that is bit for bit that of the frame before has that frame's corners again.
+/// breaks off is a record with E_VIDEO_TRUNCATED. Frames that were dropped are found by their
+/// times, not here. A picture that is bit for bit that of the frame before has that frame's corners
+/// again.
 Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& options,
                                      const OnFrame& on_frame = {});
 

@@ -85,7 +85,7 @@ std::string text_of(TableReader& table, const char* key) {
   return table.text(key).value_or("");
 }
 
-/// Format and kind: a calibration of another kind is named before its keys confuse anybody.
+/// Format and kind: a calibration of another kind is named before its unknown keys are.
 bool read_head(TableReader& root, const std::string& kind) {
   read_format(root);
   const std::string found = text_of(root, "kind");

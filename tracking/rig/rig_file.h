@@ -42,7 +42,7 @@ OrComplaints<Rig> parse_rig(std::string_view text, const std::filesystem::path& 
 std::vector<Error> misfits(const Rig& rig);
 
 /// What makes the place of a camera doubtful, though it can be used. E_EXTRINSICS: the floor tags
-/// that its file holds do not lie where it sees them, so that somebody changed the file.
+/// that its file holds do not lie where it sees them, so that the file was changed.
 /// W_SURVEY_CHANGED: the arena file has floor tags elsewhere now.
 std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera);
 

@@ -25,11 +25,11 @@ struct FilmRate {
 };
 
 /// The film's clock is stretched, from half to twice as fast, and shifted as latencies may be,
-/// until the robots' turns and ways agree best with what their treads were told. It is told when
-/// the best stretch is far likelier than one that is a hundredth more or less, or, of a film that
-/// is far off, than one half way to a right one. The run's start, `start_s` on the film's clock,
-/// was read there, or on a clock that was right: then a film that is stretched has stretched it,
-/// too.
+/// until the robots' turns and ways agree best with the commands of their treads. It is reported
+/// when the best stretch is far likelier than one that is a hundredth more or less, or, of a film
+/// that is far off, than one half way to a right one. The run's start, `start_s` on the film's
+/// clock, was read there, or on a clock that was right: then a film that is stretched has stretched
+/// it, too.
 FilmRate film_rate(std::span<const ToldAndSeen> robots, double start_s = 0);
 
 }  // namespace swarmsmith

@@ -141,7 +141,7 @@ class Seen {
     return fit;
   }
 
-  /// Numbers seen, of which the variance is one.
+  /// Numbers seen, whose variance is one.
   double count() const { return static_cast<double>(intervals_.size()) * (is_turn_ ? 1 : 2); }
 
   /// Minus the logarithm of the likelihood with the variance that makes it largest.

@@ -20,8 +20,8 @@ struct RanMachine {
   std::string flavour;  ///< name
 };
 
-/// Why a log is not of this run, robot and machine: E_LOG_FOREIGN. `machine` is nothing when nobody
-/// says what ran.
+/// Why a log is not of this run, robot and machine: E_LOG_FOREIGN. `machine` is nothing when the
+/// caller says what ran.
 std::optional<Issue> misfit_of(const RobotLog& log, const RunLog& run,
                                const std::optional<RanMachine>& machine);
 /// The same for robots that should all have run one machine: that of the first log.

@@ -9,7 +9,7 @@
 
 namespace swarmsmith {
 
-/// How much a robot does of what its treads are told.
+/// How much a robot does of what its treads are commanded.
 struct Gain {
   std::optional<double> gain;  ///< 1: all of it; none when it cannot be told
   bool is_against = false;     ///< a way that went back where ahead was told, by a known heading

@@ -12,7 +12,7 @@
 
 namespace swarmsmith {
 
-/// Brightness of an image, row by row; belongs to somebody else.
+/// Brightness of an image, row by row; its owner is elsewhere.
 struct GrayImage {
   const std::uint8_t* pixels = nullptr;
   int width = 0;

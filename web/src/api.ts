@@ -171,7 +171,7 @@ class Feed {
 
   ask_now(): void {
     clearTimeout(this.#timer);
-    // Nobody looks: until somebody does.
+    // No page is visible: until one is.
     if (!this.#is_asking && !(document.hidden && this.live)) void this.#turn();
   }
 

@@ -1,5 +1,5 @@
 // Addresses. A view is a fragment, "#/c1/d3/race/8?step=120": it works under any prefix and from a
-// file, and it holds all state of the view, so that it can be sent to somebody.
+// file, and it holds all state of the view, so that it can be sent to another person.
 
 import { is_known } from "./format";
 

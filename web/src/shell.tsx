@@ -6,7 +6,7 @@ import { Page } from "./page";
 import { current_route, filled, go, href, match } from "./route";
 import { Design, Live } from "./types";
 
-/// Where somebody is: navigation leads to the pages of this campaign and design.
+/// Where the reader is: navigation leads to the pages of this campaign and design.
 type Place = { c?: string; d?: string };
 
 // --- light and dark ----------------------------------------------------------------------------------

@@ -97,7 +97,7 @@ export interface Live {
   may_act: boolean;
   running: boolean;
   status: Status | null;
-  /// What somebody should know of, worst first, and the page that shows it: "c1/d3".
+  /// What a person should know of, worst first, and the page that shows it: "c1/d3".
   looks: { text: string; page: string }[];
   campaigns: Campaign[];
 }

@@ -22,7 +22,7 @@ class ArenaView {
   double bottom() const { return bottom_; }
 
   std::vector<PagePoint> walls(const Arena& arena) const;
-  /// An outline at a pose; circles as polygons with so many corners that nobody sees them.
+  /// An outline at a pose; circles as polygons with so many corners that they look round.
   std::vector<PagePoint> outline(const Outline& outline, const Pose& pose) const;
   /// A place in the frame of something at a pose.
   PagePoint on(const Pose& pose, Point place) const;

@@ -57,7 +57,7 @@ std::string stacked_color(std::size_t number) {
   return number < kColors.size() ? result : lightened(result, 0.55);
 }
 
-/// Sets of which no two share a value.
+/// Sets; no two share a value.
 std::vector<std::set<std::string>> value_sets(const std::vector<std::vector<std::string>>& lists) {
   std::vector<std::set<std::string>> result;
   for (const auto& list : lists) {

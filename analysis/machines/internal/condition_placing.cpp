@@ -38,7 +38,8 @@ class Placer {
   }
 
   /// Takes some boxes that are near to each other out and puts them in again in another order, and
-  /// keeps what gets better: the way out of places that are best only as long as nobody else moves.
+  /// keeps what gets better: the way out of places that are best only as long as no other one
+  /// moves.
   Placing refine(const std::vector<PagePoint>& boxes) {
     start_from(boxes);
     Placing best = result();

@@ -6,7 +6,7 @@ namespace swarmsmith {
 
 /// The report's style. Figures keep a white ground in the dark, since their inks are made for
 /// paper; what is wider than a phone scrolls within its own box and is never scaled down until
-/// nobody can read it; on paper it fits the page.
+/// nothing in it can be read; on paper it fits the page.
 inline constexpr std::string_view kReportStyle = R"(
 :root { color-scheme: light dark; --ink: #1c1c1c; --paper: #ffffff; --line: #c4c4c4; --soft: #f2f3f5;
   --faint: #595959; --link: #0b5394; }

@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-/// What files are that begin and end like this; `pattern` is how the reader is told of them.
+/// What files are that begin and end like this; `pattern` is how the README names them.
 struct Kind {
   std::string_view pattern;
   std::string_view begin;

@@ -33,7 +33,7 @@ struct Child {
 };
 
 /// Starts `program` with these words (`words[0]` is the name that it sees) in a folder. Its group
-/// is guarded (base/process/guard.h) until somebody unguards it.
+/// is guarded (base/process/guard.h) until the caller unguards it.
 Expected<Child> spawn(const std::string& program, const std::vector<std::string>& words,
                       const std::string& folder);
 

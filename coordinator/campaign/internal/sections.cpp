@@ -18,7 +18,7 @@ void append(std::vector<Element>& elements, std::vector<Element> more) {
   std::ranges::move(more, std::back_inserter(elements));
 }
 
-/// How large control software may grow, and of which modules it is made.
+/// How large control software may grow, and what modules it is made of.
 std::vector<SectionLine> size_lines(const Method& method) {
   if (method.architecture == Architecture::Network) return {};
   std::vector<SectionLine> lines;

@@ -17,7 +17,7 @@ namespace swarmsmith {
 /// else publishes the same topic.
 class ListenerWatch {
  public:
-  /// Is told what a person should know, from a thread of its own.
+  /// Called with what a person should know, from a thread of its own.
   using OnTrouble = std::function<void(std::string text)>;
 
   explicit ListenerWatch(OnTrouble on_trouble);

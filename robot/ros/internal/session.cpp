@@ -240,7 +240,7 @@ void Session::look_for_unreachable() {
     for (const std::string& node : state.publishers[subscriber.getTopic()]) {
       if (node == ros::this_node::getName()) continue;
       unreached.insert(node);
-      // Whoever was there when this was looked at before has had its time.
+      // A peer that was there the last time has had its time.
       if (suspects_.count(node) == 0 || !told_.insert(node).second) continue;
       if (first.empty()) {
         first = why_unreachable(node, subscriber.getTopic());

@@ -22,7 +22,7 @@ namespace swarmsmith {
 /// for what ROS does not tell.
 class Session {
  public:
-  /// Is told of trouble, from any thread; `ended` when the node must go.
+  /// Called with trouble, from any thread; `ended` when the node must go.
   using OnTrouble = std::function<void(std::string text, bool ended)>;
 
   /// `names_space` is "/rvr1" or "/", `node` without it.

@@ -5,7 +5,7 @@
 
 namespace swarmsmith {
 
-/// Control periods are told to the microsecond, so that texts read back to the same bits.
+/// Control periods are written to the microsecond, so that texts read back to the same bits.
 inline constexpr double kMicroseconds_per_period = 100'000;
 
 /// Takes the fields of a profile out of its table and the tables in it. A field that is not there

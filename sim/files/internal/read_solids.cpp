@@ -15,7 +15,7 @@ constexpr std::size_t kMostCorners = 8;
 constexpr Limits<double> kHeight{0.001, 100};
 constexpr Limits<double> kSolidSize{0.005, 100};
 
-/// Corners in the solid's own frame, of which the origin is to be the centre of mass; what is there
+/// Corners in the solid's own frame, whose origin is to be the centre of mass; what is there
 /// to rounding stays, so that what was written before reads back to the same bits.
 void centre_corners(std::vector<Point>& corners, Pose& pose) {
   const Point middle = centroid(corners);

@@ -14,7 +14,7 @@ class FormulaScorer;
 inline constexpr std::array<std::string_view, 3> kFormulaSubjects = {"robots", "objects", "swarm"};
 inline constexpr std::array<std::string_view, 4> kFormulaFolds = {"sum", "mean", "min", "max"};
 
-/// What a formula of the campaign file says, so that a score of one's own needs no compiler:
+/// What a formula of the campaign file says, so that a user's own score needs no compiler:
 /// `value` is worked out for each robot, each movable object or once for the swarm at an instant,
 /// and put together by `over`. docs/missions.md lists the names that it may use.
 struct Formula {

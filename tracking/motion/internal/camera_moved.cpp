@@ -90,7 +90,7 @@ std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& came
     std::ranges::sort(of_tags);
     const std::size_t tags = of_tags.size();
     const double lower = of_tags[(tags - 1) / 2];
-    // Half of them moved, and half did not: a robot stands on some, or they were kicked. Nobody can
+    // Half of them moved, and half did not: a robot stands on some, or they were kicked. It cannot
     // tell which, so that none of them is a witness.
     const bool is_even = lower <= limit_px && of_tags[tags / 2] > limit_px;
     spans.push_back({time, is_even ? 0 : static_cast<int>(tags), lower, turned[clock]});

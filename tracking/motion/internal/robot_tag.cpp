@@ -51,7 +51,7 @@ std::optional<Shear> shear_of(const View& view, const TagCorners& corners, doubl
   }
   Shear shear;
   shear.heading = std::atan2(yx - xy, xx + yy);
-  // Turned back by its heading, what is left is symmetric.
+  // Turned back by its heading, the rest is symmetric.
   const double c = std::cos(shear.heading);
   const double s = std::sin(shear.heading);
   const double left = (xx * c - xy * s) - (yx * s + yy * c);
@@ -137,7 +137,7 @@ Cause cause_of(std::span<const Sample> samples, double scale,
   return Cause::Open;
 }
 
-/// The robot of which a tag is asked about, with what its samples say.
+/// The robot whose tag is asked about, with what its samples say.
 struct Look {
   const TaggedRobot& robot;
   const SeenTag& seen;

@@ -10,7 +10,7 @@ namespace swarmsmith {
 
 /// How a robot travels against how it heads. Treads cannot go sideways: whatever they do, the
 /// middle between them moves along the robot's heading. So travel tells where a tag really sits,
-/// and when somebody else moved the robot.
+/// and when something else moved the robot.
 
 /// One step from an instant to the next, in the axes of the measured pose half way.
 struct TravelStep {

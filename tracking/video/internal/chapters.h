@@ -14,7 +14,7 @@ namespace swarmsmith {
 std::optional<std::vector<std::string>> chapters_in(const std::string& folder);
 
 /// Their frames one after the other. A chapter whose clock begins anew goes on an interval after
-/// the one before; chapters of which the clock goes on keep their times, and one that begins before
+/// the one before; chapters whose clock goes on keep their times, and one that begins before
 /// the last one ended is E_TIMESTAMPS. All have one size. `word`: as the folder was named.
 Expected<std::unique_ptr<FrameSource>> open_chapters(const std::string& word,
                                                      const std::vector<std::string>& files,

@@ -58,7 +58,7 @@ class Records {
   std::int64_t at_ = 0;      ///< the next record outside of chunks
   std::string record_;       ///< the last of those
   std::string unpacked_;     ///< the chunk's records, where they were packed
-  std::string_view inside_;  ///< what is left of the chunk
+  std::string_view inside_;  ///< the rest of the chunk
   bool is_over_ = false;
   bool is_cut_ = false;
 };

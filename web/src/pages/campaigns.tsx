@@ -9,7 +9,7 @@ import { href } from "../route";
 import { eta_of, look_list } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
-export const kPause = "Evaluations that run now end and count; nothing more is given out until somebody resumes. Nothing is lost.";
+export const kPause = "Evaluations that run now end and count; nothing more is given out until you resume. Nothing is lost.";
 
 /// Whether nothing more happens to it.
 export function is_over({ state }: Design): boolean { return state === "finished" || state === "stopped"; }

@@ -35,7 +35,7 @@ function fate({ eliminated_in, eliminated_at, eliminated_by }: Candidate) {
     : `dropped in iteration ${eliminated_in}${eliminated_at !== null ? ` at step ${whole(eliminated_at)}` : ""}${eliminated_by ? `: ${words(eliminated_by)}` : ""}`;
 }
 
-/// What nobody can simulate again: programs' runs, and real ones that only have a score.
+/// What cannot be simulated again: programs' runs, and real ones that only have a score.
 function watch({ id, source }: Row) {
   return source !== "command" && (source !== "real" || String(id)[0] === "r") && <a href={place_of(String(id))} aria-label={`watch ${id}`}>watch</a>;
 }
