@@ -55,7 +55,7 @@ std::string as_json(const StoredRun& run, const SimulationResult& result) {
              .add("same_bits", same)
              .add("digest", hexadecimal(result.state_digest))
              .add("stored_digest", digest)
-             .add("engine", kEngineVersion)
+             .add("engine", engine_version_of(run.mission, run.profile))
              .add("stored_engine", run.engine_version)
              .text() +
          "\n";

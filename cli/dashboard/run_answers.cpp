@@ -319,7 +319,7 @@ Answer simulated_answer(const Question& question, const StoredRun& run) {
           .add("digest", hex(result.state_digest))
           .add("stored_digest",
                known ? std::optional(hex(run.outcome->state_digest)) : std::nullopt)
-          .add("engine", kEngineVersion)
+          .add("engine", engine_version_of(run.mission, run.profile))
           .add("stored_engine", run.engine_version)
           .add("rejected", run.rejected)
           .add("unit", unit_of(run.mission.rule))
