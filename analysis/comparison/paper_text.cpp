@@ -90,26 +90,40 @@ const ComparedGroup* group_of(const Comparison& comparison, const std::string& m
   return found == comparison.groups.end() ? nullptr : &*found;
 }
 
-/// "no difference was found between a and b", or which of them scored higher.
-std::string finding_of(const ComparedPair& pair) {
+/// Where the scores of a source were made, with a blank before it.
+std::string place_of(const std::string& source) {
+  if (source == "real") return " on the robots";
+  if (source == "command") return "";  // the user's own program gave them
+  return " in simulation with the profile " + source;
+}
+
+/// What the test says: a difference, or that none was found.
+std::string finding_of(const ComparedPair& pair, std::string_view units) {
   const auto p = pair.p_holm ? pair.p_holm : pair.test.p_value;
-  if (!p || *p >= kPrintedLevel)
-    return fmt::format("no difference was found between {} and {}", pair.first, pair.second);
-  return fmt::format("{} scored {} than {}", pair.first,
-                     pair.difference.value > 0 ? "higher" : "lower", pair.second);
+  const bool differ = p && *p < kPrintedLevel;
+  const char* more = pair.difference.value > 0 ? "higher" : "lower";
+  if (pair.paired) {
+    const std::string first = place_of(pair.first);
+    const std::string second = place_of(pair.second);
+    if (differ)
+      return fmt::format("{} by {} scored {}{} than{}", units, pair.method, more, first, second);
+    return fmt::format("no difference was found between {} by {}{} and the same {}{}", units,
+                       pair.method, first, units, second);
+  }
+  const std::string place = place_of(pair.source);
+  if (differ) return fmt::format("{} scored {} than {}{}", pair.first, more, pair.second, place);
+  return fmt::format("no difference was found between {} and {}{}", pair.first, pair.second, place);
 }
 
 PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair) {
   const std::string_view units = units_of(comparison.unit);
   Writer writer;
   writer.words(fmt::format("On {}, ", as_words(pair.mission)));
+  writer.words(finding_of(pair, units) + " (").value("n", fmt::format("{}", pair.n_first));
   if (pair.paired) {
-    writer.words(fmt::format("{} of the same {} by {} (", finding_of(pair), units, pair.method));
-    writer.value("n", fmt::format("{}", pair.n_first));
+    writer.words(fmt::format(" {}", units));
   } else {
-    writer.words(fmt::format("{} in {} (", finding_of(pair), pair.source));
-    writer.value("n", fmt::format("{}", pair.n_first)).words(" and ");
-    writer.words(fmt::format("{} {}", pair.n_second, units));
+    writer.words(fmt::format(" and {} {}", pair.n_second, units));
   }
   const ComparedGroup* first =
       group_of(comparison, pair.mission, pair.paired ? pair.method : pair.first,
@@ -155,7 +169,7 @@ PaperSentence sentence_of(const Comparison& comparison, const ComparedGroup& gro
   const Summary& summary = group.summary;
   Writer writer;
   writer.words(fmt::format("On {}, {} scored ", as_words(group.mission), group.method));
-  writer.number(summary.mean).words(fmt::format(" on average in {} (", group.source));
+  writer.number(summary.mean).words(" on average" + place_of(group.source) + " (");
   if (summary.n > 1) writer.words("standard deviation ").number(summary.sd).words(", ");
   writer.words("median ").number(summary.median).words(", from ").number(summary.least);
   writer.words(" to ").number(summary.most).words("; ");

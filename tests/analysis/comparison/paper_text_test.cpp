@@ -30,15 +30,16 @@ TEST(PaperSentences, SayWhoIsBetterWithTestEffectAndInterval) {
   const auto sentences = paper_sentences(comparison);
   ASSERT_EQ(sentences.size(), 1U);
   // p: R 4.2, wilcox.test(21:30, 1:10 + 0.5): 1.083e-05.
-  EXPECT_EQ(
-      sentences.front().text,
-      "On color selection, new_one scored higher than old in rvr (n = 10 and 10 designs; mean "
-      "scores 25.5 and 6; Wilcoxon rank-sum test, two-sided, W = 100, p < 0.0001; A12 = 1.00 "
-      "(large), difference of the means 19.5, " +
-          sentences.front().text.substr(sentences.front().text.find("95 % interval")));
+  EXPECT_EQ(sentences.front().text,
+            "On color selection, new_one scored higher than old in simulation with the profile rvr "
+            "(n = 10 and 10 designs; mean scores 25.5 and 6; Wilcoxon rank-sum test, two-sided, W "
+            "= 100, p < 0.0001; A12 = 1.00 "
+            "(large), difference of the means 19.5, " +
+                sentences.front().text.substr(sentences.front().text.find("95 % interval")));
   EXPECT_THAT(
       sentences.front().latex,
-      testing::HasSubstr("new\\_one scored higher than old in rvr ($n = 10$ and 10 designs"));
+      testing::HasSubstr("new\\_one scored higher than old in simulation with the profile rvr "
+                         "($n = 10$ and 10 designs"));
   EXPECT_THAT(sentences.front().latex, testing::HasSubstr("$p < 0.0001$; $\\hat{A}_{12} = 1.00$"));
   EXPECT_THAT(sentences.front().latex, testing::HasSubstr("95\\,\\% interval $["));
 }
@@ -46,7 +47,8 @@ TEST(PaperSentences, SayWhoIsBetterWithTestEffectAndInterval) {
 TEST(PaperSentences, NeverCallNoiseADifference) {
   const Comparison comparison = compare(records_of(of_two_methods(0.9)), {.by = CompareBy::Method});
   EXPECT_THAT(paper_sentences(comparison).front().text,
-              testing::HasSubstr("no difference was found between new_one and old in rvr"));
+              testing::HasSubstr("no difference was found between new_one and old in "
+                                 "simulation with the profile rvr"));
 }
 
 TEST(PaperSentences, GoByHolmWhereThereAreSeveral) {
@@ -73,10 +75,12 @@ TEST(PaperSentences, OfTheSameDesignsInTwoSourcesArePaired) {
   }
   const auto sentences = paper_sentences(compare(records_of(designs), {}));
   ASSERT_EQ(sentences.size(), 1U);
-  EXPECT_THAT(sentences.front().text,
-              testing::StartsWith("On aggregation, rvr scored higher than real of the same designs "
-                                  "by watermelon (n = 10; mean scores 11 and 5.5; Wilcoxon "
-                                  "signed-rank test, two-sided, V = 55, p = 0.002; "));
+  EXPECT_THAT(
+      sentences.front().text,
+      testing::StartsWith("On aggregation, designs by watermelon scored higher in simulation "
+                          "with the profile rvr than on the robots (n = 10 designs; mean scores 11 "
+                          "and 5.5; Wilcoxon "
+                          "signed-rank test, two-sided, V = 55, p = 0.002; "));
 }
 
 TEST(PaperSentences, WithoutPairsSayHowEachGroupDid) {
@@ -86,8 +90,8 @@ TEST(PaperSentences, WithoutPairsSayHowEachGroupDid) {
   ASSERT_EQ(sentences.size(), 1U);
   EXPECT_EQ(
       sentences.front().text,
-      "On aggregation, watermelon scored 2 on average in rvr (standard deviation 1, median 2, "
-      "from 1 to 3; n = 3 runs).");
+      "On aggregation, watermelon scored 2 on average in simulation with the profile rvr (standard "
+      "deviation 1, median 2, from 1 to 3; n = 3 runs).");
 }
 
 }  // namespace
