@@ -12,7 +12,7 @@
 namespace swarmsmith {
 
 /// One value of the expression language, which is R's: a type, and either a value or "missing"
-/// (R's NA; a NaN counts as missing too). Integers are R's 32-bit ones, held in the double.
+/// (R's NA; a NaN counts as missing too). Integers are held in the double: exact up to 2^53.
 struct Scalar {
   enum class Type { Logical, Integer, Real, Text };  // in the order in which c() coerces
 

@@ -70,6 +70,9 @@ std::span<const FigureKind> figure_kinds() {
           "ranks",
           "Mean ranks of methods or sources, with intervals if Friedman's test finds a difference",
           ranks_figure, "mission method by source purpose"},
+      FigureKind{"ablation",
+                 "Costs on the way from one configuration to another, of irace's ablation",
+                 ablation_figure, "design"},
   };
   return kKinds;
 }

@@ -19,5 +19,6 @@ Expected<Figure> gap_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> training_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> importance_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> ablation_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

@@ -1,4 +1,6 @@
 """`swarmsmith irace` as irace's users know it: their files, their scripts, their target-runner."""
+import csv
+import io
 import json
 import os
 import pathlib
@@ -646,6 +648,16 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.assertEqual(len(rows) - 1, len(self.calls()) - made)
         pairs = {tuple(row[-3:-1]) for row in rows[1:]}
         self.assertEqual(len(pairs), 5, "firstTest pairs, the same for all")
+        drawn = call("figure", "ablation", "irace-ablation.db", "-o", "ablation.svg", cwd=self.folder)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        drawn = call("figure", "ablation", "irace-ablation.db", "-o", "way.csv", cwd=self.folder)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        way = [(row["step"], row["change"], row["pair"], float(row["cost"]))
+               for row in csv.DictReader(io.StringIO((self.folder / "way.csv").read_text()))]
+        self.assertEqual(way, [(step, changed, pair, float(cost))
+                               for _, step, on_path, changed, pair, _, _, cost in rows[1:] if on_path == "1"])
+        self.assertIn(way[-1][1].split(":")[0], (self.folder / "ablation.svg").read_text())
+        self.assertIn("no ablation", call("figure", "ablation", "irace.db", cwd=self.folder).stderr)
         # The same again, and more instances.
         again = self.irace("--ablation", "--parallel", "1")
         self.assertEqual([line for line in again.stdout.splitlines() if "Step" in line],
