@@ -15,6 +15,7 @@
 
 #include "proto/network.h"
 #include "proto/socket.h"
+#include "tests/support/eventually.h"
 
 namespace swarmsmith {
 namespace {
@@ -107,12 +108,7 @@ class Budgets : public ::testing::Test {
     server = std::move(*bound);
   }
   bool eventually(const std::function<bool()>& holds) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (std::chrono::steady_clock::now() < deadline) {
-      if (holds()) return true;
-      server->wait(wakeup, milliseconds(2));
-    }
-    return false;
+    return swarmsmith::eventually(holds, [&] { server->wait(wakeup, milliseconds(2)); });
   }
   std::uint64_t refused(const std::string& reason) const {
     const Refusals refusals = server->refusals();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/socket.h"
+#include "tests/support/eventually.h"
 
 namespace swarmsmith {
 namespace {
@@ -74,12 +75,7 @@ class LockedDoor : public ::testing::Test {
   }
 
   bool eventually(const std::function<bool()>& holds) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (std::chrono::steady_clock::now() < deadline) {
-      if (holds()) return true;
-      server->wait(wakeup, milliseconds(2));
-    }
-    return false;
+    return swarmsmith::eventually(holds, [&] { server->wait(wakeup, milliseconds(2)); });
   }
 
   std::string next_at_server() {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "proto/wire.h"
+#include "tests/support/eventually.h"
 
 namespace swarmsmith {
 namespace {
@@ -23,17 +24,6 @@ class Sockets : public ::testing::Test {
     server = std::move(*bound);
     client = std::make_unique<ClientSocket>(server->endpoint());
     client->connect();
-  }
-
-  bool eventually(const std::function<bool()>& holds) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (std::chrono::steady_clock::now() < deadline) {
-      if (holds()) return true;
-      // Not the server's own wait, which ends at once while a message is unread: who sends to a
-      // peer without a pause finds its queue full before it finds it gone.
-      std::this_thread::sleep_for(milliseconds(2));
-    }
-    return false;
   }
 
   /// What the server gets next.

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "base/process/guard.h"
+#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -34,15 +35,6 @@ bool is_dead(pid_t pid) {
   std::string text;
   if (!std::getline(stat, text)) return true;
   return text.find(") Z") != std::string::npos;
-}
-
-bool eventually(const std::function<bool()>& holds) {
-  const auto deadline = std::chrono::steady_clock::now() + seconds(20);
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    std::this_thread::yield();
-  }
-  return true;
 }
 
 std::size_t open_descriptors() {

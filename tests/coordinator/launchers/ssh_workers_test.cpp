@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -36,13 +37,10 @@ class Ssh : public testing::Test {
   }
 
   static bool eventually(SshWorkers& workers, const std::function<bool()>& holds) {
-    const TimePoint until = SystemClock().now() + std::chrono::seconds(60);
-    while (!holds()) {
-      if (SystemClock().now() > until) return false;
+    return swarmsmith::eventually(holds, [&] {
       trouble_of(workers);
       std::this_thread::yield();
-    }
-    return true;
+    });
   }
   static std::string trouble_of(SshWorkers& workers) { return workers.tend(SystemClock().now()); }
 

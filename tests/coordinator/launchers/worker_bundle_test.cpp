@@ -13,6 +13,7 @@
 #include "base/text/sha256.h"
 #include "coordinator/launchers/ssh_workers.h"
 #include "coordinator/launchers/worker_program.h"
+#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -269,11 +270,8 @@ class ShippedBySsh : public Bundles {
   }
 
   static void wait_for(SshWorkers& workers, const std::function<bool(const std::string&)>& holds) {
-    const TimePoint until = SystemClock().now() + std::chrono::seconds(60);
-    while (!holds(workers.tend(SystemClock().now()))) {
-      ASSERT_LT(SystemClock().now(), until) << workers.status().note;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    ASSERT_TRUE(eventually([&] { return holds(workers.tend(SystemClock().now())); }))
+        << workers.status().note;
   }
   void wait_for_started(SshWorkers& workers, std::uintmax_t count) const {
     std::error_code none;
@@ -301,11 +299,11 @@ TEST_F(ShippedBySsh, HostsThatShareACacheGetOne) {
 TEST_F(ShippedBySsh, AHostThatLookedBeforeTheBundleCameLooksAgain) {
   const std::string looked = (folder / "looked").string();
   const std::string started = (folder / "started").string();
-  SshWorkers workers = start({{"a"}, {"b"}, {"c"}},
-                             "if test $host = c && test ! -e " + looked + "; then touch " + looked +
-                                 "; " + (folder / "host").string() +
-                                 " \"$last\"; code=$?; until test $(cat " + started +
-                                 " | wc -l) = 2; do sleep 0.01; done; exit $code; fi\n");
+  SshWorkers workers =
+      start({{"a"}, {"b"}, {"c"}}, "if test $host = c && test ! -e " + looked + "; then touch " +
+                                       looked + "; " + (folder / "host").string() +
+                                       " \"$last\"; code=$?; until test $(cat " + started +
+                                       " | wc -l) = 2; do sleep 0.01; done; exit $code; fi\n");
   wait_for_started(workers, 3);
   EXPECT_THAT(log(), testing::AnyOf("a\n", "b\n"));
 }

@@ -23,6 +23,7 @@
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "tests/support/eventually.h"
 #include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/not_empty.h"
@@ -85,15 +86,6 @@ class Processes : public ::testing::Test {
             .slots = 1,
             .program = std::string(SWARMSMITH_BIN_DIR) + "/swarmsmith-worker",
             .arguments = {}};
-  }
-
-  bool eventually(const std::function<bool()>& holds, int limit_s = 60) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(limit_s);
-    while (!holds()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::yield();
-    }
-    return true;
   }
 
   SchedulerOptions scheduler;

@@ -16,6 +16,7 @@
 #include "proto/scenario/scenario.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
+#include "tests/support/eventually.h"
 #include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temporary_folder.h"
@@ -71,14 +72,6 @@ class ProgramWorkers : public ::testing::Test {
             .slots = 4,
             .program = std::string(SWARMSMITH_BIN_DIR) + "/swarmsmith-worker",
             .arguments = allow_arguments(*scenario.target)};
-  }
-  bool eventually(const std::function<bool()>& holds) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!holds()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::yield();
-    }
-    return true;
   }
   std::vector<std::string> log() const {
     std::ifstream in(folder / "log");

@@ -10,6 +10,7 @@
 #include "proto/wire.h"
 #include "proto/wire.pb.h"
 #include "tests/coordinator/synthetic_campaign.h"
+#include "tests/support/eventually.h"
 #include "tests/support/memory_store.h"
 #include "worker/service.h"
 #include "worker/slots.h"
@@ -99,15 +100,6 @@ class Services : public ::testing::Test {
           {.endpoint = service->endpoint(), .keys = worker_keys, .protocol = {}, .socket = {}},
           identity, pool, wakeup, never);
     });
-  }
-
-  static bool eventually(const std::function<bool()>& holds) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (!holds()) {
-      if (std::chrono::steady_clock::now() > deadline) return false;
-      std::this_thread::yield();
-    }
-    return true;
   }
 
   CampaignShape shape;

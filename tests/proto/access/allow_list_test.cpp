@@ -9,6 +9,7 @@
 
 #include "proto/access/allow_list_file.h"
 #include "proto/access/allow_list_watch.h"
+#include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -187,11 +188,6 @@ TEST_F(AllowListOnDisk, IsWatched) {
       AllowListFile::open(file, kNoon).value(), [&](const std::vector<Error>&) { ++faults; },
       [&] { return next_day ? kNoon + std::chrono::days(1) : kNoon; },
       std::chrono::milliseconds(1));
-  const auto eventually = [](const std::function<bool()>& holds) {
-    for (int i = 0; i < 10'000 && !holds(); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return holds();
-  };
   std::optional<std::vector<ListedClient>> taken;
   const auto take = [&] { return taken || (taken = watch.take()); };
   next_day = true;

@@ -1,4 +1,5 @@
 #include "tracking/live/live_pages.h"
+#include "tests/support/eventually.h"
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
@@ -96,9 +97,7 @@ TEST(LivePagesTest, SendsPicturesWhileSomebodyWatches) {
   });
   EXPECT_GE(parts, 3) << "several may come at once";
   EXPECT_THAT(stream, StartsWith("--frame\r\nContent-Type: image/jpeg\r\nContent-Length: "));
-  for (int i = 0; i < 5000 && pages->is_watched(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  EXPECT_FALSE(pages->is_watched()) << "the stream has ended";
+  EXPECT_TRUE(eventually([&] { return !pages->is_watched(); })) << "the stream has ended";
 }
 
 TEST(LivePagesTest, OtherNamesAndMethodsAreRefused) {

@@ -1,4 +1,5 @@
 #include "tracking/live/newest_frame.h"
+#include "tests/support/eventually.h"
 
 #include <gmock/gmock.h>
 
@@ -75,8 +76,7 @@ TEST(NewestFrameTest, WhoIsSlowGetsTheNewestAndTheCountOfTheOthers) {
   EXPECT_EQ(first->number, 0);
   EXPECT_EQ(newest.dropped(), 0);
   source.allow(5);
-  for (int i = 0; i < 10'000 && done < 4; ++i)
-    std::this_thread::sleep_for(milliseconds(1));
+  ASSERT_TRUE(eventually([&] { return done >= 4; }));
   const auto late = newest.take(seconds(10));
   ASSERT_TRUE(late.has_value());
   EXPECT_EQ(late->number, 4);
