@@ -37,20 +37,19 @@ macro(swarmsmith_optimise)
 endmacro()
 
 # swarmsmith_precompile(TARGET code|text|test): what nearly all of them include is compiled once for all libraries and
-# programs, for those that use fmt, and for all test programs. As ./dev builds; not for ccache, which could keep nothing
-# then, and not for the compilers of the gates. GCC takes what is precompiled for our code, in which its optimiser warns:
+# programs, for those that use fmt, and for all test programs. As ./dev builds, with ccache or without it; not for the
+# compilers of the gates. GCC takes what is precompiled for our code, in which its optimiser warns:
 # of version 12, that is bug 105651 (see Warnings.cmake). Test programs are compiled by clang then, which does not optimise
 # them and takes less than half of GCC's time, and linked by gold where it is, in a third of the other linker's.
 function(swarmsmith_precompile target kind)
-  if(NOT CMAKE_UNITY_BUILD OR SWARMSMITH_SANITIZE OR CMAKE_CXX_COMPILER_LAUNCHER OR
-     NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(NOT CMAKE_UNITY_BUILD OR SWARMSMITH_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
   endif()
   if(kind STREQUAL "test")
     find_program(SWARMSMITH_CLANG clang++ REQUIRED)
     find_program(SWARMSMITH_GOLD ld.gold)
-    set(launcher ${PROJECT_SOURCE_DIR}/cmake/by_clang)
-    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${launcher})
+    set(launcher ${PROJECT_SOURCE_DIR}/cmake/by_clang ${CMAKE_CXX_COMPILER_LAUNCHER})
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER "${launcher}")
     if(SWARMSMITH_GOLD)
       target_link_options(${target} PRIVATE -fuse-ld=gold)
     endif()

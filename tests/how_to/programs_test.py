@@ -45,7 +45,7 @@ class Programs(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.swarmsmith = cls.folder / "build/bin/swarmsmith"
         cls.follow_the_pages()
-        launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        launcher = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={cls.folder}/cmake/with_ccache"] if shutil.which("ccache") else []
         cls.call("cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DSWARMSMITH_TESTS=ON", "-DCMAKE_UNITY_BUILD=ON",
                  *launcher)
         cls.call("cmake", "--build", "build", "--target", "programs", "new_score_test", "search_test")
