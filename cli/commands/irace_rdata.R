@@ -117,13 +117,14 @@ level <- function(name) {
 hierarchy <- vapply(names_of, level, 0)
 conditions <- conditions[order(hierarchy)]
 switches <- setNames(parameter_table$switch, names_of)
-forbidden_code <- lapply(forbidden, function(text) {
-  clause <- language(text)[[1]]
+compiled <- function(text) {
+  clause <- parse(text = text, keep.source = FALSE)[[1]]
   code <- compiler::compile(substitute(is.na(x) | !(x), list(x = clause)),
                             options = list(suppressUndefined = TRUE))
   attr(code, "source") <- text
   code
-})
+}
+forbidden_code <- lapply(forbidden, compiled)
 if (!length(forbidden_code)) forbidden_code <- NULL
 
 # The object of irace 3.5, and that of irace 4: it is one of the package R6, which is an environment.
@@ -165,7 +166,37 @@ inside <- new.env(parent = baseenv())
 inside$self <- space
 space$get <- function(x) if (missing(x)) self$.params else self$.params[[x]]
 space$get_ordered <- function() self$.params[names(self$conditions)]
-environment(space$get) <- environment(space$get_ordered) <- inside
+# The text of a parameter file.
+space$as_character <- function() {
+  bounds <- function(x) {
+    if (is.expression(x)) x <- vapply(x, function(one)
+      if (is.numeric(one)) format(one, digits = 15) else paste0("\"", deparse(one, width.cutoff = 500L), "\""), "")
+    paste0("(", paste0(x, collapse = ","), ")")
+  }
+  lines <- vapply(self$.params, function(one) {
+    condition <- if (isTRUE(one$condition)) "" else paste(" |", paste(as.character(as.expression(one$condition)), collapse = " "))
+    type <- if (identical(as.character(one$transform), "log")) paste0(one$type, ",log") else one$type
+    paste0(one$name, " \"", one$label, "\" ", type, " ", bounds(one$domain), condition)
+  }, "")
+  if (length(self$forbidden))
+    lines <- c(lines, "", "[forbidden]", vapply(self$forbidden, attr, "", "source"))
+  places <- unlist(lapply(self$.params, function(one) one$digits))
+  if (length(places)) lines <- c(lines, "", "[global]", paste("digits =", max(places)))
+  paste0(paste(lines, collapse = "\n"), "\n")
+}
+# The rows of a data frame of configurations: each is one that must not come again.
+space$forbid_configurations <- function(x) {
+  for (i in seq_len(NROW(x))) {
+    values <- as.list(x[i, self$names, drop = FALSE])
+    values <- values[!is.na(values)]
+    clauses <- paste0("(", names(values), " == ", vapply(values, deparse, ""), ")")
+    self$forbidden <- c(self$forbidden, list(compiled(paste(clauses, collapse = " & "))))
+  }
+  invisible(self)
+}
+inside$compiled <- compiled
+for (method in c("get", "get_ordered", "as_character", "forbid_configurations")) environment(space[[method]]) <- inside
+environment(inside$compiled) <- inside
 class(space) <- c("ParameterSpace", "R6")
 
 # Configurations, pairs and runs. Ids are whole numbers: 100000 is "100000", not "1e+05".
@@ -238,9 +269,15 @@ scenario$maxExperiments <- whole(head_value("max_experiments"))
 scenario$forbiddenExps <- forbidden_code
 scenario$parameters <- space
 
+version <- head_value("irace_version")
+# irace 4 refuses options that it does not know: its digits are those of each parameter.
+number_of <- numeric_version(sub("^([0-9]+(\\.[0-9]+)*).*", "\\1", version), strict = FALSE)
+if (!isTRUE(number_of < "3.9")) {
+  scenario$digits <- NULL
+  if (isFALSE(scenario$cappingAfterFirstTest)) scenario$cappingAfterFirstTest <- NULL
+}
 used <- length(runs$instance)
 last_elites <- if (iterations) elites[[iterations]] else integer(0)
-version <- head_value("irace_version")
 inner <- new.env(parent = emptyenv())
 inner$instancesList <- data.frame(instance = instances_log$instanceID, seed = instances_log$seed)
 state <- list(.irace = inner,

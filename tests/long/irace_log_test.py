@@ -143,13 +143,18 @@ class IraceLog(unittest.TestCase):
         self.r(script, example(), self.folder / "list.Rdata")
         self.assertEqual(self.tables(self.folder / "list.Rdata", "list"), self.wanted())
 
-    def test_logs_of_irace_3_4_are_read(self):
-        for name in ("race", "time"):
-            log, store = FIXTURE.parent / "logs-3.4.1" / f"{name}.Rdata", self.folder / f"{name}.db"
-            runs, costs, *elites = self.held(log)[1:]
-            self.imported(log, store, runs, costs, elites)
-            [design] = self.rows(store, "SELECT state, reason FROM v_designs")
-            self.assertEqual(design, {"state": "finished", "reason": "Not enough budget to race more than the minimum configurations"})
+    def test_logs_of_each_version_are_read(self):
+        logs = sorted(FIXTURE.parent.glob("logs-*/*.Rdata"))
+        self.assertEqual(len(logs), 6)
+        for log in logs:
+            with self.subTest(log=f"{log.parent.name}/{log.name}"):
+                store = self.folder / f"{log.parent.name}-{log.stem}.db"
+                first, runs, costs, *elites = self.held(log)
+                self.assertEqual(first, "0" if log.stem == "time" else "1")
+                self.imported(log, store, runs, costs, elites)
+                [design] = self.rows(store, "SELECT state, reason FROM v_designs")
+                self.assertEqual(design["state"], "finished")
+                self.assertIn("Not enough budget to ", design["reason"])
 
     def held(self, log):
         """What R finds in a log: first iteration, number of runs, the sum of their costs, the last elites."""

@@ -115,6 +115,38 @@ for (i in seq_along(log$allElites)) for (id in log$allElites[[i]]) {
 for (i in seq_along(lines)) cat("line", log$allConfigurations$.ID.[i], lines[i], "\\n")
 """
 
+# The same of irace 4, and what calls the target-runner from a log.
+WITH_IRACE_4 = """
+suppressMessages(library(irace))
+words <- commandArgs(TRUE)
+log <- read_logfile(words[1])
+space <- log$scenario$parameters
+final <- getFinalElites(log)
+stopifnot(setequal(final$.ID., log$allElites[[length(log$allElites)]]),
+          identical(names(getFinalElites(words[1], drop.metadata = TRUE)), space$names),
+          identical(getConfigurationById(log, ids = 2)$.ID., 2L),
+          nrow(getConfigurationByIteration(log, iterations = 1)) > 1, has_testing_data(log),
+          nrow(get_instanceID_seed_pairs(log, instances = TRUE)) >= nrow(log$experiments))
+capture.output(printParameters(space), printScenario(log$scenario), configurations_print(final),
+               configurations_print_command(final, space), print(irace_summarise(log))) -> shown
+again <- readParameters(text = space$as_character())
+stopifnot(identical(again$names, space$names), identical(again$types, space$types),
+          isTRUE(all.equal(again$domains, space$domains)), identical(again$switches, space$switches),
+          length(again$forbidden) == length(space$forbidden))
+for (i in seq_along(log$allElites)) for (id in log$allElites[[i]]) {
+  of <- as.data.frame(log$state$experiment_log)
+  of <- of[of$configuration == id & of$iteration <= i, ]
+  cat(i, id, sprintf("%.10g", mean(of$cost)), "\n")
+}
+invisible(file.copy(words[1], "tested.Rdata"))
+capture.output(testing_fromlog("tested.Rdata", testNbElites = 1, testIterationElites = FALSE)) -> shown
+tested <- read_logfile("tested.Rdata")$testing$experiments
+stopifnot(nrow(tested) == 2, as.character(final$.ID.[1]) %in% colnames(tested))
+capture.output(way <- ablation(words[1], src = 1, target = final$.ID.[1])) -> shown
+pdf("way.pdf")
+plotAblation(way)
+"""
+
 # The object of irace's own reader, and forbidden code as irace compiles it.
 SAME_PARAMETERS = """
 suppressMessages(library(irace))
@@ -229,10 +261,10 @@ def has_irace():
 
 
 def needs_irace_35(test):
-    """Logs that are exported have the layout of irace 3.5, whose functions read them; those of irace 4 do not."""
+    """What is compared with objects of irace 3.5, or calls its functions by their names of then."""
     def run(self):
         if self.r('cat(packageVersion("irace") >= "4")') == "TRUE":
-            self.skipTest("skipped: exported logs have the layout of irace 3.5, and this is irace 4")
+            self.skipTest("skipped: for the functions of irace 3.5, and this is irace 4")
         test(self)
     return run
 
@@ -320,6 +352,13 @@ class IraceRdata(unittest.TestCase):
         self.assertEqual(commands, {row["number"]: row["fsm_config"].replace("'", "").split() for row in candidates})
         (self.folder / "parameters35.txt").write_text(PARAMETERS)
         self.r(SAME_PARAMETERS, "irace.Rdata", "parameters35.txt")
+
+    def test_functions_of_irace_4_work_on_our_log(self):
+        if self.r('cat(packageVersion("irace") < "4")') == "TRUE":
+            self.skipTest("skipped: for the functions of irace 4, and this is irace 3")
+        store = self.tune()
+        self.call("export", store, "--format", "rdata", "-o", "irace.Rdata")
+        self.assert_elites(self.r(WITH_IRACE_4, "irace.Rdata").splitlines(), store)
 
     def test_what_iraceplot_reads_is_there(self):
         store = self.tune()
