@@ -73,7 +73,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
   /// Of a cell, in pixels.
   #size(): { column: number; row: number } {
     const { candidates, steps } = this.props.matrix.race;
-    return { column: Math.min(48, (this.#width - kLeft - kRight) / steps.length),
+    return { column: Math.min(96, (this.#width - kLeft - kRight) / steps.length),
       row: clamp(Math.floor(620 / candidates.length), 2, 16) };
   }
 
