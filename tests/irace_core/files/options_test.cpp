@@ -1,9 +1,11 @@
 #include "irace_core/files/options.h"
 
 #include <gmock/gmock.h>
+#include <map>
 #include <set>
 
 #include "base/rng.h"
+#include "base/text/csv.h"
 #include "base/text/whole_file.h"
 #include "irace_core/files/internal/setup_fields.h"
 #include "irace_core/files/number_text.h"
@@ -22,6 +24,56 @@ TEST(IraceOptions, NamesAndSwitchesOccurOnce) {
     }
     EXPECT_FALSE(option.title().empty());
   }
+}
+
+/// Those of irace 4.4.3 (tests/golden/irace/README.md), by name, or switch where they have none:
+/// the switches and the default.
+std::map<std::string, std::vector<std::string>> options_of_r() {
+  const auto text = read_whole_file(std::filesystem::path(SWARMSMITH_SOURCE_DIR) /
+                                    "tests/golden/irace/options.csv");
+  EXPECT_TRUE(text);
+  std::map<std::string, std::vector<std::string>> options;
+  CsvReader reader(*text);
+  reader.next();  // the headline
+  while (!reader.at_end()) {
+    const auto cells = reader.next();
+    const std::string& name = cells->at(0);
+    options[name.starts_with('.') ? cells->at(3) : name] = {cells->at(2), cells->at(3),
+                                                            cells->at(4)};
+  }
+  return options;
+}
+
+TEST(IraceOptions, AreThoseOfRWithTheirSwitchesAndDefaults) {
+  const auto of_r = options_of_r();
+  ASSERT_EQ(of_r.size(), 69U);
+  for (const auto& [name, row] : of_r) {
+    const bool is_switch = name.starts_with('-');
+    const IraceOption* option = is_switch ? find_irace_switch(name) : find_irace_option(name);
+    ASSERT_NE(option, nullptr) << name;
+    EXPECT_EQ(option->short_switch, row[0]) << name;
+    EXPECT_EQ(option->long_switch, row[1]) << name;
+    if (option->takes_value()) {
+      EXPECT_EQ(option->initial, row[2]) << name;
+    }
+  }
+}
+
+/// What R has as functions or programs of their own, and what a store and a terminal need. The list
+/// is frozen: a tuner has irace's options.
+TEST(IraceOptions, ThatRDoesNotHaveAreThese) {
+  const auto of_r = options_of_r();
+  std::vector<std::string> own;
+  for (const IraceOption& option : not_empty(irace_options())) {
+    const bool is_older =
+        option.meaning == IraceMeaning::Removed || option.meaning == IraceMeaning::Gone;
+    if (!is_older && !of_r.contains(std::string(option.title()))) own.emplace_back(option.title());
+  }
+  EXPECT_THAT(own, testing::ElementsAre(
+                       "--psrace", "--psrace-max-experiments", "--psrace-ids", "--psrace-elites",
+                       "--ablation", "--ablation-type", "--ablation-source", "--ablation-target",
+                       "--ablation-instances", "--ablation-csv", "--workers", "--on-failure",
+                       "--store", "--json", "--verbose", "--no-color"));
 }
 
 TEST(IraceOptions, DefaultsAreValuesOfTheirKind) {
