@@ -57,8 +57,7 @@ struct Report {
 /// Receives the number of finished modules and their total.
 using Progress = std::function<void(int done, int of)>;
 
-/// Assesses all modules of the flavour. Pure: the same flavour and profile give the same report. A
-/// module for which there is no test is a failed assertion.
+/// Assesses all modules of the flavour. Pure: the same flavour and profile give the same report.
 ///
 /// Conditions are tested with the profile's sensors, but with control cycles of exactly 0.1 s:
 /// they are judged cycle by cycle, and a recorder sees the world every 0.1 s.

@@ -1,6 +1,8 @@
 #include "sim/control/flavour.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -42,6 +44,11 @@ const ModuleSpec* Flavour::find(Module module) const {
     }
   }
   return nullptr;
+}
+
+std::string_view name_of(ColorLabel label) {
+  static constexpr std::array<std::string_view, 4> kNames = {"green", "blue", "red", "yellow"};
+  return kNames[static_cast<std::size_t>(label)];
 }
 
 std::string_view name_of(TurnClock clock) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "sim/control/conditions.h"
 #include "sim/control/module.h"
 #include "sim/control/reference_model.h"
 
@@ -48,6 +47,12 @@ struct ModuleSpec {
 
   friend bool operator==(const ModuleSpec&, const ModuleSpec&) = default;
 };
+
+/// The colours that ColorDetection can look for (thesis 5.2).
+enum class ColorLabel { Green, Blue, Red, Yellow };
+
+/// `green`, `blue`, `red` or `yellow`.
+std::string_view name_of(ColorLabel label);
 
 /// A colour of the text grammar and the hue and saturation it stands for.
 struct LabelSpec {

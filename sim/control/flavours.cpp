@@ -1,8 +1,11 @@
 #include <array>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "sim/control/behaviours.h"
+#include "sim/control/conditions.h"
 #include "sim/control/flavour.h"
-#include "sim/control/internal/module_tables.h"
 
 // Sources: "thesis" and "program" with a number are sections of the thesis facts and of the
 // rvr-automode facts (docs/reference); "its 7.1" and equations have the thesis' own numbers.
@@ -12,10 +15,28 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// rvr-automode facts, section 6.1; thesis facts, section 7, have the same hues.
+std::vector<LabelSpec> watermelon_labels() {
+  return {{ColorLabel::Green, 0, 120, 1},
+          {ColorLabel::Blue, 1, 240, 1},
+          {ColorLabel::Red, 2, 0, 1},
+          {ColorLabel::Yellow, 3, 60, 1}};
+}
+
+/// The conditions with another least xi of the search.
+std::vector<ModuleSpec> with_least_xi(std::vector<ModuleSpec> conditions, double least) {
+  for (ModuleSpec& condition : conditions) {
+    for (ParameterSpec& parameter : condition.parameters) {
+      if (parameter.name == "xi") parameter.low = least;
+    }
+  }
+  return conditions;
+}
+
 Flavour make_watermelon() {
   return {.name = "watermelon",
-          .behaviours = watermelon_behaviours(),
-          .conditions = watermelon_conditions(0),
+          .behaviours = behaviours_of("watermelon"),
+          .conditions = conditions_of("watermelon"),
           .speed_mps = 0.30,                                        // thesis 5: V of the runs
           .obstacles = {.reading = ObstacleModel::Reading::Linear,  // thesis 5, table 5.1
                         .near_m = kBlindZone_m,
@@ -51,8 +72,9 @@ Flavour make_watermelon() {
 
 Flavour make_watermelon_argos3() {
   return {.name = "watermelon-argos3",
-          .behaviours = watermelon_behaviours(),
-          .conditions = watermelon_conditions(1),
+          .behaviours = behaviours_of("watermelon-argos3"),
+          // Program 9, row 17: from 1, the thesis from 0.
+          .conditions = with_least_xi(conditions_of("watermelon-argos3"), 1),
           .speed_mps = 0.30,                                                 // program 2
           .obstacles = {.reading = ObstacleModel::Reading::InverseDistance,  // program 4.1
                         .near_m = kBlindZone_m,
@@ -90,8 +112,8 @@ Flavour make_watermelon_argos3() {
 Flavour make_chocolate() {
   Flavour flavour = make_watermelon();
   flavour.name = "chocolate";
-  flavour.behaviours = chocolate_behaviours();
-  flavour.conditions = chocolate_conditions();
+  flavour.behaviours = behaviours_of(flavour.name);
+  flavour.conditions = conditions_of(flavour.name);
   flavour.obstacles.neighbours_as_obstacles = false;        // thesis 6.1
   flavour.neighbours.attraction_gain = 1;                   // eq. 5.3 has no k_w
   flavour.light = {.full_lux = 1000, .least_vector = 0.1};  // thesis 6.1; 14, row 11

@@ -1,6 +1,7 @@
 #include "sim/control/machine_control.h"
 
 #include <cstdint>
+#include <type_traits>
 #include <variant>
 
 #include "base/assert.h"
@@ -25,19 +26,30 @@ MachineControl::MachineControl(const Machine& machine, const Flavour& flavour, R
     const std::vector<Transition>& transitions = machine.states[i].transitions;
     SWARMSMITH_ASSERT(transitions.size() <= kMaxTransitions, "a state has at most 4 transitions");
     for (std::size_t j = 0; j < transitions.size(); ++j) {
-      const Condition& condition = transitions[j].condition;
-      Known& known = known_[i][j];
-      if (const auto* fixed = std::get_if<FixedProbability>(&condition)) {
-        known.probability = fixed->probability;
-      } else if (std::holds_alternative<NeighbourCount>(condition) ||
-                 std::holds_alternative<InvertedNeighbourCount>(condition)) {
-        known.reads = Reads::Neighbours;
-        known.by_count.fill(-1);
-      } else {
-        known.reads = Reads::Floor;
-      }
+      known_[i][j] = known_of(transitions[j].condition, flavour);
     }
   }
+}
+
+/// By what each kind of condition says that it reads: the probability follows from that alone.
+MachineControl::Known MachineControl::known_of(const Condition& condition, const Flavour& flavour) {
+  Known known;
+  std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        using What = typename Kind::Reads;
+        if constexpr (std::is_same_v<What, NoReading>) {
+          known.probability = kind.enabling(NoReading{}, flavour);
+        } else if constexpr (std::is_same_v<What, FloorReading>) {
+          known.reads = Reads::Floor;
+        } else if constexpr (std::is_same_v<What, NeighbourTally>) {
+          known.reads = Reads::Neighbours;
+          known.by_count.fill(-1);
+        } else {
+          known.reads = Reads::Others;
+        }
+      },
+      condition);
+  return known;
 }
 
 Command MachineControl::step(Senses& senses) {
@@ -72,6 +84,8 @@ void MachineControl::take_transition(Senses& senses) {
       probability = known->probability;
     } else if (known->reads == Reads::Neighbours) {
       probability = probability_of_count(*known, transition.condition, senses);
+    } else if (known->reads == Reads::Others) {
+      probability = enabling_probability(transition.condition, senses, *flavour_);
     }
     if (probability > 0 && rng_.bernoulli(probability)) {
       enabled_targets[enabled++] = transition.target;

@@ -6,6 +6,7 @@
 
 #include "base/rng.h"
 #include "sim/control/behaviours.h"
+#include "sim/control/conditions.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
 #include "sim/control/reference_model.h"
@@ -30,15 +31,15 @@ class MachineControl {
   std::uint64_t drawn() const { return rng_.drawn(); }
 
  private:
-  /// What a condition reads.
-  enum class Reads : std::uint8_t { Nothing, Floor, Neighbours };
+  /// What is known of a condition's probability.
+  enum class Reads : std::uint8_t { Nothing, Floor, Neighbours, Others };
   static constexpr int kTabledNeighbours = 8;
   static constexpr std::uint32_t kNoColor = 0xffffffff;
 
   /// A transition with what is known of its enabling probability: of a condition that reads
   /// nothing, the probability; of one that looks at the floor, that of the colour it saw last,
   /// since robots stay on one for a while; of one that counts neighbours, those of the counts that
-  /// turned up, -1 where none did.
+  /// turned up, -1 where none did. Any other is asked in each cycle.
   struct Known {
     Reads reads = Reads::Nothing;
     std::uint32_t color = kNoColor;
@@ -46,6 +47,7 @@ class MachineControl {
     std::array<double, kTabledNeighbours> by_count;
   };
 
+  static Known known_of(const Condition& condition, const Flavour& flavour);
   double probability_of_count(Known& known, const Condition& condition, Senses& senses) const;
   void take_transition(Senses& senses);
 

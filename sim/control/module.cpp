@@ -1,38 +1,56 @@
 #include "sim/control/module.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "sim/control/internal/module_kinds.h"
 
 namespace swarmsmith {
 namespace {
 
-/// In the order of the enumerators.
-constexpr std::array<std::string_view, 13> kIds = {"exploration",
-                                                   "stop",
-                                                   "phototaxis",
-                                                   "anti_phototaxis",
-                                                   "attraction",
-                                                   "repulsion",
-                                                   "black_floor",
-                                                   "gray_floor",
-                                                   "white_floor",
-                                                   "neighbour_count",
-                                                   "inverted_neighbour_count",
-                                                   "fixed_probability",
-                                                   "color_detection"};
-static_assert(static_cast<std::size_t>(Module::ColorDetection) + 1 == kIds.size());
+constexpr std::size_t kCount = std::variant_size_v<Behaviour> + std::variant_size_v<Condition>;
+
+/// What `text` finds in the struct of each module, in the order of the enumerators.
+template <class Text>
+std::array<std::string_view, kCount> texts_of(const Text& text) {
+  std::array<std::string_view, kCount> texts;
+  for_each_module<Behaviour>([&](std::size_t index, const auto& kind) {
+    texts[kFirstModule<Behaviour> + index] = text(kind);
+  });
+  for_each_module<Condition>([&](std::size_t index, const auto& kind) {
+    texts[kFirstModule<Condition> + index] = text(kind);
+  });
+  return texts;
+}
 
 }  // namespace
 
+std::span<const Module> all_modules() {
+  static const std::array<Module, kCount> kAll = [] {
+    std::array<Module, kCount> all{};
+    for (std::size_t i = 0; i < kCount; ++i)
+      all[i] = static_cast<Module>(i);
+    return all;
+  }();
+  return kAll;
+}
+
 std::string_view id_of(Module module) {
+  static const auto kIds = texts_of([](const auto& kind) { return kind.kId; });
   return kIds[static_cast<std::size_t>(module)];
 }
 
 std::optional<Module> module_from_id(std::string_view id) {
-  for (std::size_t i = 0; i < kIds.size(); ++i) {
-    if (kIds[i] == id) return static_cast<Module>(i);
-  }
-  return std::nullopt;
+  const auto found = std::ranges::find(all_modules(), id, id_of);
+  return found == all_modules().end() ? std::nullopt : std::optional(*found);
+}
+
+std::string_view label_of(Module module) {
+  static const auto kLabels = texts_of([](const auto& kind) { return kind.kLabel; });
+  return kLabels[static_cast<std::size_t>(module)];
 }
 
 }  // namespace swarmsmith

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 
-#include "sim/control/conditions.h"
 #include "sim/control/reference_model.h"
 
 namespace swarmsmith {
@@ -12,6 +11,7 @@ namespace swarmsmith {
 struct ObstacleModel;
 struct FloorModel;
 struct LightModel;
+enum class ColorLabel;
 
 /// What modules make of raw readings: obstacles and light as vectors, floors as grey levels and
 /// labels.

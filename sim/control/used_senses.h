@@ -5,16 +5,6 @@
 
 namespace swarmsmith {
 
-/// Kinds of readings of `Senses`.
-struct UsedSenses {
-  bool proximity = false;
-  bool ground_color = false;
-  bool neighbours = false;
-  bool light = false;
-
-  friend bool operator==(const UsedSenses&, const UsedSenses&) = default;
-};
-
 /// What a controller may ask for in some cycle or other: what a robot must have to run it, and what
 /// must travel if it runs elsewhere. It never asks for anything else but the time. States to which
 /// no transition leads ask for nothing.

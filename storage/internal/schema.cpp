@@ -22,8 +22,8 @@
 #include "embedded/kTargetsSchema.h"
 #include "embedded/kTrackingSchema.h"
 #include "embedded/kViewIndexesSchema.h"
-#include "embedded/kViews.h"
 #include "storage/internal/machine_parts.h"
+#include "storage/internal/view_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -56,6 +56,22 @@ void use_write_ahead_log(sqlite::Connection& connection) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   }
+}
+
+std::string without_blanks(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+  return text;
+}
+
+/// The store may have been made by a program that knew fewer modules.
+void know_flavours(sqlite::Connection& connection) {
+  const std::string known = sqlite::text_of(
+      connection,
+      "SELECT sql || ';' FROM sqlite_schema WHERE type = 'view' AND name = 'flavour_name'");
+  if (without_blanks(known) == without_blanks(flavour_view())) return;
+  sqlite::Transaction transaction(connection);
+  connection.execute("DROP VIEW flavour_name; " + flavour_view());
+  transaction.commit();
 }
 
 }  // namespace
@@ -107,7 +123,7 @@ void lend_views(sqlite::Connection& connection) {
   constexpr std::string_view kCreate = "CREATE VIEW ";
   constexpr std::string_view kLend = "CREATE TEMP VIEW IF NOT EXISTS ";
   // The first of a name stays.
-  std::string views = std::string(kLentViews) + kViews;
+  std::string views = kLentViews + our_views();
   for (std::size_t at = 0; (at = views.find(kCreate, at)) != std::string::npos; at += kLend.size())
     views.replace(at, kCreate.size(), kLend);
   connection.execute("PRAGMA query_only = OFF; " + views + "; PRAGMA query_only = ON");
@@ -126,7 +142,7 @@ void create_schema(sqlite::Connection& connection) {
 }
 
 void finish_schema(sqlite::Connection& connection, std::int64_t schema) {
-  if (schema == kSchemaVersion) connection.execute(kViews);
+  if (schema == kSchemaVersion) connection.execute(our_views());
   connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
   set_version(connection, schema);
 }
@@ -186,7 +202,10 @@ Expected<void> check_identity(const sqlite::Connection& connection,
 void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
              std::span<const Migration> steps) {
   const std::int64_t from = sqlite::integer_of(connection, "PRAGMA user_version");
-  if (steps.empty() || steps.back().to <= from) return;
+  if (steps.empty() || steps.back().to <= from) {
+    if (from == kSchemaVersion) know_flavours(connection);
+    return;
+  }
   // A copy of that name can only be an earlier, interrupted try: the store has not moved since.
   const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);
   std::error_code stays;  // then SQLite says why
@@ -202,7 +221,7 @@ void upgrade(sqlite::Connection& connection, std::span<const Migration> steps) {
     sqlite::Transaction transaction(connection);
     drop_views(connection);  // ALTER TABLE would stumble over them
     step.apply(connection);
-    connection.execute(kViews);
+    connection.execute(our_views());
     set_version(connection, step.to);
     // A table may have got columns that count.
     if (RowSums::stored(connection)) RowSums::found(connection).write(connection);

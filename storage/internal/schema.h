@@ -14,7 +14,8 @@ namespace swarmsmith {
 
 /// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
-/// Version of tables and views (PRAGMA user_version). A change of either is a new version.
+/// Version of tables and views (PRAGMA user_version). A change of either is a new version;
+/// modules more in flavour_name are not.
 inline constexpr std::int64_t kSchemaVersion = 14;
 /// The version that changed tables of before last: what came later are other views of the same
 /// tables, indexes, and tables of their own.
@@ -61,8 +62,8 @@ Expected<void> check_identity(const sqlite::Connection& connection,
                               const std::filesystem::path& path);
 
 /// Brings the store to the newest version of `steps`, after a copy `<path>.before-v<version>`.
-/// Each step is one transaction: a crash leaves a store of the version before. Does nothing when
-/// the store is up to date.
+/// Each step is one transaction: a crash leaves a store of the version before. In a store that is
+/// up to date, the names of modules become those of this program, where it knows others.
 void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
              std::span<const Migration> steps);
 

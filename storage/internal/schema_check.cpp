@@ -45,7 +45,9 @@ Objects objects_of(const Connection& connection, bool with_views) {
                 " WHERE name NOT GLOB 'sqlite_stat[134]'");
   while (row.step()) {
     if (!with_views && row.text(0) == "view") continue;
-    objects[{row.text(0), row.text(1)}] = {row.text(2), bare(row.text(3))};
+    // A later program knows more modules, and writes their names when it opens the store.
+    const bool has_names = row.text(0) == "view" && row.text(1) == "flavour_name";
+    objects[{row.text(0), row.text(1)}] = {row.text(2), has_names ? "" : bare(row.text(3))};
   }
   return objects;
 }

@@ -243,24 +243,10 @@ CREATE VIEW v_parameters AS
 SELECT c.id AS candidate, c.design, c.iteration, j.key AS parameter, j.value
 FROM candidate_text AS c, json_each(nullif(c.parameters, '')) AS j;
 
--- Not public: what the numbers in a machine's text mean. tests/storage/views_test.cpp compares it with
--- sim/control/flavours.cpp.
-CREATE VIEW flavour_name(flavour, kind, number, name) AS
-WITH same(flavour) AS (VALUES ('watermelon'), ('watermelon-argos3'))
-SELECT s.flavour, v.column1, v.column2, v.column3
-FROM same AS s CROSS JOIN (VALUES
-  ('s', 0, 'exploration'), ('s', 1, 'stop'), ('s', 2, 'attraction'), ('s', 3, 'repulsion'),
-  ('c', 0, 'black_floor'), ('c', 1, 'gray_floor'), ('c', 2, 'white_floor'),
-  ('c', 3, 'neighbour_count'), ('c', 4, 'inverted_neighbour_count'), ('c', 5, 'fixed_probability'),
-  ('c', 6, 'color_detection'),
-  ('l', 0, 'green'), ('l', 1, 'blue'), ('l', 2, 'red'), ('l', 3, 'yellow')) AS v
-UNION ALL VALUES
-  ('chocolate', 's', 0, 'exploration'), ('chocolate', 's', 1, 'stop'),
-  ('chocolate', 's', 2, 'phototaxis'), ('chocolate', 's', 3, 'anti_phototaxis'),
-  ('chocolate', 's', 4, 'attraction'), ('chocolate', 's', 5, 'repulsion'),
-  ('chocolate', 'c', 0, 'black_floor'), ('chocolate', 'c', 1, 'gray_floor'),
-  ('chocolate', 'c', 2, 'white_floor'), ('chocolate', 'c', 3, 'neighbour_count'),
-  ('chocolate', 'c', 4, 'inverted_neighbour_count'), ('chocolate', 'c', 5, 'fixed_probability');
+-- Not public: what the numbers in a machine's text mean. The program puts flavour_name(flavour, kind,
+-- number, name) here, made of the tables of its flavours (storage/internal/view_text.cpp): kind is s for
+-- behaviours, c for conditions, l for labels.
+-- flavour_name
 
 -- Not public: the text of a machine or a tree, and its words as a JSON array: "--a 1 --b 2" is
 -- ["a 1","b 2"]. Parameters of programs, which have no flavour, are neither. json_each of one element

@@ -68,9 +68,12 @@ def libraries(texts):
             known = found.setdefault("swarmsmith_" + name if kind == "component" else name, (set(), set()))
             known[0].update(files)  # one that has other sources where a package is missing is there twice
             known[1].update(linked)
-        for kinds in re.findall(r"set\(score_kinds\s+([^)]*)\)", text):
-            found["swarmsmith_mission"][0].update((folder / "scores" / (kind + ending)).as_posix()
-                                                  for kind in kinds.split() for ending in (".h", ".cpp"))
+        # Kinds belong to the folder's library: a header each, and a source where there is one.
+        for kinds in re.findall(r"swarmsmith_kinds\(([^)]*)\)", text):
+            name, *words = re.sub(r"\$\{(\w+)\}", lambda found: " ".join(variables.get(found[1], [])), kinds).split()
+            owner = "swarmsmith_" + re.search(r"swarmsmith_component\((\w+)", text)[1]
+            found[owner][0].update((folder / name / (kind + ending)).as_posix()
+                                   for kind in words for ending in (".h", ".cpp"))
         for name, arguments in re.findall(r"target_link_libraries\(([\w-]+)([^)]*)\)", text):
             if name in found:
                 found[name][1].update(set(arguments.split()) - set(WORDS))
@@ -223,6 +226,12 @@ class TheChecks(unittest.TestCase):
     def test_of_variables(self):
         lists = {pathlib.PurePosixPath("a"): "set(one b.cpp)\nset(one c.cpp)\nswarmsmith_component(a\n  SOURCES a.cpp ${one})"}
         self.assertEqual(libraries(lists)["swarmsmith_a"][0], {"a/a.cpp", "a/b.cpp", "a/c.cpp"})
+
+    def test_of_kinds(self):
+        lists = {pathlib.PurePosixPath("a"): "set(ones x y)\nswarmsmith_kinds(ones ${ones})\n"
+                                             "swarmsmith_component(a\n  SOURCES ${ones_sources} a.cpp)"}
+        self.assertEqual(libraries(lists)["swarmsmith_a"][0],
+                         {"a/a.cpp", "a/ones/x.h", "a/ones/x.cpp", "a/ones/y.h", "a/ones/y.cpp"})
 
     def test_of_includes(self):
         texts = {"a.h": "#include <vector>\n#include <cstdint>\nstd::vector<std::uint8_t> bytes;  // no std::map\n",

@@ -1,6 +1,7 @@
 #include "analysis/machines/internal/machine_labels.h"
 
 #include <algorithm>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -12,35 +13,10 @@ namespace swarmsmith {
 namespace {
 
 std::vector<std::string> name_lines(Module module) {
-  switch (module) {
-    case Module::Exploration:
-      return {"Exploration"};
-    case Module::Stop:
-      return {"Stop"};
-    case Module::Phototaxis:
-      return {"Phototaxis"};
-    case Module::AntiPhototaxis:
-      return {"Anti-", "phototaxis"};
-    case Module::Attraction:
-      return {"Attraction"};
-    case Module::Repulsion:
-      return {"Repulsion"};
-    case Module::BlackFloor:
-      return {"Black floor"};
-    case Module::GrayFloor:
-      return {"Gray floor"};
-    case Module::WhiteFloor:
-      return {"White floor"};
-    case Module::NeighbourCount:
-      return {"Neighbour count"};
-    case Module::InvertedNeighbourCount:
-      return {"Inverted", "neighbour count"};
-    case Module::FixedProbability:
-      return {"Fixed probability"};
-    case Module::ColorDetection:
-      return {"Color detection"};
-  }
-  throw std::invalid_argument("no such module");
+  std::vector<std::string> lines;
+  for (const auto line : std::views::split(label_of(module), '\n'))
+    lines.emplace_back(line.begin(), line.end());
+  return lines;
 }
 
 /// The letter of the thesis.

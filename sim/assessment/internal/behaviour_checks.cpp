@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "base/overloaded.h"
 #include "sim/assessment/internal/contact.h"
 #include "sim/assessment/internal/settings.h"
 
@@ -137,18 +138,10 @@ double light_distance(Robots robots) {
 }
 
 struct DistanceTest {
-  std::string_view behaviour;
   double (*distance)(Robots robots);
   bool falls = false;
   bool with_light = false;
 };
-
-/// By id: a flavour may have more behaviours than others.
-constexpr std::array<DistanceTest, 4> kDistanceTests = {
-    {{"attraction", pair_distance, true, false},
-     {"repulsion", pair_distance, false, false},
-     {"phototaxis", light_distance, true, true},
-     {"anti_phototaxis", light_distance, false, true}}};
 
 /// Where robots steer that see neighbours, in control cycles.
 struct Steering {
@@ -218,14 +211,25 @@ std::vector<Check> check_behaviour(const ModuleSpec& spec, const Flavour& flavou
   std::vector<double> parameters;
   for (const ParameterSpec& parameter : spec.parameters)
     parameters.push_back(parameter_value(parameter));
-  const Machine machine{{{make_behaviour(spec.module, parameters), {}}}};
+  const Behaviour behaviour = make_behaviour(spec.module, parameters);
+  const Machine machine{{{behaviour, {}}}};
   const Subject subject{machine, flavour, profile};
-  const std::string_view id = id_of(spec.module);
-  if (id == "exploration") return check_exploration(subject);
-  if (id == "stop") return check_stop(subject);
-  const auto test = std::ranges::find(kDistanceTests, id, &DistanceTest::behaviour);
-  SWARMSMITH_ASSERT(test != kDistanceTests.end(), "the assessment has a test for the behaviour");
-  return check_distance(*test, subject);
+  // A behaviour promises what only a person can say: each has its case here.
+  return std::visit(Overloaded{[&](const Exploration&) { return check_exploration(subject); },
+                               [&](const Stop&) { return check_stop(subject); },
+                               [&](const Attraction&) {
+                                 return check_distance({pair_distance, true}, subject);
+                               },
+                               [&](const Repulsion&) {
+                                 return check_distance({pair_distance, false}, subject);
+                               },
+                               [&](const Phototaxis&) {
+                                 return check_distance({light_distance, true, true}, subject);
+                               },
+                               [&](const AntiPhototaxis&) {
+                                 return check_distance({light_distance, false, true}, subject);
+                               }},
+                    behaviour);
 }
 
 }  // namespace swarmsmith::assessment

@@ -33,20 +33,24 @@ struct FloorRun {
 
 using FloorRuns = std::array<FloorRun, kConditionRuns>;
 
-FloorRuns run_over_floor(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
-                         const Profile& profile) {
+FloorRuns run_over_floor(const ConditionTest& test, const Condition& condition,
+                         const Flavour& flavour, const Profile& profile) {
   FloorRuns runs;
-  for_each_cycle(test, machine, flavour, profile, [&](const ObservedCycle& cycle) {
+  for_each_cycle(test, one_way(condition), flavour, profile, [&](const ObservedCycle& cycle) {
     FloorRun& run = runs[static_cast<std::size_t>(cycle.seed - 1)];
     const bool tested = cycle.state == kExploring && cycle.tested;
-    const bool due = tested && satisfies(test, cycle.record.readings->ground_color, flavour.floor);
+    const double probability =
+        tested ? due_probability(test, condition, 1, *cycle.record.readings, flavour) : 0;
+    const bool due = probability > 0;
     const Point place = ground_sensor_place(cycle.record.pose);
-    const bool over = tested && floor_at(test.arena, place) == test.wanted;
+    const bool over =
+        tested &&
+        (test.trigger == Trigger::Readings ? due : floor_at(test.arena, place) == test.wanted);
     run.over += over ? 1 : 0;
     run.read += over && due ? 1 : 0;
     run.fired_over += over && due && cycle.fired ? 1 : 0;
     run.elsewhere += !over && due && cycle.fired ? 1 : 0;
-    run.missed += due && !cycle.fired ? 1 : 0;
+    run.missed += probability >= 1 && !cycle.fired ? 1 : 0;
     run.wrong += !due && cycle.fired ? 1 : 0;
   });
   return runs;
@@ -72,7 +76,7 @@ std::string text_of(Rgb color) {
 /// Without noise, the flavour must take the wanted floor and no other of the arena for what the
 /// condition waits for; what it does not, as a sentence.
 std::string misread_floor(const ConditionTest& test, const FloorModel& floor) {
-  if (test.trigger == Trigger::Always) return {};
+  if (test.trigger == Trigger::Always || test.trigger == Trigger::Readings) return {};
   if (!satisfies(test, test.wanted, floor)) {
     return fmt::format("the flavour's numbers do not take the {} ({}) for it", test.floor,
                        text_of(test.wanted));
@@ -116,9 +120,9 @@ std::string note_about(const ConditionTest& test, const FloorRuns& runs, const F
   return note;
 }
 
-Check check_floor(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
+Check check_floor(const ConditionTest& test, const Condition& condition, const Flavour& flavour,
                   const Profile& profile) {
-  const FloorRuns runs = run_over_floor(test, machine, flavour, profile);
+  const FloorRuns runs = run_over_floor(test, condition, flavour, profile);
   std::vector<double> fired;
   for (const FloorRun& run : runs)
     fired.push_back(run.fired_over);
@@ -134,10 +138,10 @@ Check check_floor(const ConditionTest& test, const Machine& machine, const Flavo
 }
 
 /// With eta = 0 the sigmoid is one half whatever the number of neighbours: one firing a robot.
-Check check_count(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
+Check check_count(const ConditionTest& test, const Condition& condition, const Flavour& flavour,
                   const Profile& profile) {
   std::array<std::array<int, kRobots>, kConditionRuns> tests{};
-  for_each_cycle(test, machine, flavour, profile, [&](const ObservedCycle& cycle) {
+  for_each_cycle(test, one_way(condition), flavour, profile, [&](const ObservedCycle& cycle) {
     if (cycle.state != kExploring || !cycle.tested) return;
     ++tests[static_cast<std::size_t>(cycle.seed - 1)][static_cast<std::size_t>(cycle.robot)];
   });
@@ -158,12 +162,12 @@ Check check_count(const ConditionTest& test, const Machine& machine, const Flavo
 }  // namespace
 
 Check check_condition(const ConditionTest& test, const Flavour& flavour, const Profile& profile) {
-  const Machine machine =
-      one_way(make_condition(test, *flavour.find(test.module), {.beta = 1, .eta = 0, .xi = 1}));
+  const Condition condition =
+      make_condition(test, *flavour.find(test.module), {.beta = 1, .eta = 0, .xi = 1});
   const bool counts =
       test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
-  return counts ? check_count(test, machine, flavour, profile)
-                : check_floor(test, machine, flavour, profile);
+  return counts ? check_count(test, condition, flavour, profile)
+                : check_floor(test, condition, flavour, profile);
 }
 
 }  // namespace swarmsmith::assessment

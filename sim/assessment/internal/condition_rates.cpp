@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 
 #include "base/math.h"
@@ -18,6 +20,7 @@ constexpr int kXi = 1;
 struct Tally {
   std::int64_t trials = 0;
   std::int64_t firings = 0;
+  double expected = 0;  ///< firings
 };
 
 Rate rate_of(std::string setting, const Tally& tally, double expected) {
@@ -48,12 +51,20 @@ std::vector<Rate> rates_of(const ConditionTest& test, const Flavour& flavour,
   std::array<Tally, kRobots> tallies{};  // by number of neighbours; else all in the first one
   for_each_cycle(test, machine, flavour, profile, [&](const ObservedCycle& cycle) {
     const Readings& readings = *cycle.record.readings;
-    if (!cycle.tested || !satisfies(test, readings.ground_color, flavour.floor)) return;
+    if (!cycle.tested) return;
+    const double probability = due_probability(test, condition, kBeta, readings, flavour);
+    if (probability == 0) return;
     const std::size_t neighbours = counts ? readings.neighbours.size() : 0;
     if (neighbours >= tallies.size()) return;  // a lidar may see more of them than there are
     ++tallies[neighbours].trials;
     tallies[neighbours].firings += cycle.fired ? 1 : 0;
+    tallies[neighbours].expected += probability;
   });
+  if (test.trigger == Trigger::Readings) {
+    const Tally& tally = tallies[0];
+    const auto trials = static_cast<double>(std::max<std::int64_t>(1, tally.trials));
+    return {rate_of(test.floor, tally, tally.expected / trials)};
+  }
   if (!counts) return {rate_of(fmt::format("{}, p = {}", test.floor, kBeta), tallies[0], kBeta)};
   std::vector<Rate> rates;
   for (int n = 0; n < kRobots; ++n) {

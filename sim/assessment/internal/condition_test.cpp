@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "base/overloaded.h"
 #include "sim/mission/colors.h"
 
 namespace swarmsmith::assessment {
@@ -79,6 +82,34 @@ bool is_seen_as(Rgb color, ColorLabel wanted, const FloorModel& floor) {
   return closest == wanted;
 }
 
+std::vector<ConditionTest> on_stripes(Module module, const std::vector<LabelSpec>& labels) {
+  std::vector<ConditionTest> tests;
+  for (const LabelSpec& label : labels) {
+    const std::string name(name_of(label.label));
+    tests.push_back({.module = module,
+                     .trigger = Trigger::Label,
+                     .gray = {},
+                     .label = label.label,
+                     .floor = name + " stripe",
+                     .wanted = color_named(name),
+                     .arena = arena_with_stripes(labels)});
+  }
+  return tests;
+}
+
+/// Walls, others, a light, and floor in three grays: a condition that has no test of its own meets
+/// here what any sensor can read.
+ConditionTest among_everything(Module module) {
+  Arena arena = arena_with_disc(color_named("black"));
+  arena.patches.push_back({Disc{.centre = {0.8, 0}, .radius_m = 0.3}, color_named("white")});
+  arena.lights.push_back({.x_m = 1.226, .y_m = 0});
+  return {.module = module,
+          .trigger = Trigger::Readings,
+          .gray = {},
+          .floor = "any place",
+          .arena = std::move(arena)};
+}
+
 ConditionTest on_disc(Module module, GrayRange gray, std::string_view color, std::string floor) {
   const Rgb wanted = color_named(color);
   return {.module = module,
@@ -89,41 +120,56 @@ ConditionTest on_disc(Module module, GrayRange gray, std::string_view color, std
           .arena = arena_with_disc(wanted)};
 }
 
+/// What a robot read in a cycle, for a condition that is asked again.
+class RecordedSenses final : public Senses {
+ public:
+  explicit RecordedSenses(const Readings& readings) : readings_(readings) {}
+
+  const ProximityReadings& proximity() override { return readings_.proximity_m; }
+  const Rgb& ground_color() override { return readings_.ground_color; }
+  std::span<const Neighbour> neighbours() override { return readings_.neighbours; }
+  const LightReadings& light() override { return readings_.light_lux; }
+  double time_s() override {
+    SWARMSMITH_ASSERT(false, "no condition asks for the time");
+    return 0;
+  }
+
+ private:
+  const Readings& readings_;
+};
+
 }  // namespace
 
 std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavour) {
-  const std::string_view id = id_of(spec.module);
+  using Tests = std::vector<ConditionTest>;
   const FloorModel& floor = flavour.floor;
-  if (id == "black_floor") return {on_disc(spec.module, floor.black, "black", "black spot")};
-  if (id == "white_floor") return {on_disc(spec.module, floor.white, "white", "white disc")};
-  if (id == "gray_floor") {
-    ConditionTest test = on_disc(spec.module, floor.gray, "black", "base floor");
-    test.wanted = test.arena.floor;
-    return {test};
-  }
-  if (id == "color_detection") {
-    std::vector<ConditionTest> tests;
-    for (const LabelSpec& label : floor.labels) {
-      const std::string name(name_of(label.label));
-      tests.push_back({.module = spec.module,
-                       .trigger = Trigger::Label,
-                       .gray = {},
-                       .label = label.label,
-                       .floor = name + " stripe",
-                       .wanted = color_named(name),
-                       .arena = arena_with_stripes(floor.labels)});
-    }
-    return tests;
-  }
-  ConditionTest test{
+  ConditionTest anywhere{
       .module = spec.module, .gray = {}, .floor = "base floor", .arena = dodecagon_of_the_thesis()};
-  test.wanted = test.arena.floor;
-  if (id == "fixed_probability") return {test};
-  const bool inverted = id == "inverted_neighbour_count";
-  SWARMSMITH_ASSERT(inverted || id == "neighbour_count",
-                    "the assessment has a test for the condition");
-  test.trigger = inverted ? Trigger::NeighboursInverted : Trigger::Neighbours;
-  return {test};
+  anywhere.wanted = anywhere.arena.floor;
+  return std::visit(
+      Overloaded{[&](const BlackFloor&) {
+                   return Tests{on_disc(spec.module, floor.black, "black", "black spot")};
+                 },
+                 [&](const WhiteFloor&) {
+                   return Tests{on_disc(spec.module, floor.white, "white", "white disc")};
+                 },
+                 [&](const GrayFloor&) {
+                   ConditionTest test = on_disc(spec.module, floor.gray, "black", "base floor");
+                   test.wanted = test.arena.floor;
+                   return Tests{test};
+                 },
+                 [&](const ColorDetection&) { return on_stripes(spec.module, floor.labels); },
+                 [&](const FixedProbability&) { return Tests{anywhere}; },
+                 [&](const NeighbourCount&) {
+                   anywhere.trigger = Trigger::Neighbours;
+                   return Tests{anywhere};
+                 },
+                 [&](const InvertedNeighbourCount&) {
+                   anywhere.trigger = Trigger::NeighboursInverted;
+                   return Tests{anywhere};
+                 },
+                 [&](const auto&) { return Tests{among_everything(spec.module)}; }},
+      swarmsmith::make_condition(spec.module, std::vector<double>(spec.parameters.size())));
 }
 
 bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor) {
@@ -137,6 +183,7 @@ bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor) 
     case Trigger::Always:
     case Trigger::Neighbours:
     case Trigger::NeighboursInverted:
+    case Trigger::Readings:
       break;
   }
   return true;
@@ -152,13 +199,22 @@ Condition make_condition(const ConditionTest& test, const ModuleSpec& spec,
       values.push_back(parameters.eta);
     } else if (parameter.name == "xi") {
       values.push_back(parameters.xi);
-    } else {
-      SWARMSMITH_ASSERT(parameter.name == "label",
-                        "the assessment knows the condition's parameters");
+    } else if (parameter.name == "label") {
       values.push_back(static_cast<double>(test.label));
+    } else {
+      values.push_back(std::floor((parameter.low + parameter.high) / 2));
     }
   }
   return swarmsmith::make_condition(spec.module, values);
+}
+
+double due_probability(const ConditionTest& test, const Condition& condition, double probability,
+                       const Readings& readings, const Flavour& flavour) {
+  if (test.trigger == Trigger::Readings) {
+    RecordedSenses senses(readings);
+    return enabling_probability(condition, senses, flavour);
+  }
+  return satisfies(test, readings.ground_color, flavour.floor) ? probability : 0;
 }
 
 Point ground_sensor_place(const Pose& pose) {
@@ -170,6 +226,8 @@ Point ground_sensor_place(const Pose& pose) {
 void for_each_cycle(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
                     const Profile& profile, const std::function<void(const ObservedCycle&)>& tell) {
   const Mission mission = mission_in(test.arena);
+  Sensors sensors = Sensor::GroundColor | Sensor::Neighbours;
+  if (test.trigger == Trigger::Readings) sensors = sensors | Sensor::Proximity | Sensor::LightRing;
   for (int seed = 1; seed <= kConditionRuns; ++seed) {
     std::array<int, kRobots> states{};
     std::array<bool, kRobots> entered{};
@@ -190,7 +248,7 @@ void for_each_cycle(const ConditionTest& test, const Machine& machine, const Fla
       }
     };
     watch({machine, flavour, profile, mission}, starts_anywhere(mission, seed), seed,
-          Recorder(observe, Sensor::GroundColor | Sensor::Neighbours));
+          Recorder(observe, sensors));
   }
 }
 

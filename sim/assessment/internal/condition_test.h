@@ -13,8 +13,8 @@
 namespace swarmsmith::assessment {
 
 /// What a condition answers to: the floor (and which colour, for a detector of colours), the number
-/// of neighbours, or nothing.
-enum class Trigger { Always, Gray, Label, Neighbours, NeighboursInverted };
+/// of neighbours, nothing, or other readings.
+enum class Trigger { Always, Gray, Label, Neighbours, NeighboursInverted, Readings };
 
 /// A condition in an arena where it meets what it waits for.
 struct ConditionTest {
@@ -27,15 +27,16 @@ struct ConditionTest {
   Arena arena;
 };
 
-/// The tests of a module, one a colour for colour detection. A condition for which there is none is
-/// a failed assertion.
+/// The tests of a module, one a colour for colour detection. Throws std::invalid_argument when it
+/// is not a condition.
 std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavour);
 
 /// Whether the flavour's numbers say that the reading satisfies the condition (thesis facts,
 /// section 7): worked out here once more, so that a slip in the control software shows.
 bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor);
 
-/// Parameters of the conditions: beta for those that look at the floor, the sigmoid's for counts.
+/// Parameters of the conditions by name: beta, and the sigmoid's for counts. Of any other name it
+/// is the middle of its range.
 struct ConditionParameters {
   double beta = 1;
   double eta = 0;
@@ -43,6 +44,12 @@ struct ConditionParameters {
 };
 Condition make_condition(const ConditionTest& test, const ModuleSpec& spec,
                          const ConditionParameters& parameters);
+
+/// The probability with which `condition` must fire in this cycle. Of Trigger::Readings it is what
+/// the control software makes of the recorded readings: then the test is that the machine acts on
+/// it. Of the others it is `probability` where the reading satisfies the test.
+double due_probability(const ConditionTest& test, const Condition& condition, double probability,
+                       const Readings& readings, const Flavour& flavour);
 
 /// Where the ground sensor looks (thesis facts, section 3).
 Point ground_sensor_place(const Pose& pose);

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <stdexcept>
+
 #include "sim/assessment/assessment.h"
 #include "sim/files/profile_file.h"
 
@@ -100,15 +102,23 @@ TEST(BrokenFlavour, AnExplorationThatCrawlsFailsByTiles) {
   EXPECT_EQ(report.modules.at(0).checks.at(0).quantity, "tiles_entered");
 }
 
-TEST(BrokenFlavourDeathTest, AModuleWithoutATestIsRefused) {
+TEST(BrokenFlavour, AModuleInTheWrongTableIsRefused) {
   Flavour flavour = watermelon();
-  flavour.conditions[0].parameters[0].name = "gamma";
   flavour.behaviours.clear();
-  EXPECT_DEATH(assess(flavour, *built_in_profile("argos3")),
-               "the assessment knows the condition's parameters");
   flavour.conditions = {{.module = Module::Stop, .number = 0, .parameters = {}}};
-  EXPECT_DEATH(assess(flavour, *built_in_profile("argos3")),
-               "the assessment has a test for the condition");
+  EXPECT_THROW(assess(flavour, *built_in_profile("argos3")), std::invalid_argument);
+  flavour.behaviours = {{.module = Module::FixedProbability, .number = 0, .parameters = {}}};
+  EXPECT_THROW(assess(flavour, *built_in_profile("argos3")), std::invalid_argument);
+}
+
+TEST(BrokenFlavour, AProbabilityThatIsNotSetFails) {
+  Flavour flavour = watermelon();
+  flavour.behaviours.clear();
+  flavour.conditions.resize(1);
+  flavour.conditions[0].parameters[0].name = "gamma";  // 0: the middle of 0 to 1, as an integer
+  const Failures failures = failures_of(flavour);
+  EXPECT_THAT(failures.modules, ElementsAre("black_floor"));
+  EXPECT_THAT(failures.notes, HasSubstr("did not fire in "));
 }
 
 }  // namespace

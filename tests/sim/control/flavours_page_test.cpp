@@ -92,11 +92,7 @@ TEST(FlavoursPage, HasTheConstantsOfTheData) {
 
 TEST(FlavoursPage, HasTheModulesWithTheirNumbers) {
   const std::string page = page_text("flavours.md");
-  for (const Module module :
-       {Module::Exploration, Module::Stop, Module::Phototaxis, Module::AntiPhototaxis,
-        Module::Attraction, Module::Repulsion, Module::BlackFloor, Module::GrayFloor,
-        Module::WhiteFloor, Module::NeighbourCount, Module::InvertedNeighbourCount,
-        Module::FixedProbability, Module::ColorDetection}) {
+  for (const Module module : not_empty(all_modules())) {
     std::string line = "\n| `" + std::string(id_of(module)) + "` |";
     for (const Flavour* flavour : all_flavours()) {
       const ModuleSpec* spec = flavour->find(module);

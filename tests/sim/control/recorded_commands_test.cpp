@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <variant>
 
 #include "sim/control/machine_control.h"
 #include "sim/control/machine_text.h"

@@ -1,0 +1,11 @@
+#include "sim/control/behaviours/attraction.h"
+
+namespace swarmsmith {
+
+Command Attraction::act(Senses& senses, const Flavour& flavour, BehaviourMemory& /*memory*/,
+                        Rng& /*rng*/) const {
+  const NeighbourModel& model = flavour.neighbours;
+  return follow_neighbours(model.attraction_gain, used_alpha(alpha, model), senses, flavour);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,118 @@
+#include "sim/control/behaviours/exploration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "sim/control/readings.h"
+
+namespace swarmsmith {
+namespace {
+
+/// What Exploration knows of the front: the strongest reading, and the sums of both sides.
+struct Front {
+  double strongest = 0;
+  Vector2 direction;
+  double left = 0;
+  double right = 0;
+
+  /// Ties go to the direction nearest to straight ahead, then to the left one.
+  void add(double strength, Vector2 towards, double slope) {
+    if (!(std::fabs(towards.y) <= slope * towards.x)) return;
+    if (towards.y > 0) left += strength;
+    if (towards.y < 0) right += strength;
+    const bool nearer_ahead =
+        towards.x > direction.x || (towards.x == direction.x && towards.y > direction.y);
+    if (strength > strongest || (strength == strongest && nearer_ahead)) {
+      strongest = strength;
+      direction = towards;
+    }
+  }
+
+  bool turns_left() const {
+    if (direction.y != 0) return direction.y < 0;
+    return right > left;
+  }
+};
+
+enum class Turn { None, Left, Right };
+
+/// Away from the strongest reading of the front (thesis facts, section 6.2).
+Turn turn_from_front(Senses& senses, const Flavour& flavour) {
+  const ExplorationModel& model = flavour.exploration;
+  Front front;
+  // The others are in front by no slope.
+  const FrontProximity proximity = senses.front_proximity();
+  const std::span<const Neighbour> neighbours = neighbours_in_the_way(senses, flavour.obstacles);
+  if (model.threshold > 0 && neighbours.empty() &&
+      nothing_within(proximity, flavour.obstacles.far_m)) {
+    return Turn::None;
+  }
+  for (std::size_t i = 0; i < proximity.size(); ++i) {
+    front.add(obstacle_strength(proximity[i], flavour.obstacles), kProximityDirections[i],
+              model.front_slope);
+  }
+  for (const Neighbour& neighbour : neighbours) {
+    front.add(neighbour_strength(neighbour.distance_m, flavour.obstacles),
+              {neighbour.direction_x, neighbour.direction_y}, model.front_slope);
+  }
+  if (front.strongest < model.threshold) return Turn::None;
+  return front.turns_left() ? Turn::Left : Turn::Right;
+}
+
+/// Away from the side to which the sum of the readings points (rvr-automode facts, section 5). The
+/// signs of the components stand for the angle: within +-90 degrees, and to the right.
+Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
+  const double threshold = flavour.exploration.threshold;
+  // Not shortened: that would change no sign, and leave it longer than any flavour's threshold.
+  const Vector2 sum = obstacle_sum(
+      senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
+  const bool strong = sum.x * sum.x + sum.y * sum.y >= threshold * threshold;
+  if (!strong || sum.x < 0) return Turn::None;
+  return sum.y < 0 ? Turn::Left : Turn::Right;
+}
+
+int draw_turn_cycles(int tau, ExplorationModel::TurnLength law, Rng& rng) {
+  if (law == ExplorationModel::TurnLength::ZeroToTau) {
+    return static_cast<int>(rng.uniform_int(0, tau));
+  }
+  return std::max(1, static_cast<int>(rng.uniform_int(0, tau - 1)));
+}
+
+/// Whether this cycle still belongs to a turn that was drawn before.
+bool goes_on_turning(BehaviourMemory& memory, Senses& senses, TurnClock clock) {
+  if (memory.turn_cycles_left == 0) return false;
+  if (clock == TurnClock::Cycles) {
+    --memory.turn_cycles_left;
+    return true;
+  }
+  if (senses.time_s() < memory.turn_end_s) return true;
+  memory.turn_cycles_left = 0;
+  return false;
+}
+
+}  // namespace
+
+Command Exploration::act(Senses& senses, const Flavour& flavour, BehaviourMemory& memory,
+                         Rng& rng) const {
+  const double speed = flavour.speed_mps;
+  if (goes_on_turning(memory, senses, flavour.exploration.turn_clock)) {
+    return memory.turn_left ? Command{-speed, speed} : Command{speed, -speed};
+  }
+  const Turn turn = flavour.exploration.trigger == ExplorationModel::Trigger::FrontReadings
+                        ? turn_from_front(senses, flavour)
+                        : turn_from_sum(senses, flavour);
+  if (turn != Turn::None) {
+    memory.turn_left = turn == Turn::Left;
+    memory.turn_cycles_left = draw_turn_cycles(tau, flavour.exploration.turn_length, rng);
+    if (flavour.exploration.turn_clock == TurnClock::Seconds) {
+      // Commands change only at cycles. The half makes T = r * 0.1 s end between two nominal ones,
+      // whatever the clock rounds; with another period the turn is right to a cycle.
+      memory.turn_end_s = senses.time_s() + (memory.turn_cycles_left + 0.5) * kControlPeriod_s;
+    }
+  }
+  return {speed, speed};
+}
+
+}  // namespace swarmsmith

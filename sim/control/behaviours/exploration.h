@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "sim/control/behaviours/steering.h"
+#include "sim/control/module_parts.h"
+
+namespace swarmsmith {
+
+/// Straight on until there is an obstacle in front, then a turn on the spot for a random number of
+/// control cycles.
+struct Exploration {
+  static constexpr std::string_view kId = "exploration";
+  static constexpr std::array kNumbers = {
+      NumberIn{"watermelon", 0}, NumberIn{"watermelon-argos3", 0}, NumberIn{"chocolate", 0}};
+  static constexpr std::string_view kLabel = "Exploration";
+
+  int tau = 1;  ///< bound of the drawn number of turning cycles; 1..100 in the search
+
+  template <class Self, class Visitor>
+  static void parameters(Self& self, Visitor& visitor) {
+    visitor(ParameterSpec{.name = "tau",
+                          .symbol = "RWM",
+                          .token = "rwm",
+                          .type = ParameterSpec::Type::Integer,
+                          .low = 1,
+                          .high = 100,
+                          .digits = 0,
+                          .least = 1,
+                          .most = kLargestCount},
+            self.tau);
+  }
+  static UsedSenses uses(const Flavour& flavour) { return senses_of_avoidance(flavour); }
+  Command act(Senses& senses, const Flavour& flavour, BehaviourMemory& memory, Rng& rng) const;
+  friend bool operator==(const Exploration&, const Exploration&) = default;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "sim/control/module_parts.h"
+
+namespace swarmsmith {
+
+/// Stands still.
+struct Stop {
+  static constexpr std::string_view kId = "stop";
+  static constexpr std::array kNumbers = {
+      NumberIn{"watermelon", 1}, NumberIn{"watermelon-argos3", 1}, NumberIn{"chocolate", 1}};
+  static constexpr std::string_view kLabel = "Stop";
+
+  template <class Self, class Visitor>
+  static void parameters(Self& /*self*/, Visitor& /*visitor*/) {}
+  static UsedSenses uses(const Flavour& /*flavour*/) { return {}; }
+  Command act(Senses& /*senses*/, const Flavour& /*flavour*/, BehaviourMemory& /*memory*/,
+              Rng& /*rng*/) const {
+    return {0, 0};
+  }
+  friend bool operator==(const Stop&, const Stop&) = default;
+};
+
+}  // namespace swarmsmith

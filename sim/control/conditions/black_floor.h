@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "sim/control/module_parts.h"
+#include "sim/control/readings.h"
+
+namespace swarmsmith {
+
+/// The floor's grey level is low.
+struct BlackFloor {
+  static constexpr std::string_view kId = "black_floor";
+  static constexpr std::array kNumbers = {
+      NumberIn{"watermelon", 0}, NumberIn{"watermelon-argos3", 0}, NumberIn{"chocolate", 0}};
+  static constexpr std::string_view kLabel = "Black floor";
+  using Reads = FloorReading;
+
+  double probability = 0;  ///< beta, in [0, 1]
+
+  template <class Self, class Visitor>
+  static void parameters(Self& self, Visitor& visitor) {
+    visitor(beta_parameter(), self.probability);
+  }
+  double enabling(const FloorReading& floor, const Flavour& flavour) const {
+    return flavour.floor.black.contains(gray_level(floor.color)) ? probability : 0.0;
+  }
+  friend bool operator==(const BlackFloor&, const BlackFloor&) = default;
+};
+
+}  // namespace swarmsmith

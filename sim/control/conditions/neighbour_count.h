@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "base/math.h"
+#include "sim/control/module_parts.h"
+
+namespace swarmsmith {
+
+/// z(n) of the neighbour counts (thesis eq. 5.7).
+inline double neighbour_sigmoid(double eta, int xi, int neighbours) {
+  return 1.0 / (1.0 + exp(eta * (xi - neighbours)));
+}
+
+/// Always, with probability z(n) = 1 / (1 + e^(eta (xi - n))) for n neighbours (thesis eq. 5.7).
+struct NeighbourCount {
+  static constexpr std::string_view kId = "neighbour_count";
+  static constexpr std::array kNumbers = {
+      NumberIn{"watermelon", 3}, NumberIn{"watermelon-argos3", 3}, NumberIn{"chocolate", 3}};
+  static constexpr std::string_view kLabel = "Neighbour count";
+  using Reads = NeighbourTally;
+
+  double eta = 0;  ///< steepness, 0..20 in the search
+  int xi = 0;      ///< the count with probability one half
+
+  template <class Self, class Visitor>
+  static void parameters(Self& self, Visitor& visitor) {
+    visitor(xi_parameter("B"), self.xi);
+    visitor(eta_parameter("W"), self.eta);
+  }
+  double enabling(const NeighbourTally& neighbours, const Flavour& /*flavour*/) const {
+    return neighbour_sigmoid(eta, xi, neighbours.count);
+  }
+  friend bool operator==(const NeighbourCount&, const NeighbourCount&) = default;
+};
+
+}  // namespace swarmsmith

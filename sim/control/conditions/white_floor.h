@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "sim/control/module_parts.h"
+#include "sim/control/readings.h"
+
+namespace swarmsmith {
+
+/// The floor's grey level is high.
+struct WhiteFloor {
+  static constexpr std::string_view kId = "white_floor";
+  static constexpr std::array kNumbers = {
+      NumberIn{"watermelon", 2}, NumberIn{"watermelon-argos3", 2}, NumberIn{"chocolate", 2}};
+  static constexpr std::string_view kLabel = "White floor";
+  using Reads = FloorReading;
+
+  double probability = 0;  ///< beta, in [0, 1]
+
+  template <class Self, class Visitor>
+  static void parameters(Self& self, Visitor& visitor) {
+    visitor(beta_parameter(), self.probability);
+  }
+  double enabling(const FloorReading& floor, const Flavour& flavour) const {
+    return flavour.floor.white.contains(gray_level(floor.color)) ? probability : 0.0;
+  }
+  friend bool operator==(const WhiteFloor&, const WhiteFloor&) = default;
+};
+
+}  // namespace swarmsmith

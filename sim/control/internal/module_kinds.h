@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "sim/control/module.h"
+#include "sim/control/modules.h"
+
+namespace swarmsmith {
+
+/// What follows from the struct of each module alone. `Modules` is Behaviour or Condition.
+
+/// The enumerator of the first of them.
+template <class Modules>
+inline constexpr std::size_t kFirstModule =
+    std::is_same_v<Modules, Behaviour> ? 0 : std::variant_size_v<Behaviour>;
+
+template <class Modules>
+Module module_at(std::size_t index) {
+  return static_cast<Module>(kFirstModule<Modules> + index);
+}
+
+/// Calls `visit(index, module)` for each of them, with all that its struct has by default.
+template <class Modules, class Visit>
+void for_each_module(const Visit& visit) {
+  [&]<std::size_t... I>(std::index_sequence<I...> /*indices*/) {
+    (visit(I, std::variant_alternative_t<I, Modules>()), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Modules>>());
+}
+
+template <class Modules>
+std::vector<double> values_of(const Modules& module) {
+  std::vector<double> values;
+  const auto add = [&values](const ParameterSpec& /*parameter*/, const auto& value) {
+    values.push_back(static_cast<double>(value));
+  };
+  std::visit([&]<class Kind>(const Kind& kind) { Kind::parameters(kind, add); }, module);
+  return values;
+}
+
+/// The one with this enumerator and these parameters; nothing when it is none of `Modules`. Throws
+/// std::invalid_argument for another number of parameters.
+template <class Modules>
+std::optional<Modules> made_of(Module wanted, std::span<const double> values) {
+  std::optional<Modules> made;
+  for_each_module<Modules>([&]<class Kind>(std::size_t index, Kind kind) {
+    if (module_at<Modules>(index) != wanted) return;
+    std::size_t count = 0;
+    const auto set = [&]<class Value>(const ParameterSpec& /*parameter*/, Value& value) {
+      if (count < values.size()) value = static_cast<Value>(values[count]);
+      ++count;
+    };
+    Kind::parameters(kind, set);
+    if (count != values.size()) {
+      throw std::invalid_argument(std::string(Kind::kId) + " takes " + std::to_string(count) +
+                                  " parameters, not " + std::to_string(values.size()));
+    }
+    made = kind;
+  });
+  return made;
+}
+
+/// Those of a flavour with their numbers and parameters, in the order of the numbers.
+template <class Modules>
+std::vector<ModuleSpec> specs_of(std::string_view flavour) {
+  std::vector<ModuleSpec> specs;
+  for_each_module<Modules>([&]<class Kind>(std::size_t index, const Kind& kind) {
+    for (const NumberIn& place : Kind::kNumbers) {
+      if (place.flavour != flavour) continue;
+      ModuleSpec& spec = specs.emplace_back(ModuleSpec{
+          .module = module_at<Modules>(index), .number = place.number, .parameters = {}});
+      const auto add = [&spec](const ParameterSpec& parameter, const auto& /*value*/) {
+        spec.parameters.push_back(parameter);
+      };
+      Kind::parameters(kind, add);
+    }
+  });
+  std::ranges::sort(specs, {}, &ModuleSpec::number);
+  return specs;
+}
+
+}  // namespace swarmsmith
