@@ -7,6 +7,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/drawing/legend.h"
+#include "analysis/figures/figure.h"
 #include "analysis/figures/internal/panel_grid.h"
 
 namespace swarmsmith {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kLeastPanel = 48;  ///< mm
 constexpr double kLargest = 60;
+constexpr double kSmallest = 30;
 constexpr double kRadius = 0.8;
 
 ValueRange range_of(const ScatterPlot::Panel& panel) {
@@ -25,12 +27,20 @@ ValueRange range_of(const ScatterPlot::Panel& panel) {
   return rounded(range_over(all), kUsualTicks);
 }
 
-PlotArea area_of(const ScatterPlot::Panel& panel, double left, double top, double width) {
-  PlotArea area{.left = left + tick_room(range_of(panel), kUsualTicks), .top = top};
-  // Room for half of the last tick's text.
-  const double side = std::min(left + width - area.left - 4, kLargest);
-  area.width = area.height = side;
-  return area;
+/// For the texts of the vertical ticks: the same in all panels, so that these line up.
+double room_of(const ScatterPlot& plot) {
+  double room = 0;
+  for (const ScatterPlot::Panel& panel : plot.panels)
+    room = std::max(room, tick_room(range_of(panel), kUsualTicks));
+  return room;
+}
+
+/// The side of a panel's square: as the width allows, and so that all rows fit on a page where that
+/// leaves them readable. `other`: what else the figure has, in height.
+double side_of(double width, std::size_t rows, double other) {
+  constexpr double kHalfOfTheLastTick = 4;
+  const double fits = (kFigurePage_mm - other) / static_cast<double>(rows);
+  return std::min({width - kHalfOfTheLastTick, kLargest, std::max(fits, kSmallest)});
 }
 
 void draw_panel(Svg& svg, const ScatterPlot& plot, const ScatterPlot::Panel& panel,
@@ -54,24 +64,31 @@ std::string draw(const ScatterPlot& plot) {
   const PanelGrid grid(plot.panels.size(), kLeastPanel, plot.width_mm);
   const double heading = kMargin + (plot.title.empty() ? 0 : kTitleSize) +
                          kLineHeight * static_cast<double>(plot.details.size()) + 2;
-  std::vector<PlotArea> areas;
-  double bottom = heading + kLineHeight;
-  for (std::size_t row = 0; row < grid.rows(); ++row) {
-    double lowest = bottom;
-    for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-      if (grid.row_of(i) != row) continue;
-      areas.push_back(
-          area_of(plot.panels[i], grid.left_of(i), bottom + kPanelTitleRoom, grid.width()));
-      lowest = std::max(lowest, areas.back().bottom());
-    }
-    bottom = lowest + kHorizontalAxisRoom + 2;
-  }
   std::vector<LegendEntry> entries;
   if (plot.groups.size() > 1) {
     for (const auto& [color, name] : plot.groups)
       entries.push_back({distinct_color(color), name});
   }
   const FlowingLegend legend(entries, plot.width_mm - 2 * kMargin);
+  constexpr double kBelow = kHorizontalAxisRoom + 2;
+  const double room = room_of(plot);
+  const double side = side_of(grid.width() - room, grid.rows(),
+                              heading + kLineHeight + legend.height() + kMargin +
+                                  (kPanelTitleRoom + kBelow) * static_cast<double>(grid.rows()));
+  std::vector<PlotArea> areas;
+  double bottom = heading + kLineHeight;
+  for (std::size_t row = 0; row < grid.rows(); ++row) {
+    double lowest = bottom;
+    for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+      if (grid.row_of(i) != row) continue;
+      areas.push_back({.left = grid.left_of(i) + room,
+                       .top = bottom + kPanelTitleRoom,
+                       .width = side,
+                       .height = side});
+      lowest = std::max(lowest, areas.back().bottom());
+    }
+    bottom = lowest + kBelow;
+  }
   Svg svg(plot.width_mm, bottom + legend.height() + kMargin, plot.title,
           fmt::format("{} over {}", plot.vertical, plot.horizontal));
   const double top = draw_heading(svg, plot.title, plot.details);

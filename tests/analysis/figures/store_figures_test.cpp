@@ -6,6 +6,7 @@
 
 #include "analysis/drawing/axes.h"
 #include "analysis/figures/figure.h"
+#include "analysis/figures/scatter_plot.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/drawn_page.h"
 #include "tests/support/not_empty.h"
@@ -193,6 +194,23 @@ TEST_F(StoreFigures, TrainingHasAPointAWinner) {
   EXPECT_THAT(drawn_page(figure.svg).collisions(), IsEmpty());
   const auto all = designs(*reader, {});
   EXPECT_THAT(figure.csv, HasSubstr(fmt::format("{},rvr,4,", *all->front().best_mean)));
+}
+
+TEST(ScatterPlots, OfThreeMissionsFitOnAPageAndLineUp) {
+  ScatterPlot plot{.title = "Training and test", .details = {"a", "b"}, .width_mm = 85};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double value = i == 2 ? -400'000 : 1;
+    plot.panels.push_back({std::string(1, static_cast<char>('a' + i)), {{value, 2 * value, i}}});
+    plot.groups.emplace_back(i, "method");
+  }
+  for (std::size_t i = 3; i < 7; ++i)
+    plot.groups.emplace_back(i, "another method");
+  for (const double width : {85.0, 174.0}) {
+    plot.width_mm = width;
+    const DrawnPage page = drawn_page(draw(plot));
+    EXPECT_LE(page.height, kFigurePage_mm) << width;
+    EXPECT_THAT(page.collisions(), IsEmpty()) << width;
+  }
 }
 
 TEST_F(StoreFigures, AxesHaveTheNamesOfModules) {
