@@ -106,14 +106,15 @@ bool has_steps(const Panel& panel, std::size_t group) {
   });
 }
 
-/// Of the ends of the lines.
-StairPoint median_end(const std::vector<std::vector<StairPoint>>& lines) {
+/// Of the points that `pick` takes of the lines, coordinate by coordinate.
+template <class Pick>
+StairPoint median_of_points(const std::vector<std::vector<StairPoint>>& lines, const Pick& pick) {
   std::vector<double> xs;
   std::vector<double> ys;
   for (const auto& line : lines) {
     if (line.empty()) continue;
-    xs.push_back(line.back().x);
-    ys.push_back(line.back().y);
+    xs.push_back(pick(line).x);
+    ys.push_back(pick(line).y);
   }
   std::ranges::sort(xs);
   std::ranges::sort(ys);
@@ -121,6 +122,20 @@ StairPoint median_end(const std::vector<std::vector<StairPoint>>& lines) {
     return (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2;
   };
   return {middle(xs), middle(ys)};
+}
+
+/// What stands for a group of lines: stairs of their median; without steps the way from the median
+/// begin to the median end, or the median end alone.
+std::vector<StairPoint> middle_of(const std::vector<std::vector<StairPoint>>& lines,
+                                  bool has_steps) {
+  if (has_steps) return stairs(median_of(lines));
+  const auto is_way = [](const std::vector<StairPoint>& line) { return line.size() > 1; };
+  const StairPoint end =
+      median_of_points(lines, [](const auto& line) -> const StairPoint& { return line.back(); });
+  if (!std::ranges::any_of(lines, is_way)) return {end};
+  return {
+      median_of_points(lines, [](const auto& line) -> const StairPoint& { return line.front(); }),
+      end};
 }
 
 void draw_curves(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
@@ -142,13 +157,9 @@ void draw_curves(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
     for (const Line& line : panel.lines) {
       if (line.group == group) all.push_back(points_of(line, &ConvergencePlot::Point::mean));
     }
-    const auto median = median_of(all);
-    if (median.size() > 1)
-      svg.line(on_page(has_steps(panel, group) ? stairs(median) : median, x, y),
-               stroked(distinct_color(group), 0.7));
-    if (has_steps(panel, group)) continue;
-    const StairPoint end = median_end(all);
-    svg.circle({x.at(end.x), y.at(end.y)}, 1, filled(distinct_color(group)));
+    const auto middle = on_page(middle_of(all, has_steps(panel, group)), x, y);
+    if (middle.size() > 1) svg.line(middle, stroked(distinct_color(group), 0.7));
+    if (!has_steps(panel, group)) svg.circle(middle.back(), 1, filled(distinct_color(group)));
   }
 }
 

@@ -204,7 +204,7 @@ std::string draw(const RankPlot& plot) {
 }
 
 Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) {
-  const auto comparison = ranked(store, options);
+  auto comparison = ranked(store, options);
   if (!comparison) return Unexpected(comparison.error());
   if (comparison->ranks.empty()) {
     const std::string why = comparison->unranked.empty()
@@ -212,6 +212,10 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
                                 : fmt::format("{}", fmt::join(comparison->unranked, "; "));
     return unexpected(ErrorKind::NotFound, "there is nothing to rank: " + why);
   }
+  // The source of the campaign's tests first, as in other figures.
+  std::ranges::stable_partition(comparison->ranks, [&](const ComparedRanks& ranks) {
+    return ranks.source == comparison->tested;
+  });
   RankPlot plot{.title = fmt::format("Ranks by {}", name_of(comparison->options.by)),
                 .width_mm = options.width_mm};
   const bool alone = comparison->ranks.size() == 1;
