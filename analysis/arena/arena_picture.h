@@ -6,6 +6,7 @@
 #include "sim/mission/arena.h"
 #include "sim/mission/pose.h"
 #include "sim/mission/solid.h"
+#include "sim/robot/rvr.h"
 
 namespace swarmsmith {
 

@@ -4,6 +4,7 @@
 #include "cli/commands/assessment_text.h"
 #include "cli/commands/commands.h"
 #include "console/counter.h"
+#include "sim/engine/fitting.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -23,6 +24,11 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
   }
   const auto profile = find_profile_or_complain(arguments.profile, "--profile", output);
   if (!profile) return fail(output, ExitCode::Usage, profile.error());
+  // What modules promise is checked with RVRs.
+  if (const auto why = misfit(**flavour, rvr()))
+    return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--flavour"});
+  if (const auto why = misfit(*profile, rvr()))
+    return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--profile"});
   Counter counter(output, "assessed", "modules");
   const Report report = assessment::assess(
       **flavour, *profile, [&counter](int done, int of) { counter.tell(done, of); });

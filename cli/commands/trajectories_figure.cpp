@@ -52,7 +52,7 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
   ArenaPicture picture{.title = "seed " + std::to_string(run.seed),
                        .details = {},
                        .arena = arena_of(run.mission, run.instance),
-                       .body = run.mission.body,
+                       .body = run.mission.robot.body.outline,
                        .robots = {},
                        .objects = {}};
   std::string rows;

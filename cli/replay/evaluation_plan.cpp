@@ -15,6 +15,7 @@
 #include "console/seeds.h"
 #include "sim/control/controller.h"
 #include "sim/control/foreign_text.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/instance_csv.h"
 
@@ -200,6 +201,8 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   auto mission = mission_of(arguments, named, output);
   if (!mission) return Unexpected(mission.error());
   job.mission = std::move(*mission);
+  if (const auto why = misfit(job.flavour, job.mission.robot)) return bad_input(*why, "--flavour");
+  if (const auto why = misfit(job.profile, job.mission.robot)) return bad_input(*why, "--profile");
   return job;
 }
 

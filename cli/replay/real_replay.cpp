@@ -147,7 +147,7 @@ std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm) 
         .title = is_real ? run.source : fmt::format("{}, seed {}", run.source, run.seed),
         .details = {"score " + score_text(run.score)},
         .arena = arena_of(replay.filmed.mission, run.instance),
-        .body = replay.filmed.mission.body,
+        .body = replay.filmed.mission.robot.body.outline,
         .robots = {},
         .objects = run.objects};
     if (is_real) picture.details.front() += ", " + replay.verdict;

@@ -221,7 +221,7 @@ std::string Recording::picture(const std::vector<std::string>& details,
   ArenaPicture picture{.title = mission_->name,
                        .details = details,
                        .arena = arena_of(*mission_, instance),
-                       .body = mission_->body,
+                       .body = mission_->robot.body.outline,
                        .robots = {},
                        .objects = objects_,
                        .width_mm = width_mm_};

@@ -176,8 +176,9 @@ bool same_bits(const StoredOutcome& stored, const SimulationResult& result) {
 
 std::string other_engine(int stored_version, int version) {
   // A campaign of several missions has the highest of their versions.
-  const bool is_same = stored_version == version ||
-                       (stored_version == kObstaclesVersion && version == kEngineVersion);
+  const bool is_same =
+      stored_version == version ||
+      (version >= kEngineVersion && version < stored_version && stored_version <= kSightVersion);
   if (is_same || stored_version == 0) return "";
   return "the store's scores are of version " + std::to_string(stored_version) +
          " of the engine, this program has version " + std::to_string(version) +

@@ -57,7 +57,7 @@ void warn_about_light(const Method& method, const Campaign& campaign,
 
 /// A mission gives robots another shape, and nothing else.
 void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings) {
-  const auto kept = kept_constants(mission.body);
+  const auto kept = kept_constants(mission.robot);
   if (!kept) return;
   warnings.push_back("mission " + mission.name +
                      ": its robot has a shape of its own, and all else of the RVR: " +

@@ -11,6 +11,8 @@
 #include "coordinator/campaign/internal/read_workers.h"
 #include "coordinator/campaign/method_space.h"
 #include "irace_core/search/start_search.h"
+#include "sim/control/flavour.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {
@@ -198,6 +200,24 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
   return std::nullopt;
 }
 
+/// Whether methods, profiles and the missions' robots go together.
+void check_robots(TableReader& root, const Campaign& campaign) {
+  if (campaign.target) return;
+  for (const CampaignMission& mission : campaign.missions) {
+    const Robot& robot = mission.mission.robot;
+    const std::string of = "mission \"" + mission.mission.name + "\": ";
+    for (const Method& method : campaign.methods) {
+      const auto flavour = find_flavour(method.flavour);
+      if (!flavour) continue;
+      if (const auto why = misfit(**flavour, robot)) root.complain("method", of + *why);
+    }
+    if (const auto why = misfit(campaign.profile, robot)) root.complain("simulator", of + *why);
+    for (const Profile& profile : campaign.test_profiles) {
+      if (const auto why = misfit(profile, robot)) root.complain("tests", of + *why);
+    }
+  }
+}
+
 /// What only the whole campaign shows; asked when all else is right, since it needs all of it.
 void complain_about_races(TableReader& root, Campaign& campaign) {
   auto race = root.table("race");
@@ -242,6 +262,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_workers(root, folder, campaign);
   read_dashboard(root, campaign);
   root.finish();
+  if (complaints.empty()) check_robots(root, campaign);
   if (budget) {
     campaign.race.max_experiments = *budget;
     campaign.race.max_time = 0;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/text/whole_file.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/machine_file.h"
 
 namespace swarmsmith {
@@ -40,6 +41,14 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   if (!turn_clock) turn_clock = filed->head.turn_clock;
   auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles));
   if (!known) return Unexpected(known.error());
+  // Drivers speak of the RVR's sensors and treads alone (docs/robot-messages.md).
+  if (const auto why = misfit(*known, rvr())) return bad_input(*why, filed->place);
+  const auto& mission = filed->head.mission;
+  if (mission && mission->mission.robot != rvr_with(mission->mission.robot.body.outline)) {
+    return bad_input("the machine was designed for the robot `" + mission->mission.robot.name +
+                         "`, and this program drives RVRs",
+                     filed->place);
+  }
   auto controller = parse_controller(filed->text, *known);
   if (!controller) {
     Error error = controller.error();

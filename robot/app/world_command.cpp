@@ -134,6 +134,11 @@ Expected<Plan> plan_of(const WorldWords& words, Output& output) {
   auto mission = find_mission(words.mission, {});
   if (!mission) return complain(mission.error(), "--mission", output);
   plan.mission = std::move(mission->mission);
+  if (plan.mission.robot != rvr_with(plan.mission.robot.body.outline)) {
+    return bad_input("the mission has the robot `" + plan.mission.robot.name +
+                         "`, and nodes drive RVRs; `swarmsmith evaluate` simulates it",
+                     "--mission");
+  }
   auto profile = find_profile(words.profile, {});
   if (!profile) return complain(profile.error(), "--profile", output);
   plan.profile = std::move(*profile);

@@ -8,6 +8,7 @@
 
 #include "base/expected.h"
 #include "sim/control/module.h"
+#include "sim/control/readings.h"
 #include "sim/control/reference_model.h"
 
 namespace swarmsmith {
@@ -69,6 +70,7 @@ struct ObstacleModel {
   enum class Reading {
     Linear,           ///< 1 at `near_m` and closer, falling to 0 at `far_m`
     InverseDistance,  ///< 1/d within [near_m, far_m], nothing outside: blind when touching
+    Strength,         ///< the sensors give strengths in [0, 1] themselves
   };
   Reading reading = Reading::Linear;
   double near_m = kBlindZone_m;
@@ -79,6 +81,9 @@ struct ObstacleModel {
   bool neighbours_as_obstacles = false;
   double neighbour_near_m = 0.275;
   double neighbour_far_m = 0.55;
+  /// What the sensors are taken for, unit vectors; nothing: the RVR's ring. A robot's, not a
+  /// flavour's: whoever runs a controller on another robot sets them.
+  std::optional<RingDirections> directions;
 
   friend bool operator==(const ObstacleModel&, const ObstacleModel&) = default;
 };
@@ -128,8 +133,15 @@ struct NeighbourModel {
 /// w' of Phototaxis and Anti-phototaxis: the sum of the ring's readings, each min(1, lux /
 /// full_lux), in their directions.
 struct LightModel {
-  double full_lux = 1000;     ///< a reading of 1
-  double least_vector = 0.1;  ///< a shorter sum is no light
+  enum class Law {
+    Sum,           ///< the vector sum of the readings
+    AllOrNothing,  ///< its direction with length 1 where any reading is above `least_reading`
+  };
+  Law law = Law::Sum;
+  double least_reading = 0;
+  double full_lux = 1000;                    ///< a reading of 1
+  double least_vector = 0.1;                 ///< a shorter sum is no light
+  std::optional<RingDirections> directions;  ///< as those of ObstacleModel
 
   friend bool operator==(const LightModel&, const LightModel&) = default;
 };
@@ -137,6 +149,7 @@ struct LightModel {
 /// Where a behaviour goes that has something to go by: along w' - obstacle_gain * obstacles.
 struct SteeringModel {
   double obstacle_gain = 5;
+  double attraction_obstacle_gain = 5;  ///< the same of Attraction
   /// Without anything to go by (no neighbour, no light), w' is (1, 0); else it is zero.
   bool forward_by_default = true;
   /// A shorter result means straight ahead.
@@ -194,6 +207,9 @@ const Flavour& watermelon_argos3();
 
 /// Chocolate's modules on an RVR with a ring of light sensors (thesis facts, sections 6.1 and 7).
 const Flavour& chocolate();
+
+/// Chocolate as its program of 2020 has it, on the e-puck (epuck facts, section 4).
+const Flavour& chocolate_epuck();
 
 /// All of them, in the order of their listing.
 std::span<const Flavour* const> all_flavours();

@@ -124,6 +124,34 @@ Flavour make_chocolate() {
   return flavour;
 }
 
+Flavour make_chocolate_epuck() {
+  Flavour flavour = make_chocolate();
+  flavour.name = "chocolate-epuck";
+  flavour.conditions = with_least_xi(flavour.conditions, 1);  // e-puck 4.6
+  flavour.speed_mps = 0.12;                                   // e-puck 4.1
+  flavour.obstacles = {.reading = ObstacleModel::Reading::Strength,
+                       .longest_sum = 1,
+                       .neighbours_as_obstacles = false};
+  flavour.exploration = {.trigger = ExplorationModel::Trigger::VectorSum,  // e-puck 4.4
+                         .turn_clock = TurnClock::Cycles,
+                         .threshold = 0.1,
+                         .front_slope = 0,
+                         .turn_length = ExplorationModel::TurnLength::OneBelowTau};
+  flavour.neighbours = {.per_metre = 100,  // e-puck 4.1: alpha / (1 + cm),
+                        .shortest_m = -1,  // of the gap between two bodies, which may be negative
+                        .offset = 1,
+                        .alpha_truncated = true,
+                        .repulsion_power = 2,
+                        .attraction_gain = 1,
+                        .repulsion_gain = 1};
+  flavour.light = {.law = LightModel::Law::AllOrNothing, .least_reading = 0.2, .least_vector = 0.1};
+  flavour.steering = {.obstacle_gain = 5,
+                      .attraction_obstacle_gain = 6,
+                      .forward_by_default = false,
+                      .shortest_result = 0.1};
+  return flavour;
+}
+
 }  // namespace
 
 const Flavour& watermelon() {
@@ -141,9 +169,14 @@ const Flavour& chocolate() {
   return kFlavour;
 }
 
+const Flavour& chocolate_epuck() {
+  static const Flavour kFlavour = make_chocolate_epuck();
+  return kFlavour;
+}
+
 std::span<const Flavour* const> all_flavours() {
-  static const std::array<const Flavour*, 3> kAll = {&watermelon(), &watermelon_argos3(),
-                                                     &chocolate()};
+  static const std::array<const Flavour*, 4> kAll = {&watermelon(), &watermelon_argos3(),
+                                                     &chocolate(), &chocolate_epuck()};
   return kAll;
 }
 

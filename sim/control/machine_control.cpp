@@ -99,7 +99,7 @@ void MachineControl::take_transition(Senses& senses) {
 
 double MachineControl::probability_of_count(Known& known, const Condition& condition,
                                             Senses& senses) const {
-  const std::size_t n = senses.neighbours().size();
+  const auto n = static_cast<std::size_t>(senses.neighbour_count());
   if (n >= kTabledNeighbours) return enabling_probability(condition, senses, *flavour_);
   double& probability = known.by_count[n];
   if (probability < 0) probability = enabling_probability(condition, senses, *flavour_);

@@ -79,7 +79,7 @@ struct FloorReading {
 struct NeighbourTally {
   static constexpr UsedSenses kUses{.neighbours = true};
   static NeighbourTally of(Senses& senses) {
-    return {static_cast<int>(senses.neighbours().size())};
+    return {senses.neighbour_count()};
   }
 
   int count = 0;

@@ -250,7 +250,7 @@ InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& fla
   if (set == NetworkInputs::Rm12)
     add_projections(cut(light_vector(senses.light(), flavour.light)), inputs);
   add_floor(set, senses.ground_color(), flavour.floor, inputs);
-  inputs.add(count_input(neighbours.size()));
+  inputs.add(count_input(static_cast<std::size_t>(senses.neighbour_count())));
   add_projections(towards, inputs);
   inputs.add(1);
   SWARMSMITH_ASSERT(inputs.count == input_count(set), "a set of inputs is whole");

@@ -35,9 +35,28 @@ Vector2 sum_along_sensors(const std::array<double, kProximitySensors>& strengths
           left_ahead - right_ahead - s[3] - right_back + left_back + s[7]};
 }
 
+Vector2 sum_along(const RingDirections& directions,
+                  const std::array<double, kProximitySensors>& strengths) {
+  Vector2 sum;
+  for (std::size_t i = 0; i < strengths.size(); ++i) {
+    sum.x += strengths[i] * directions[i].x;
+    sum.y += strengths[i] * directions[i].y;
+  }
+  return sum;
+}
+
+/// A vector of length 1 in the direction of the readings' sum, if any of them is high enough.
+Vector2 light_by_threshold(const LightReadings& readings, const LightModel& model) {
+  if (*std::max_element(readings.begin(), readings.end()) <= model.least_reading) return {};
+  const Vector2 sum = sum_along(model.directions.value_or(kProximityDirections), readings);
+  const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
+  return length > 0 ? Vector2{sum.x / length, sum.y / length} : Vector2{1, 0};
+}
+
 }  // namespace
 
 double obstacle_strength(double distance_m, const ObstacleModel& model) {
+  if (model.reading == ObstacleModel::Reading::Strength) return distance_m;
   if (model.reading == ObstacleModel::Reading::Linear) {
     return ramp(distance_m, model.near_m, model.far_m);
   }
@@ -46,6 +65,7 @@ double obstacle_strength(double distance_m, const ObstacleModel& model) {
 
 std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings& proximity,
                                                          const ObstacleModel& model) {
+  if (model.reading == ObstacleModel::Reading::Strength) return proximity;
   std::array<double, kProximitySensors> strengths;
   const double near = model.near_m;
   const double far = model.far_m;
@@ -66,8 +86,12 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
 Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                      const ObstacleModel& model) {
   Vector2 sum;
-  if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
-  sum = sum_along_sensors(obstacle_strengths(proximity, model));
+  const bool has_strengths = model.reading == ObstacleModel::Reading::Strength;
+  if (!has_strengths && neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) {
+    return sum;
+  }
+  const auto strengths = obstacle_strengths(proximity, model);
+  sum = model.directions ? sum_along(*model.directions, strengths) : sum_along_sensors(strengths);
   for (const Neighbour& neighbour : neighbours) {
     const double strength = neighbour_strength(neighbour.distance_m, model);
     sum.x += strength * neighbour.direction_x;
@@ -89,6 +113,13 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
 }
 
 Vector2 light_vector(const LightReadings& lux, const LightModel& model) {
+  if (model.law == LightModel::Law::AllOrNothing) return light_by_threshold(lux, model);
+  if (model.directions) {
+    std::array<double, kProximitySensors> strengths;
+    for (std::size_t i = 0; i < lux.size(); ++i)
+      strengths[i] = std::min(1.0, lux[i] / model.full_lux);
+    return sum_along(*model.directions, strengths);
+  }
   Vector2 sum;
   for (std::size_t i = 0; i < lux.size(); ++i) {
     const double strength = std::min(1.0, lux[i] / model.full_lux);

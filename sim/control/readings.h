@@ -37,6 +37,9 @@ inline constexpr std::array<Vector2, kProximitySensors> kProximityDirections = {
      {-kSqrtHalf, kSqrtHalf},
      {0, 1}}};
 
+/// Directions of a ring's sensors by index, unit vectors.
+using RingDirections = std::array<Vector2, kProximitySensors>;
+
 /// Strength of one proximity sensor's reading: prox of the reference model, in [0, 1], or the
 /// published program's inverse distance in 1/m. 0 when there is no obstacle.
 double obstacle_strength(double distance_m, const ObstacleModel& model);

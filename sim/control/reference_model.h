@@ -78,6 +78,8 @@ class Senses {
   virtual const Rgb& ground_color() = 0;
   /// The robots nearer than `kNeighbourRange_m` (thesis 5.1, lidar clustering), in a fixed order.
   virtual std::span<const Neighbour> neighbours() = 0;
+  /// How many robots were seen or heard in this very cycle; `neighbours` may know older ones, too.
+  virtual int neighbour_count() { return static_cast<int>(neighbours().size()); }
   virtual const LightReadings& light() = 0;
   /// Time since the start as the robot's clock has it, seconds.
   virtual double time_s() = 0;
@@ -99,9 +101,9 @@ struct Command {
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
 /// A speed within the wheels' range.
-constexpr double within_wheel_speed(double speed_mps) {
-  if (speed_mps > kMaxWheelSpeed_mps) return kMaxWheelSpeed_mps;
-  return speed_mps < -kMaxWheelSpeed_mps ? -kMaxWheelSpeed_mps : speed_mps;
+constexpr double within_wheel_speed(double speed_mps, double most_mps = kMaxWheelSpeed_mps) {
+  if (speed_mps > most_mps) return most_mps;
+  return speed_mps < -most_mps ? -most_mps : speed_mps;
 }
 
 /// A line of table 5.1, in SI units.

@@ -1,9 +1,6 @@
 #include "sim/engine/kept_constants.h"
 
 #include "base/overloaded.h"
-#include "sim/control/reference_model.h"
-#include "sim/engine/internal/body.h"
-#include "sim/engine/internal/robot_senses.h"
 #include "sim/mission/polygon.h"
 
 namespace swarmsmith {
@@ -21,15 +18,16 @@ bool has_ground_sensor_inside(const Outline& body) {
 
 }  // namespace
 
-std::optional<KeptConstants> kept_constants(const Outline& body) {
-  if (body == Outline(BoxOutline{kBodySide_m, kBodySide_m})) return std::nullopt;
-  return KeptConstants{.mass_kg = kMass_kg,
-                       .drive_N = kMaxForce_N,
-                       .treads_m = kTreadDistance_m,
-                       .ground_sensor_m = kGroundSensorAhead_m,
-                       .ground_sensor_is_outside = !has_ground_sensor_inside(body),
-                       .height_m = kBodyHeight_m,
-                       .neighbours_m = kNeighbourRange_m};
+std::optional<KeptConstants> kept_constants(const Robot& robot) {
+  const Outline& outline = robot.body.outline;
+  if (robot == rvr() || robot != rvr_with(outline)) return std::nullopt;
+  return KeptConstants{.mass_kg = robot.body.mass_kg,
+                       .drive_N = robot.drive.max_force_N,
+                       .treads_m = robot.drive.track_m,
+                       .ground_sensor_m = robot.ground.places.front().x,
+                       .ground_sensor_is_outside = !has_ground_sensor_inside(outline),
+                       .height_m = robot.body.height_m,
+                       .neighbours_m = robot.neighbours.range_m};
 }
 
 }  // namespace swarmsmith

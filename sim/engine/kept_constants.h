@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "sim/mission/solid.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -17,7 +17,7 @@ struct KeptConstants {
   double neighbours_m = 0;  ///< how far they are seen
 };
 
-/// Nothing for the RVR's own body.
-std::optional<KeptConstants> kept_constants(const Outline& body);
+/// Nothing for the RVR's own body, and for robots that differ from it in more than the outline.
+std::optional<KeptConstants> kept_constants(const Robot& robot);
 
 }  // namespace swarmsmith

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rng.h"
 #include "sim/control/reference_model.h"
 #include "sim/mission/colors.h"
 #include "sim/mission/pose.h"
@@ -28,6 +29,7 @@ struct ProximitySensing {
   double largest_miss_rate =
       0;                    ///< each sensor's rate of misses, drawn for the run from U(0, this)
   double phantom_rate = 0;  ///< of the readings that are uniform in [0.05 m, R] instead
+  double half_width = 0;    ///< of the uniform noise on strengths
   bool touch_is_nothing = false;  ///< what is too near to be measured reads as nothing: +infinity
 
   friend bool operator==(const ProximitySensing&, const ProximitySensing&) = default;
@@ -35,13 +37,21 @@ struct ProximitySensing {
 
 /// RGB of the floor (thesis 4.2.1, 3.2): bias and noise are added, rounded, clamped, then labelled.
 struct GroundColorSensing {
-  double sd = 0;         ///< normal noise a channel
-  double bias_sd = 0;    ///< of the normal bias that a robot has on all channels for the run
-  bool labeler = false;  ///< the nearest label takes the reading's place (thesis eq. 3.1, 3.2)
+  double sd = 0;          ///< normal noise a channel
+  double bias_sd = 0;     ///< of the normal bias that a robot has on all channels for the run
+  double half_width = 0;  ///< of the uniform noise on grey levels in [0, 1], where points vote
+  bool labeler = false;   ///< the nearest label takes the reading's place (thesis eq. 3.1, 3.2)
   std::vector<Rgb> labels = default_labels();
 
   static std::vector<Rgb> default_labels();
   friend bool operator==(const GroundColorSensing&, const GroundColorSensing&) = default;
+};
+
+/// The ring of light sensors.
+struct LightSensing {
+  double half_width = 0;  ///< of the uniform noise on strengths
+
+  friend bool operator==(const LightSensing&, const LightSensing&) = default;
 };
 
 /// 719 rays (thesis 4.2.10).
@@ -97,6 +107,8 @@ struct ControlTiming {
 /// What the treads take.
 struct Treads {
   double step_mps = 0;  ///< commanded speeds are rounded to multiples of it; 0: not at all
+  /// Each speed is multiplied by 1 + N(0, sd), anew in each cycle.
+  double sd = 0;
   /// Treads slip: a robot goes, and turns, so much of what its treads are told. Drawn for the run
   /// from N(way, way_sd) and N(turn, turn_sd), not below 0. What it senses of its own motion is
   /// that of treads that do not slip.
@@ -116,6 +128,17 @@ struct TrackedPoint {
   friend bool operator==(const TrackedPoint&, const TrackedPoint&) = default;
 };
 
+/// A number of a profile that differs from run to run: drawn from the interval for each robot and
+/// run, or once for a run.
+struct FieldRange {
+  std::string field;  ///< device and key, "treads.sd"
+  double least = 0;
+  double most = 0;
+  bool of_run = false;
+
+  friend bool operator==(const FieldRange&, const FieldRange&) = default;
+};
+
 struct Profile {
   std::string name;
   ContactModel contacts = ContactModel::Exact;
@@ -124,13 +147,20 @@ struct Profile {
   bool float32_wire = false;
   ProximitySensing proximity;
   GroundColorSensing ground_color;
+  LightSensing light;
   LidarSensing lidar;
   NeighbourSensing neighbours;
   ControlTiming timing;
   Treads treads;
   TrackedPoint tracking;
+  /// Each of a field of its own, which has `least` of it above.
+  std::vector<FieldRange> ranges;
 
   friend bool operator==(const Profile&, const Profile&) = default;
 };
+
+/// The profile of one robot in a run: its ranges are drawn, and gone. `run` is the stream of the
+/// evaluation.
+Profile drawn_profile(const Profile& profile, const Rng& run, int robot);
 
 }  // namespace swarmsmith

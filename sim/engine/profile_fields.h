@@ -1,23 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include "sim/engine/profile.h"
+#include "sim/robot/fields.h"
 
 namespace swarmsmith {
-
-/// Ends of a field's range, both included.
-struct FieldLimits {
-  double least = 0;
-  double most = 0;
-
-  /// False for what is not a number.
-  constexpr bool contain(double value) const { return value >= least && value <= most; }
-};
 
 inline constexpr FieldLimits kRate{0, 1};
 /// How far a robot goes of what it is told.
@@ -26,10 +16,6 @@ inline constexpr FieldLimits kGrip{0, 2};
 inline constexpr int kLongestDelay = 1000;
 /// Of the control period, as a factor on 0.1 s.
 inline constexpr FieldLimits kPeriodFactor{0.01, 10};
-
-/// What a field may be, with the words for it.
-template <class Value>
-using FieldChoices = std::array<std::pair<std::string_view, Value>, 2>;
 
 inline constexpr FieldChoices<ContactModel> kContactModels = {
     {{"exact", ContactModel::Exact}, {"box2d", ContactModel::Box2d}}};
@@ -63,11 +49,20 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.later(!profile.proximity.touch_is_nothing,
                 [&] { visitor.choice("touch", profile.proximity.touch_is_nothing, kTouches); });
 
+  visitor.later(profile.proximity.half_width == 0,
+                [&] { visitor.number("half_width", profile.proximity.half_width, kRate); });
+
   visitor.device("ground_color");
   visitor.number("sd", profile.ground_color.sd, FieldLimits{0, 255});
   visitor.number("bias_sd", profile.ground_color.bias_sd, FieldLimits{0, 255});
   visitor.flag("labeler", profile.ground_color.labeler);
   visitor.colors("labels", profile.ground_color.labels);
+  visitor.later(profile.ground_color.half_width == 0,
+                [&] { visitor.number("half_width", profile.ground_color.half_width, kRate); });
+
+  visitor.device("light");
+  visitor.later(profile.light.half_width == 0,
+                [&] { visitor.number("half_width", profile.light.half_width, kRate); });
 
   visitor.device("lidar");
   visitor.number("half_width", profile.lidar.half_width_m, FieldLimits{0, 1});
@@ -91,6 +86,7 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.later(profile.treads.step_mps == 0, [&] {
     visitor.number("step", profile.treads.step_mps, FieldLimits{0, kMaxWheelSpeed_mps});
   });
+  visitor.later(profile.treads.sd == 0, [&] { visitor.number("sd", profile.treads.sd, kRate); });
   visitor.later(profile.treads.way == 1, [&] { visitor.number("way", profile.treads.way, kGrip); });
   visitor.later(profile.treads.way_sd == 0,
                 [&] { visitor.number("way_sd", profile.treads.way_sd, kRate); });
@@ -113,12 +109,6 @@ inline bool is_distribution(std::span<const ControlTiming::Delay> delays) {
     sum += delay.probability;
   }
   return std::fabs(sum - 1) < 1e-9;
-}
-
-/// The word of a value.
-template <class Value>
-std::string_view word_of(Value value, const FieldChoices<Value>& choices) {
-  return choices[0].second == value ? choices[0].first : choices[1].first;
 }
 
 }  // namespace swarmsmith

@@ -8,14 +8,19 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/rng.h"
+#include "sim/control/used_senses.h"
+#include "sim/engine/fitting.h"
 #include "sim/engine/internal/float32.h"
+#include "sim/engine/internal/noise_stream.h"
 #include "sim/engine/internal/robot_clock.h"
 #include "sim/engine/internal/robot_senses.h"
+#include "sim/engine/internal/sight.h"
 #include "sim/engine/internal/world.h"
 #include "sim/mission/score.h"
 
@@ -55,6 +60,12 @@ bool slips(const Treads& treads) {
   return treads.way != 1 || treads.turn != 1 || treads.way_sd > 0 || treads.turn_sd > 0;
 }
 
+/// Whether a number of the profile whose name begins so is a range.
+bool has_range(const Profile& profile, std::string_view begin) {
+  return std::ranges::any_of(
+      profile.ranges, [&](const FieldRange& range) { return range.field.starts_with(begin); });
+}
+
 Grip grip_of_run(const Treads& treads, const Rng& run, int robot) {
   Rng way = run.split("way", static_cast<std::uint64_t>(robot));
   Rng turn = run.split("turn", static_cast<std::uint64_t>(robot));
@@ -66,6 +77,17 @@ Grip grip_of_run(const Treads& treads, const Rng& run, int robot) {
 const Controller& idle() {
   static const Controller kIdle = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
   return kIdle;
+}
+
+/// All that the robots may be asked for in this run.
+Sensors sensors_of_run(const SimulationSetup& setup, const Recorder& recorder,
+                       const Decider* decider) {
+  if (decider != nullptr) return Sensors::all();
+  Sensors sensors = recorder.sensors;
+  const UsedSenses used = senses_used_by(setup.controller, setup.flavour);
+  if (used.ground_color) sensors = sensors | Sensor::GroundColor;
+  if (used.neighbours) sensors = sensors | Sensor::Neighbours;
+  return sensors;
 }
 
 /// A robot with what it needs to act on its own clock.
@@ -95,22 +117,32 @@ class Run {
         every_step_(decider != nullptr && decider->wants_every_step()),
         stops_more_(decider != nullptr || setup.profile.timing.driver_sub_steps > 0 ||
                     setup.profile.neighbours.every_sub_steps > 0),
-        distorts_commands_(setup.profile.float32_wire || setup.profile.treads.step_mps > 0),
-        slips_(slips(setup.profile.treads)),
+        distorts_commands_(setup.profile.float32_wire || setup.profile.treads.step_mps > 0 ||
+                           has_range(setup.profile, "treads.step")),
+        slips_(slips(setup.profile.treads) || has_range(setup.profile, "treads.")),
+        disturbs_(setup.profile.treads.sd > 0 || has_range(setup.profile, "treads.sd")),
+        flavour_(fitted(setup.flavour, setup.mission.robot)),
         arena_(arena_of(setup.mission, setup.instance)),
-        world_(arena_, setup.mission.body, setup.instance.starts, setup.profile.contacts),
+        world_(arena_, setup.mission.robot, setup.instance.starts, setup.profile.contacts),
         scorer_(setup.mission.rule, arena_),
         positions_(setup.instance.starts.size()),
         object_positions_(arena_.objects.size()) {
     const Rng run(static_cast<std::uint64_t>(setup.seed));
     agents_.reserve(positions_.size());
+    const Sensors sensors = sensors_of_run(setup, recorder, decider);
+    if (!setup.profile.ranges.empty()) {
+      for (int i = 0; i < world_.robots(); ++i)
+        profiles_.push_back(drawn_profile(setup.profile, run, i));
+    }
     for (int i = 0; i < world_.robots(); ++i) {
-      agents_.push_back({.senses = RobotSenses(world_, arena_, setup.profile, i, run),
+      agents_.push_back({.senses = RobotSenses(world_, arena_, profile_of(i), i, run),
                          .control = ControlSoftware(decider == nullptr ? setup.controller : idle(),
-                                                    setup.flavour, control_stream(setup.seed, i)),
-                         .clock = RobotClock(setup.profile.timing, run, i)});
+                                                    flavour_, control_stream(setup.seed, i)),
+                         .clock = RobotClock(profile_of(i).timing, run, i)});
       next_events_.push_back(agents_.back().next_event());
-      if (slips_) grips_.push_back(grip_of_run(setup.profile.treads, run, i));
+      agents_.back().senses.remember(sensors);
+      if (slips_) grips_.push_back(grip_of_run(profile_of(i).treads, run, i));
+      if (disturbs_) wheel_noises_.emplace_back(run, "wheels", i);
     }
   }
 
@@ -141,6 +173,12 @@ class Run {
   }
 
  private:
+  const Profile& profile_of(int robot) const {
+    return profiles_.empty() ? setup_.profile : profiles_[static_cast<std::size_t>(robot)];
+  }
+
+  int index_of(const Agent& agent) const { return static_cast<int>(&agent - agents_.data()); }
+
   /// Sensors, scores and digests would go on with what is no number, and say nothing of it.
   void check(std::int64_t now) const {
     const int unsound = world_.find_unsound();
@@ -199,28 +237,48 @@ class Run {
 
   /// Sends a command on its way.
   [[gnu::always_inline]] void accept(Agent& agent, const Command& command, std::int64_t now) {
-    agent.command.left_mps = within_wheel_speed(command.left_mps);
-    agent.command.right_mps = within_wheel_speed(command.right_mps);
+    const double most_mps = world_.robot().drive.max_speed_mps;
+    agent.command.left_mps = within_wheel_speed(command.left_mps, most_mps);
+    agent.command.right_mps = within_wheel_speed(command.right_mps, most_mps);
     if (distorts_commands_) [[unlikely]]
-      distort(agent.command);
+      distort(agent.command, profile_of(index_of(agent)));
     if (recorder_.observe) agent.command.leds = command.leds;  // nobody else sees them
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
+    if (!wheel_noises_.empty()) [[unlikely]]
+      return send(agent, disturbed(agent), arrival, now);
+    send(agent, agent.command, arrival, now);
+  }
+
+  static void send(Agent& agent, const Command& command, std::int64_t arrival, std::int64_t now) {
     if (arrival == now && agent.late.empty()) {
-      renew_treads(agent.acting, agent.command);
+      renew_treads(agent.acting, command);
     } else if (!agent.late.empty() && agent.late.back().from == arrival) {
-      agent.late.back().command = agent.command;
+      agent.late.back().command = command;
     } else {
-      agent.late.push_back({arrival, agent.command});
+      agent.late.push_back({arrival, command});
     }
   }
 
+  /// The command with the noise of the wheels, each by itself.
+  [[gnu::noinline]] Command disturbed(const Agent& agent) const {
+    const int robot = index_of(agent);
+    const auto first = 2 * static_cast<std::uint64_t>(agent.cycle);
+    const double sd = profile_of(robot).treads.sd;
+    Command command = agent.command;
+    const NoiseStream& noise = wheel_noises_[static_cast<std::size_t>(robot)];
+    command.left_mps *= 1 + sd * noise.normal(first);
+    command.right_mps *= 1 + sd * noise.normal(first + 1);
+    return command;
+  }
+
   /// What becomes of a command on its way to the treads.
-  [[gnu::noinline]] void distort(Command& command) const {
+  [[gnu::noinline]] void distort(Command& command, const Profile& profile) const {
     for (double* speed_mps : {&command.left_mps, &command.right_mps}) {
-      if (setup_.profile.float32_wire) *speed_mps = as_float32(*speed_mps);
-      const double step_mps = setup_.profile.treads.step_mps;
+      if (profile.float32_wire) *speed_mps = as_float32(*speed_mps);
+      const double step_mps = profile.treads.step_mps;
       if (step_mps > 0)
-        *speed_mps = within_wheel_speed(std::round(*speed_mps / step_mps) * step_mps);
+        *speed_mps = within_wheel_speed(std::round(*speed_mps / step_mps) * step_mps,
+                                        world_.robot().drive.max_speed_mps);
     }
   }
 
@@ -374,12 +432,16 @@ class Run {
   bool stops_more_;   ///< there is something to attend to
   bool distorts_commands_;
   bool slips_;
+  bool disturbs_;
+  std::vector<Profile> profiles_;  ///< of the robots, where they differ
+  Flavour flavour_;
   Arena arena_;
   World world_;
   Scorer scorer_;
   std::vector<Agent> agents_;
   std::vector<std::int64_t> next_events_;  ///< of the agents
   std::vector<Grip> grips_;                ///< of the robots; empty where none slips
+  std::vector<NoiseStream> wheel_noises_;  ///< of the robots; empty without noise
   std::vector<Point> positions_;
   std::vector<Point> object_positions_;
   std::vector<int> due_;  ///< robots, for a decider
@@ -390,9 +452,10 @@ class Run {
 }  // namespace
 
 int engine_version_of(const Mission& mission, const Profile& profile) {
+  if (can_hide(mission.arena, mission.robot)) return kSightVersion;
   const bool meets_obstacles = profile.contacts == ContactModel::Exact &&
                                !mission.arena.obstacles.empty() &&
-                               has_squares_alone(mission.arena, mission.body);
+                               has_squares_alone(mission.arena, mission.robot);
   return meets_obstacles ? kObstaclesVersion : kEngineVersion;
 }
 

@@ -75,8 +75,11 @@ SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder
 /// Part of the digest of a campaign: raised with every change that changes a score's bits.
 inline constexpr int kEngineVersion = 3;
 /// The version of missions in which the exact contact model meets fixed obstacles. They were played
-/// by Box2D in version 3; all others have its bits. The next version of all is 5.
+/// by Box2D in version 3; all others have its bits.
 inline constexpr int kObstaclesVersion = 4;
+/// The version of missions where something as high as the robots' camera can hide them from each
+/// other: before, they saw through all. The next version of all is 6.
+inline constexpr int kSightVersion = 5;
 
 /// The version that gives the mission's scores under this profile.
 int engine_version_of(const Mission& mission, const Profile& profile);

@@ -11,6 +11,7 @@
 #include "base/text/whole_file.h"
 #include "sim/files/internal/read_mission.h"
 #include "sim/files/internal/read_solids.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -78,11 +79,42 @@ std::optional<MissionEntry> read_base(TableReader& table, const std::string& nam
   return empty_mission(name);
 }
 
-/// [mission.robot]: what the robots' bodies are.
-void read_body(TableReader& robot, Mission& mission) {
+/// `robot`: a name or a file; or a table with the outline alone, or with what a robot has.
+void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission) {
+  const auto& folder = place.images.folder;
+  const std::filesystem::path* from = folder ? &*folder : nullptr;
+  const Node* node = table.take("robot");
+  if (node == nullptr) return;
+  if (const auto* word = std::get_if<std::string>(&node->value)) {
+    if (names_a_file(*word) && from == nullptr) {
+      table.complain("robot", "this is no place for a file; robots are " + joined(robot_names()));
+      return;
+    }
+    auto robot = find_robot(*word, from == nullptr ? "" : *from);
+    if (robot) {
+      mission.robot = std::move(*robot);
+      return;
+    }
+    for (const Error& error : robot.error()) {
+      if (error.where.empty()) {
+        table.complain("robot", error.message);
+      } else {
+        table.complain_foreign("robot", error);
+      }
+    }
+    return;
+  }
+  auto robot = table.table("robot");
+  if (!robot) return;
+  if (!robot->has("shape")) {
+    mission.robot = read_robot_table(*robot, from, mission.robot);
+    return;
+  }
   Pose pose;
-  if (auto outline = read_outline(robot, {0.02, 5}, pose)) mission.body = std::move(*outline);
-  robot.finish();
+  if (auto outline = read_outline(*robot, {0.02, 5}, pose)) {
+    mission.robot.body.outline = std::move(*outline);
+  }
+  robot->finish();
 }
 
 /// People say seconds, the engine counts control cycles.
@@ -118,7 +150,7 @@ void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entr
     if (auto rule = read_score(*score)) mission.rule = std::move(*rule);
   }
   const std::size_t before = table.complaints();
-  if (auto robot = table.table("robot")) read_body(*robot, mission);
+  read_robot(table, place, mission);
   if (auto arena = table.table("arena")) read_arena(*arena, place.images, mission);
   if (auto instances = table.table("instances")) read_instances(*instances, entry);
   if (table.complaints() == before) check_room(table, mission);

@@ -7,6 +7,7 @@
 #include "sim/files/color_text.h"
 #include "sim/files/internal/arena_text.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/robot_file.h"
 #include "sim/mission/score.h"
 
 namespace swarmsmith {
@@ -63,6 +64,20 @@ std::string placement_text(const Placement& placement) {
       placement);
 }
 
+/// The RVR as its outline alone, as texts always had it; another robot whole.
+void add_robot(const Mission& mission, const std::string& prefix, std::vector<Section>& sections) {
+  const Robot& robot = mission.robot;
+  if (robot == rvr_with(robot.body.outline)) {
+    sections.front().lines.push_back({"robot", "{ " + outline_text(robot.body.outline) + " }"});
+    return;
+  }
+  constexpr std::string_view kHeader = "mission.";
+  for (Section& section : robot_sections(robot, std::string(kHeader) + "robot")) {
+    section.prefix = prefix + section.prefix.substr(kHeader.size());
+    sections.push_back(std::move(section));
+  }
+}
+
 }  // namespace
 
 std::vector<Section> mission_sections(const MissionEntry& entry) {
@@ -72,18 +87,19 @@ std::vector<Section> mission_sections(const MissionEntry& entry) {
       std::to_string(mission.cycles / 10) +
       (mission.cycles % 10 == 0 ? "" : "." + std::to_string(mission.cycles % 10)) + " s";
   const std::string count = std::to_string(entry.test_count);
-  return {
-      {"[[mission]]",
-       prefix,
-       {{"name", quoted_text(mission.name)},
-        {"duration", quoted_text(duration)},
-        {"robots", std::to_string(mission.robots)},
-        {"robot", "{ " + outline_text(mission.body) + " }"}}},
-      {"[mission.arena]", prefix + "arena.", arena_lines(mission)},
-      {"[mission.score]", prefix + "score.", score_lines(mission.rule)},
+  std::vector<Section> sections = {{"[[mission]]",
+                                    prefix,
+                                    {{"name", quoted_text(mission.name)},
+                                     {"duration", quoted_text(duration)},
+                                     {"robots", std::to_string(mission.robots)}}}};
+  add_robot(mission, prefix, sections);
+  sections.push_back({"[mission.arena]", prefix + "arena.", arena_lines(mission)});
+  sections.push_back({"[mission.score]", prefix + "score.", score_lines(mission.rule)});
+  sections.push_back(
       {"[mission.instances]",
        prefix + "instances.",
-       {{"training", placement_text(mission.placement)}, {"test", "{ count = " + count + " }"}}}};
+       {{"training", placement_text(mission.placement)}, {"test", "{ count = " + count + " }"}}});
+  return sections;
 }
 
 std::string mission_text(const MissionEntry& entry) {

@@ -9,6 +9,9 @@
 #include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
 #include "embedded/kArgos3Profile.h"
+#include "embedded/kEpuckIdealProfile.h"
+#include "embedded/kEpuckProfile.h"
+#include "embedded/kEpuckPseudoRealityProfile.h"
 #include "embedded/kPseudoRealityProfile.h"
 #include "embedded/kRvrProfile.h"
 #include "embedded/kThesisRobotsProfile.h"
@@ -18,11 +21,14 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kFiles = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kFiles = {
     {{"rvr", kRvrProfile},
      {"argos3", kArgos3Profile},
      {"pseudo-reality", kPseudoRealityProfile},
-     {"thesis-robots", kThesisRobotsProfile}}};
+     {"thesis-robots", kThesisRobotsProfile},
+     {"epuck", kEpuckProfile},
+     {"epuck-ideal", kEpuckIdealProfile},
+     {"epuck-pseudo-reality", kEpuckPseudoRealityProfile}}};
 
 /// The fields of a table, over those of the profile that `base` names.
 void read_fields(TableReader& table, Profile& profile) {

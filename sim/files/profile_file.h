@@ -15,7 +15,8 @@ namespace swarmsmith {
 
 /// Simulator profiles as TOML (docs/profiles.md). The built-in ones are files, too, which the
 /// program carries: `rvr` (thesis 4.2: noise on), `argos3` (as the published files: noise off),
-/// `pseudo-reality` (thesis 7.1), `thesis-robots` (the published programs of the robots).
+/// `pseudo-reality` (thesis 7.1), `thesis-robots` (the published programs of the robots), and for
+/// the e-puck `epuck` (as published), `epuck-ideal` (noise off) and `epuck-pseudo-reality`.
 
 std::vector<std::string> profile_names();
 

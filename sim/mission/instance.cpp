@@ -61,7 +61,7 @@ Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) 
                      mission.name);
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Footprint body(mission.body, poses[i]);
+    const Footprint body(mission.robot.body.outline, poses[i]);
     const std::string by = ground.blocked_by(body);
     if (!by.empty()) return misplaced(mission, i, by);
     ground.add(body, "robot " + std::to_string(i + 1));
@@ -97,7 +97,7 @@ Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
       }
       const Point point = std::visit(draw_point, mission.placement);
       const Pose pose{point.x, point.y, wrap_angle(rng.uniform(0, 2 * kPi))};
-      const Footprint body(mission.body, pose);
+      const Footprint body(mission.robot.body.outline, pose);
       if (!ground.blocked_by(body).empty()) continue;
       ground.add(body, "robot " + std::to_string(robot));
       starts.push_back(pose);

@@ -12,6 +12,7 @@
 #include "sim/mission/arena.h"
 #include "sim/mission/pose.h"
 #include "sim/mission/score.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -68,9 +69,8 @@ struct Mission {
   Arena arena;
   ShuffledPatches shuffled;
   int robots = 3;
-  /// The robots' bodies.
-  Outline body = BoxOutline{kBodySide_m, kBodySide_m};
-  int cycles = 1200;  ///< duration in control cycles of 0.1 s
+  Robot robot = rvr();  ///< what each of them is
+  int cycles = 1200;    ///< duration in control cycles of 0.1 s
   Placement placement = PlaceInDisc{};
   ScoreRule rule;
 

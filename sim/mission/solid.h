@@ -1,36 +1,11 @@
 #pragma once
 
-#include <variant>
-#include <vector>
-
 #include "sim/mission/pose.h"
+#include "sim/robot/outline.h"
 
 namespace swarmsmith {
 
-/// Things that cannot be driven through. Outlines lie in the thing's own frame, origin at its
-/// centre of mass, x forward.
-
-struct CircleOutline {
-  double radius_m = 0;
-
-  friend bool operator==(const CircleOutline&, const CircleOutline&) = default;
-};
-
-struct BoxOutline {
-  double length_m = 0;  ///< along x
-  double width_m = 0;   ///< along y
-
-  friend bool operator==(const BoxOutline&, const BoxOutline&) = default;
-};
-
-/// Convex, 3 to 8 corners, counter-clockwise.
-struct PolygonOutline {
-  std::vector<Point> corners;
-
-  friend bool operator==(const PolygonOutline&, const PolygonOutline&) = default;
-};
-
-using Outline = std::variant<CircleOutline, BoxOutline, PolygonOutline>;
+/// Things that cannot be driven through.
 
 /// Stands where it is.
 struct Obstacle {
@@ -63,14 +38,7 @@ struct Light {
   friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// Side of the RVR's square body, metres (argos3-rvr; rvr-automode facts, section 2).
-inline constexpr double kBodySide_m = 0.286;
-/// Its height; what the walls have (rvr-automode facts, sections 2 and 7).
-inline constexpr double kBodyHeight_m = 0.114;
+/// Of walls (rvr-automode facts, section 7).
 inline constexpr double kWallHeight_m = 0.08;
-/// Where proximity and lidar rays run above the floor; they pass over obstacles and objects that
-/// are lower (rvr-automode facts, sections 3.1 and 3.4).
-inline constexpr double kProximityHeight_m = 0.032;
-inline constexpr double kLidarHeight_m = 0.04;
 
 }  // namespace swarmsmith

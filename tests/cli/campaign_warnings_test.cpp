@@ -57,15 +57,16 @@ TEST(CampaignWarnings, NameMissionsInTheDarkForModulesThatWantLight) {
 
 TEST(CampaignWarnings, SayWhatARobotOfAnotherShapeKeepsOfTheRvr) {
   Campaign campaign = campaign_of("");
-  campaign.missions[0].mission.body = CircleOutline{0.035};
+  campaign.missions[0].mission.robot.body.outline = CircleOutline{0.035};
   EXPECT_THAT(warnings_about(campaign),
               ElementsAre("mission aggregation: its robot has a shape of its own, and all else of "
                           "the RVR: 2 kg, a drive of 1.5 N, treads 0.147 m apart, the ground "
                           "sensor 0.05 m ahead of the centre (outside of this body), a height of "
                           "0.114 m, neighbours up to 0.75 m"));
-  campaign.missions[0].mission.body = BoxOutline{0.3, 0.2};
+  campaign.missions[0].mission.robot.body.outline = BoxOutline{0.3, 0.2};
   EXPECT_THAT(warnings_about(campaign), ElementsAre(Not(HasSubstr("outside"))));
-  campaign.missions[0].mission.body = PolygonOutline{{{0.04, 0}, {-0.1, 0.1}, {-0.1, -0.1}}};
+  campaign.missions[0].mission.robot.body.outline =
+      PolygonOutline{{{0.04, 0}, {-0.1, 0.1}, {-0.1, -0.1}}};
   EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("outside of this body")));
 }
 

@@ -12,7 +12,7 @@ from collections import Counter
 SOURCE = pathlib.Path(os.environ.get("SWARMSMITH_SOURCE", pathlib.Path(__file__).resolve().parents[2]))
 REFERENCE = "docs/reference"
 # Words before "facts" that are pages, there or not; other words ("the facts") are prose unless a section follows.
-PAGES = {"irace", "thesis", "simulator", "rvr-automode", "tracking", "orchestration", "methods", "ros"}
+PAGES = {"irace", "thesis", "simulator", "rvr-automode", "tracking", "orchestration", "methods", "ros", "epuck"}
 SUFFIXES = {".h", ".cpp", ".py", ".proto", ".sql", ".md", ".R", ".cmake", ".toml", ".txt", ".sh", ".in"}
 # Wrong citations stand in here to show that they are found.
 OWN = pathlib.Path(__file__).name

@@ -103,7 +103,7 @@ inline Mission random_mission(std::uint64_t seed) {
   mission.shuffled.places = {{{rng.uniform(), 0.5}, 0.1, 0.2}, {{rng.uniform(), 0}, 0.2, 0.1}};
   mission.shuffled.shares = {{{9, 8, 7}, 1}};
   mission.robots = static_cast<int>(rng.uniform_int(1, 4));
-  mission.body = random_outline(rng, 0.1, 0.3);
+  mission.robot.body.outline = random_outline(rng, 0.1, 0.3);
   mission.cycles = static_cast<int>(rng.uniform_int(1, 5000));
   mission.placement = random_placement(rng, mission.robots);
   mission.rule = RobotsOn{random_color(rng)};

@@ -103,7 +103,7 @@ OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, 
   options.span.cycles = log.mission.cycles;
   options.other_tags = other_tags(whole_rig, log);
   options.points = log.points;
-  options.body = log.mission.body;
+  options.body = log.mission.robot.body.outline;
   options.scored_at_the_end = is_scored_at_the_end(log.mission);
   options.takes_tags_for_centres = takes_tags_for_centres;
   know_speeds(observations.logs, options.limits);

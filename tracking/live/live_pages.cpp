@@ -32,8 +32,10 @@ void draw_live(ColorImage& image, const LiveScenery& scenery, const LiveState& s
       if (robot.pose.has_value())
         robots.push_back({robot.name, *robot.pose, robot.height_m,
                           robot.is_seen ? CycleKind::Measured : CycleKind::Missing, robot.trail});
-    draw_robots(image, *scenery.view,
-                scenery.mission.has_value() ? scenery.mission->body : Mission{}.body, robots);
+    draw_robots(
+        image, *scenery.view,
+        scenery.mission.has_value() ? scenery.mission->robot.body.outline : rvr().body.outline,
+        robots);
   }
   draw_tags(image, state.tags);
   draw_words(image, {{fmt::format("{:.1f} s  {:.0f} frames/s  delay {:.0f} ms", state.time_s,

@@ -5,6 +5,7 @@
 
 #include "base/expected.h"
 #include "sim/mission/arena.h"
+#include "sim/robot/rvr.h"
 #include "tracking/motion/tracked_run.h"
 #include "tracking/observing/observations.h"
 #include "tracking/rig/rig.h"

@@ -226,7 +226,7 @@ void draw_words(ColorImage& image, const OverlayWords& words) {
 void draw_overlay(ColorImage& image, const View& view, const Mission& mission,
                   const OverlayMoment& moment, const std::vector<OverlayTag>& tags) {
   draw_floor(image, view, mission, moment.tile_ages_s);
-  draw_robots(image, view, mission.body, moment.robots);
+  draw_robots(image, view, mission.robot.body.outline, moment.robots);
   draw_tags(image, tags);
   draw_words(image, {lines_of(mission, moment), moment.issues});
 }

@@ -88,7 +88,7 @@ void write_pictures(HtmlPage& page, const RunFindings& run) {
                        .details = {run.log.mission.name, "score " + score_text(run.scored),
                                    std::string(name_of(run.verdict()))},
                        .arena = run.log.mission.arena,
-                       .body = run.log.mission.body,
+                       .body = run.log.mission.robot.body.outline,
                        .width_mm = kPictureWidth_mm};
   const int cycles = run.tracked.trajectory.instants();
   picture.cycles_a_mark = cycles <= 300 ? 50 : cycles <= 600 ? 100 : 300;

@@ -43,7 +43,7 @@ double distance_to(const Wall& wall, Point point) {
 /// Whether the robot touches neither wall nor robot at an instant.
 bool is_free_at(const RobotOfRun& of, std::span<const Pose> poses) {
   const Point own = poses[of.robot].position();
-  const double reach_m = radius_of(of.mission.body) + kRoom_m;
+  const double reach_m = radius_of(of.mission.robot.body.outline) + kRoom_m;
   const auto is_near = [&](const Pose& pose, double radius_m) {
     return hypot(pose.x - own.x, pose.y - own.y) < reach_m + radius_m;
   };

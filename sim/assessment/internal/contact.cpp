@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/math.h"
+#include "sim/robot/rvr.h"
 
 namespace swarmsmith::assessment {
 namespace {

@@ -38,20 +38,20 @@ struct Front {
 
 enum class Turn { None, Left, Right };
 
-/// Away from the strongest reading of the front (thesis facts, section 6.2).
-Turn turn_from_front(Senses& senses, const Flavour& flavour) {
+/// Away from the strongest reading of the front (thesis facts, section 6.2), of sensors that look
+/// into these directions, by index.
+template <std::size_t N>
+Turn turn_from(std::span<const double, N> proximity, const RingDirections& directions,
+               Senses& senses, const Flavour& flavour) {
   const ExplorationModel& model = flavour.exploration;
   Front front;
-  // The others are in front by no slope.
-  const FrontProximity proximity = senses.front_proximity();
   const std::span<const Neighbour> neighbours = neighbours_in_the_way(senses, flavour.obstacles);
   if (model.threshold > 0 && neighbours.empty() &&
       nothing_within(proximity, flavour.obstacles.far_m)) {
     return Turn::None;
   }
   for (std::size_t i = 0; i < proximity.size(); ++i) {
-    front.add(obstacle_strength(proximity[i], flavour.obstacles), kProximityDirections[i],
-              model.front_slope);
+    front.add(obstacle_strength(proximity[i], flavour.obstacles), directions[i], model.front_slope);
   }
   for (const Neighbour& neighbour : neighbours) {
     front.add(neighbour_strength(neighbour.distance_m, flavour.obstacles),
@@ -59,6 +59,14 @@ Turn turn_from_front(Senses& senses, const Flavour& flavour) {
   }
   if (front.strongest < model.threshold) return Turn::None;
   return front.turns_left() ? Turn::Left : Turn::Right;
+}
+
+Turn turn_from_front(Senses& senses, const Flavour& flavour) {
+  if (const auto& directions = flavour.obstacles.directions) {
+    return turn_from(std::span(senses.proximity()), *directions, senses, flavour);
+  }
+  // The others are in front by no slope.
+  return turn_from(senses.front_proximity(), kProximityDirections, senses, flavour);
 }
 
 /// Away from the side to which the sum of the readings points (rvr-automode facts, section 5). The

@@ -13,15 +13,15 @@ std::span<const Neighbour> neighbours_in_the_way(Senses& senses, const ObstacleM
   return model.neighbours_as_obstacles ? senses.neighbours() : std::span<const Neighbour>{};
 }
 
-Command steer(double gain, const std::optional<Vector2>& target, Senses& senses,
-              const Flavour& flavour) {
+Command steer(double gain, const std::optional<Vector2>& target, double obstacle_gain,
+              Senses& senses, const Flavour& flavour) {
   const SteeringModel& model = flavour.steering;
   const Vector2 otherwise{model.forward_by_default ? 1.0 : 0.0, 0};
   const Vector2 wanted = target.value_or(otherwise);
   const Vector2 obstacles = obstacle_vector(
       senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
-  Vector2 result{gain * wanted.x - model.obstacle_gain * obstacles.x,
-                 gain * wanted.y - model.obstacle_gain * obstacles.y};
+  Vector2 result{gain * wanted.x - obstacle_gain * obstacles.x,
+                 gain * wanted.y - obstacle_gain * obstacles.y};
   const double square = result.x * result.x + result.y * result.y;
   if (square < model.shortest_result * model.shortest_result) result = {1, 0};
   return command_towards(result.x, result.y, flavour.speed_mps);
@@ -29,6 +29,8 @@ Command steer(double gain, const std::optional<Vector2>& target, Senses& senses,
 
 Command follow_neighbours(double gain, double weight, Senses& senses, const Flavour& flavour) {
   const NeighbourModel& model = flavour.neighbours;
+  const double obstacle_gain =
+      weight < 0 ? flavour.steering.obstacle_gain : flavour.steering.attraction_obstacle_gain;
   const std::span<const Neighbour> neighbours = senses.neighbours();
   Vector2 sum;
   for (const Neighbour& neighbour : neighbours) {
@@ -37,8 +39,8 @@ Command follow_neighbours(double gain, double weight, Senses& senses, const Flav
     sum.x += length * neighbour.direction_x;
     sum.y += length * neighbour.direction_y;
   }
-  if (neighbours.empty()) return steer(gain, std::nullopt, senses, flavour);
-  return steer(gain, sum, senses, flavour);
+  if (neighbours.empty()) return steer(gain, std::nullopt, obstacle_gain, senses, flavour);
+  return steer(gain, sum, obstacle_gain, senses, flavour);
 }
 
 double used_alpha(double alpha, const NeighbourModel& model) {
@@ -49,9 +51,10 @@ Command follow_light(double sign, Senses& senses, const Flavour& flavour) {
   const Vector2 light = light_vector(senses.light(), flavour.light);
   const double least = flavour.light.least_vector;
   if (light.x * light.x + light.y * light.y < least * least) {
-    return steer(1, std::nullopt, senses, flavour);
+    return steer(1, std::nullopt, flavour.steering.obstacle_gain, senses, flavour);
   }
-  return steer(1, Vector2{sign * light.x, sign * light.y}, senses, flavour);
+  return steer(1, Vector2{sign * light.x, sign * light.y}, flavour.steering.obstacle_gain, senses,
+               flavour);
 }
 
 Command command_towards(double x, double y, double speed_mps) {

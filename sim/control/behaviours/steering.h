@@ -18,8 +18,8 @@ std::span<const Neighbour> neighbours_in_the_way(Senses& senses, const ObstacleM
 
 /// Along gain * w' - obstacle_gain * w_o (thesis eq. 5.1 to 5.6), where w' is `target`, or what the
 /// flavour takes for it when there is nothing to steer by.
-Command steer(double gain, const std::optional<Vector2>& target, Senses& senses,
-              const Flavour& flavour);
+Command steer(double gain, const std::optional<Vector2>& target, double obstacle_gain,
+              Senses& senses, const Flavour& flavour);
 
 /// Towards the neighbours, away from them for a negative `weight`.
 Command follow_neighbours(double gain, double weight, Senses& senses, const Flavour& flavour);

@@ -5,21 +5,16 @@
 #include "sim/engine/internal/two.h"
 #include "sim/mission/mission.h"
 #include "sim/mission/pose.h"
+#include "sim/robot/rvr.h"
 
 namespace swarmsmith {
 
-/// The RVR's body and drive (rvr-automode facts, section 2). SI units; world frame.
+/// Bodies and the RVR's drive (rvr-automode facts, section 2). SI units; world frame.
 
 inline constexpr double kHalfSide_m = kBodySide_m / 2;
 /// From the centre to a corner of the square.
 inline constexpr double kCornerRadius_m = kHalfSide_m * 1.4142135623730951;
-inline constexpr double kMass_kg = 2.0;
 inline constexpr double kInertia_kg_m2 = kMass_kg * 2 * kBodySide_m * kBodySide_m / 12;
-/// The drive tracks its set-point with at most this force and torque.
-inline constexpr double kMaxForce_N = 1.5;
-inline constexpr double kMaxTorque_Nm = 1.5;
-/// Of a contact, with another robot or a wall; restitution is 0.
-inline constexpr double kFriction = 0.49;
 
 /// The grain of simulated time: clocks count these, contacts are solved at these.
 inline constexpr double kSubStep_s = 0.01;
@@ -82,12 +77,13 @@ inline bool is_sound(const Body& body) {
 Body body_at(const Pose& pose);
 Pose pose_of(const Body& body);
 
-/// Set-point of a command that starts to act at the body's present heading.
-inline SetPoint set_point_of(const Command& command, const Body& body) {
+/// Set-point of a command that starts to act at the body's present heading, of wheels so far apart.
+inline SetPoint set_point_of(const Command& command, const Body& body,
+                             double track_m = kTreadDistance_m) {
   const double speed = (command.left_mps + command.right_mps) / 2;
   return {.vx = speed * body.cos,
           .vy = speed * body.sin,
-          .spin = (command.right_mps - command.left_mps) / kTreadDistance_m};
+          .spin = (command.right_mps - command.left_mps) / track_m};
 }
 
 }  // namespace swarmsmith

@@ -27,11 +27,11 @@ b2Vec2 vector(double x, double y) {
 }
 
 /// Adds the form, placed in the body's frame, to the body.
-void add_fixture(b2Body* body, const Form& form, const Body& at) {
+void add_fixture(b2Body* body, const Form& form, const Body& at, double friction) {
   b2CircleShape circle;
   b2PolygonShape polygon;
   b2FixtureDef fixture;
-  fixture.friction = static_cast<float>(kFriction);
+  fixture.friction = static_cast<float>(friction);
   if (form.is_circle()) {
     circle.m_p = vector(at.x, at.y);
     circle.m_radius = static_cast<float>(form.radius_m);
@@ -64,7 +64,7 @@ b2Body* add_mover(b2World& world, const Mover& mover) {
   definition.angularVelocity = static_cast<float>(body.spin);
   definition.allowSleep = false;
   b2Body* result = world.CreateBody(&definition);
-  add_fixture(result, mover.form(), Body{});
+  add_fixture(result, mover.form(), Body{}, mover.kind->friction);
   b2MassData mass;
   mass.mass = static_cast<float>(mover.dynamics().mass_kg);
   mass.center.SetZero();
@@ -87,7 +87,7 @@ void add_drive(b2World& world, b2Body* body, const Mover& mover) {
   world.CreateJoint(&joint);
 }
 
-void add_wall(b2Body* ground, const Walls& walls, std::size_t index) {
+void add_wall(b2Body* ground, const Walls& walls, std::size_t index, double friction) {
   const std::size_t n = walls.planes.size();
   const WallPlane& wall = walls.planes[index];
   const Point from = wall.from;
@@ -104,7 +104,7 @@ void add_wall(b2Body* ground, const Walls& walls, std::size_t index) {
   edge.m_radius = 0;
   b2FixtureDef fixture;
   fixture.shape = &edge;
-  fixture.friction = static_cast<float>(kFriction);
+  fixture.friction = static_cast<float>(friction);
   ground->CreateFixture(&fixture);
 }
 
@@ -180,10 +180,10 @@ class Box2dSolver final : public ContactSolver {
     const b2BodyDef definition;
     b2Body* ground = world.CreateBody(&definition);
     for (const std::size_t wall : distinct(island.walls))
-      add_wall(ground, surroundings_->walls, wall);
+      add_wall(ground, surroundings_->walls, wall, surroundings_->friction);
     for (const std::size_t obstacle : distinct(island.obstacles)) {
       const FixedSolid& solid = surroundings_->obstacles[obstacle];
-      add_fixture(ground, solid.form, solid.at);
+      add_fixture(ground, solid.form, solid.at, surroundings_->friction);
     }
   }
 

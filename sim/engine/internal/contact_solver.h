@@ -36,6 +36,9 @@ std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool squa
 /// Our own, for the RVR's squares inside a convex polygon, among fixed obstacles (simulator facts,
 /// section 4.1).
 std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surroundings);
+/// Our own for robots that are discs, among walls of any arena and fixed obstacles.
+std::unique_ptr<ContactSolver> make_disc_solver(const Surroundings& surroundings,
+                                                double robot_friction, double wall_friction);
 /// Box2D's, single precision (simulator facts, section 4.2), for all forms. In a plain world
 /// overlap is left as it is, as in the original; elsewhere more than 5 mm of it is pushed apart,
 /// because light objects between heavy robots and walls would be pressed into them.

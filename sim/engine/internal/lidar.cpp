@@ -513,11 +513,13 @@ bool scan_surroundings(const World& world, int robot, std::span<double> ranges_m
   return scanner.is_within_limits();
 }
 
-void scan_turrets(const World& world, int robot, std::span<double> ranges_m) {
+void scan_turrets(const World& world, const Sight& sight, int robot, std::span<double> ranges_m) {
   std::fill(ranges_m.begin(), ranges_m.end(), kInfinity);
   Scanner scanner(world.body(robot), ranges_m);
+  std::vector<int> room;
   for (int other = 0; other < world.robots(); ++other) {
-    if (other != robot) scanner.meet_circle(world.body(other), kTurretRadius_m);
+    if (other == robot || sight.is_hidden(robot, other, room)) continue;
+    scanner.meet_circle(world.body(other), kTurretRadius_m);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "sim/control/lidar_clustering.h"
 #include "sim/engine/internal/noise_stream.h"
+#include "sim/engine/internal/sight.h"
 #include "sim/engine/internal/world.h"
 
 namespace swarmsmith {
@@ -24,8 +25,8 @@ inline constexpr double kTurretRadius_m = 0.035;
 /// Says whether the lidar's limits surely leave all of them as they are.
 bool scan_surroundings(const World& world, int robot, std::span<double> ranges_m);
 
-/// The same where only the other robots' turrets are seen: they stand above all else.
-void scan_turrets(const World& world, int robot, std::span<double> ranges_m);
+/// The same where only the other robots' turrets are seen, but for those that are hidden.
+void scan_turrets(const World& world, const Sight& sight, int robot, std::span<double> ranges_m);
 
 /// From distances to readings: limits, uniform noise of this half-width on what is finite, limits
 /// again.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "sim/control/readings.h"
 #include "sim/engine/internal/crossing.h"
 
@@ -50,12 +51,12 @@ struct LightSensor {
   Point direction;
 };
 
-LightSensor sensor_towards(const Body& body, Vector2 direction) {
+LightSensor sensor_towards(const Body& body, const LightRing& ring, Vector2 direction) {
   const Point world = {body.cos * direction.x - body.sin * direction.y,
                        body.sin * direction.x + body.cos * direction.y};
-  return {.place = {.x = body.x + kLightSensorsOut_m * world.x,
-                    .y = body.y + kLightSensorsOut_m * world.y,
-                    .z = kLightSensorsHeight_m},
+  return {.place = {.x = body.x + ring.out_m * world.x,
+                    .y = body.y + ring.out_m * world.y,
+                    .z = ring.height_m},
           .direction = world};
 }
 
@@ -92,7 +93,7 @@ bool is_occluded(const World& world, double wall_height_m, int robot, const Spac
 }
 
 double front_light(const World& world, const Arena& arena, int robot) {
-  const LightSensor sensor = sensor_towards(world.body(robot), {1, 0});
+  const LightSensor sensor = sensor_towards(world.body(robot), world.robot().light, {1, 0});
   double lux = 0;
   for (const Light& light : arena.lights) {
     if (light.intensity_cd == 0) continue;
@@ -103,10 +104,82 @@ double front_light(const World& world, const Arena& arena, int robot) {
   return std::clamp(lux, 0.0, kMostLight_lux);
 }
 
-LightReadings light_ring(const World& world, const Arena& arena, int robot) {
+namespace {
+
+/// Whether what is so high can hide any light from a place this far above the floor, at this
+/// distance from it: only what stands near does, since the line to a light rises.
+double nearness_of_shade(const SpacePoint& sensor, const Light& light, double height_m) {
+  const double dx = light.x_m - sensor.x;
+  const double dy = light.y_m - sensor.y;
+  const double distance = std::sqrt(dx * dx + dy * dy);
+  if (light.z_m <= height_m) return distance;
+  return std::max(0.0, (height_m - sensor.z) / (light.z_m - sensor.z) * distance);
+}
+
+/// is_occluded, looking only at what stands near enough.
+bool is_shaded(const World& world, double wall_height_m, int robot, const SpacePoint& sensor,
+               const Light& light, std::vector<int>& room) {
+  const Segment segment = {sensor, {light.x_m, light.y_m, light.z_m}};
+  const double near_walls = nearness_of_shade(sensor, light, wall_height_m);
+  for (const WallPlane& wall : world.walls().planes) {
+    if (std::fabs(wall.depth_of(sensor.x, sensor.y)) <= near_walls &&
+        meets_wall(segment, wall, wall_height_m)) {
+      return true;
+    }
+  }
+  for (const FixedSolid& obstacle : world.obstacles()) {
+    if (meets_solid(segment, obstacle.form, obstacle.at)) return true;
+  }
+  double highest_m = world.robot().body.height_m;
+  for (int object = world.robots(); object < world.movers(); ++object)
+    highest_m = std::max(highest_m, world.form(object).height_m);
+  const double near_movers = nearness_of_shade(sensor, light, highest_m);
+  bool shaded = false;
+  world.visit_near(robot, near_movers + world.largest_radius_m() + world.robot().light.out_m, room,
+                   [&](int other) {
+                     shaded = shaded || meets_solid(segment, world.form(other), world.body(other));
+                   });
+  return shaded;
+}
+
+/// The readings of LightRing::Reading::Strength.
+LightReadings light_strengths(const World& world, const Arena& arena, int robot,
+                              std::vector<int>& room) {
+  constexpr double kFarthest = 2.5;
+  LightReadings readings{};
+  const Body& body = world.body(robot);
+  const Ring& ring = world.light_ring();
+  const SpacePoint sensor = {body.x, body.y, world.robot().light.height_m};
+  for (const Light& light : arena.lights) {
+    if (light.intensity_cd == 0) continue;
+    const double dx = light.x_m - body.x;
+    const double dy = light.y_m - body.y;
+    const double dz = light.z_m - sensor.z;
+    const double rho = std::sqrt(dx * dx + dy * dy + dz * dz) / light.intensity_cd;
+    if (rho > kFarthest || is_shaded(world, arena.wall_height_m, robot, sensor, light, room)) {
+      continue;
+    }
+    const double strength = exp(-2 * rho);
+    const double bearing = atan2(dy * body.cos - dx * body.sin, dx * body.cos + dy * body.sin);
+    for (std::size_t i = 0; i < ring.count; ++i) {
+      const double angle = std::fabs(wrap_angle(bearing - ring.angles_rad[i]));
+      readings[i] += strength * std::max(0.0, 1 - 2 * angle / kPi);
+    }
+  }
+  return readings;
+}
+
+}  // namespace
+
+LightReadings light_ring(const World& world, const Arena& arena, int robot,
+                         std::vector<int>& room) {
+  if (world.robot().light.reading == LightRing::Reading::Strength) {
+    return light_strengths(world, arena, robot, room);
+  }
   LightReadings readings{};
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const LightSensor sensor = sensor_towards(world.body(robot), kProximityDirections[i]);
+    const LightSensor sensor =
+        sensor_towards(world.body(robot), world.robot().light, world.light_ring().directions[i]);
     double lux = 0;
     for (const Light& light : arena.lights) {
       const double cosine = cosine_to(light, sensor);

@@ -3,14 +3,14 @@
 namespace swarmsmith {
 namespace {
 
-Dynamics dynamics_of(double mass_kg, const Form& form, double max_force_N, double max_torque_Nm) {
-  const double inertia = mass_kg * form.mean_radius2_m2;
+Dynamics dynamics_of(double mass_kg, double inertia_kg_m2, double max_force_N,
+                     double max_torque_Nm) {
   return {.mass_kg = mass_kg,
-          .inertia_kg_m2 = inertia,
+          .inertia_kg_m2 = inertia_kg_m2,
           .max_force_N = max_force_N,
           .max_torque_Nm = max_torque_Nm,
           .speed_step_mps = max_force_N / mass_kg * kSubStep_s,
-          .spin_step_radps = max_torque_Nm / inertia * kSubStep_s};
+          .spin_step_radps = max_torque_Nm / inertia_kg_m2 * kSubStep_s};
 }
 
 }  // namespace
@@ -20,18 +20,26 @@ const MoverKind& rvr_kind() {
   return kind;
 }
 
-MoverKind robot_kind(const Outline& outline) {
-  Form form = form_of(outline, kBodyHeight_m);
-  if (form.is_rvr) return rvr_kind();
-  const Dynamics dynamics = dynamics_of(kMass_kg, form, kMaxForce_N, kMaxTorque_Nm);
-  return {.form = std::move(form), .dynamics = dynamics};
+MoverKind robot_kind(const Robot& robot) {
+  const RobotBody& body = robot.body;
+  const RobotDrive& drive = robot.drive;
+  if (body == RobotBody{} && drive.max_force_N == kMaxForce_N &&
+      drive.max_torque_Nm == kMaxTorque_Nm) {
+    return rvr_kind();
+  }
+  Form form = form_of(body.outline, body.height_m);
+  const double inertia_kg_m2 =
+      body.inertia_kg_m2 > 0 ? body.inertia_kg_m2 : body.mass_kg * form.mean_radius2_m2;
+  const Dynamics dynamics =
+      dynamics_of(body.mass_kg, inertia_kg_m2, drive.max_force_N, drive.max_torque_Nm);
+  return {.form = std::move(form), .dynamics = dynamics, .friction = body.robot_friction};
 }
 
-MoverKind object_kind(const MovableObject& object) {
+MoverKind object_kind(const MovableObject& object, double friction) {
   Form form = form_of(object.outline, object.height_m);
-  const Dynamics dynamics =
-      dynamics_of(object.mass_kg, form, object.friction_N, object.friction_N * form.mean_radius_m);
-  return {.form = std::move(form), .dynamics = dynamics};
+  const Dynamics dynamics = dynamics_of(object.mass_kg, object.mass_kg * form.mean_radius2_m2,
+                                        object.friction_N, object.friction_N * form.mean_radius_m);
+  return {.form = std::move(form), .dynamics = dynamics, .friction = friction};
 }
 
 }  // namespace swarmsmith

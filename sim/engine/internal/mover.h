@@ -3,6 +3,7 @@
 #include "sim/engine/internal/body.h"
 #include "sim/engine/internal/form.h"
 #include "sim/mission/solid.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -10,6 +11,7 @@ namespace swarmsmith {
 struct MoverKind {
   Form form;
   Dynamics dynamics;
+  double friction = kFriction;  ///< of its surface; two that meet have the geometric mean
 
   friend bool operator==(const MoverKind&, const MoverKind&) = default;
 };
@@ -17,13 +19,12 @@ struct MoverKind {
 /// The robot of rvr-automode facts, section 2.
 const MoverKind& rvr_kind();
 
-/// A robot of another outline: the RVR's mass and drive, inertia of a plate of that outline. With
-/// the RVR's square it is the RVR.
-MoverKind robot_kind(const Outline& outline);
+/// A robot as a mover; of the RVR's body and drive it is `rvr_kind`.
+MoverKind robot_kind(const Robot& robot);
 
 /// An object that slides on the floor: at most `friction_N`, and in turning that times the mean
-/// distance of its floor from its centre.
-MoverKind object_kind(const MovableObject& object);
+/// distance of its floor from its centre. `friction` is that of its sides.
+MoverKind object_kind(const MovableObject& object, double friction = kFriction);
 
 /// A robot or an object, with what it steers towards. A kind outlives its movers.
 struct Mover {

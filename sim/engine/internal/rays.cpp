@@ -65,7 +65,7 @@ double distance_to_square(double ux, double uy, const Relative& at) {
 /// Whether a line through the robot's centre meets the wall's line between its ends. `normal` is
 /// the wall's, in the robot's frame.
 bool is_on_face(const Body& self, const WallPlane& wall, double depth, Vector2 normal,
-                const Line& line) {
+                Vector2 line) {
   const double cosine = normal.x * line.x + normal.y * line.y;
   const double from_centre = cosine == 0 ? 0 : depth / cosine;
   const double sideways = normal.x * line.y - normal.y * line.x;
@@ -102,7 +102,8 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
       Two met = depth <= sight * size ? (distance > 0 ? distance : kZero) : kNone;
       if (!walls.convex) {
         for (std::size_t k = 0; k < 2; ++k) {
-          if (!is_on_face(self, wall, depth, {nx, ny}, kLines[2 * i + k])) met[k] = kInfinity;
+          if (!is_on_face(self, wall, depth, {nx, ny}, {kLines[2 * i + k].x, kLines[2 * i + k].y}))
+            met[k] = kInfinity;
         }
       }
       ahead[i] = lesser(ahead[i], cosine > 0 ? met : kNone);
@@ -119,14 +120,58 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
   store_two(Two{ahead[1][1], ahead[0][1]}, &distances[6]);
 }
 
-void meet_solid(const Body& self, double start_m, const Form& form, const Body& at, double range_m,
-                RayDistances& distances) {
+void meet_walls(const Body& self, const Ring& ring, double start_m, const Walls& walls,
+                double range_m, RayDistances& distances) {
+  distances.fill(kInfinity);
+  const double sight = start_m + range_m;
+  for (const WallPlane& wall : walls.planes) {
+    const double depth = wall.depth_of(self.x, self.y);
+    if (depth > sight || depth < 0) continue;
+    const Vector2 normal = {wall.nx * self.cos + wall.ny * self.sin,
+                            wall.ny * self.cos - wall.nx * self.sin};
+    for (std::size_t i = 0; i < ring.count; ++i) {
+      const Vector2& ray = ring.directions[i];
+      const double cosine = normal.x * ray.x + normal.y * ray.y;
+      if (!(cosine > 0) || depth > sight * cosine) continue;
+      const double distance = depth / cosine - start_m;
+      if (distance < 0 && !ring.touches_walls) continue;
+      if (!walls.convex && !is_on_face(self, wall, depth, normal, ray)) continue;
+      distances[i] = std::min(distances[i], std::max(distance, 0.0));
+    }
+  }
+}
+
+namespace {
+
+/// meet_solid for a circle of this radius.
+void meet_circle(const Body& self, const Ring& ring, double start_m, double radius_m, Vector2 apart,
+                 RayDistances& distances) {
+  const double x = self.cos * apart.x + self.sin * apart.y;
+  const double y = self.cos * apart.y - self.sin * apart.x;
+  const double radius2 = radius_m * radius_m;
+  for (std::size_t i = 0; i < ring.count; ++i) {
+    const Vector2& ray = ring.directions[i];
+    const double aside = ray.x * y - ray.y * x;
+    const double half2 = radius2 - aside * aside;
+    if (half2 < 0) continue;
+    const double distance = ray.x * x + ray.y * y - std::sqrt(half2) - start_m;
+    if (distance >= 0) distances[i] = std::min(distances[i], distance);
+  }
+}
+
+}  // namespace
+
+void meet_solid(const Body& self, const Ring& ring, double start_m, const Form& form,
+                const Body& at, double range_m, RayDistances& distances) {
   const double sight = start_m + range_m + form.radius_m;
   const double dx = at.x - self.x;
   const double dy = at.y - self.y;
   if (dx * dx + dy * dy > sight * sight) return;
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    const Vector2 local = kProximityDirections[i];
+  if (form.is_circle() && ring.directions != kProximityDirections) {
+    return meet_circle(self, ring, start_m, form.radius_m, {dx, dy}, distances);
+  }
+  for (std::size_t i = 0; i < ring.count; ++i) {
+    const Vector2 local = ring.directions[i];
     const Point ray = {self.cos * local.x - self.sin * local.y,
                        self.sin * local.x + self.cos * local.y};
     if (std::fabs(ray.x * dy - ray.y * dx) > form.radius_m) continue;

@@ -6,14 +6,15 @@
 #include "sim/control/reference_model.h"
 #include "sim/engine/internal/body.h"
 #include "sim/engine/internal/form.h"
+#include "sim/engine/internal/ring.h"
 #include "sim/engine/internal/walls.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
-/// The eight proximity rays start on the circle that is inscribed in the robot's body; the RVR's
-/// this far from the centre (rvr-automode facts, section 3.1).
-inline constexpr double kRayStart_m = 0.143;
-inline double ray_start_m(const Form& robot) {
+/// Where the rays of a robot with this body start, from its centre.
+inline double ray_start_m(const ProximityRing& ring, const Form& robot) {
+  if (ring.start_m > 0) return ring.start_m;
   return robot.is_rvr ? kRayStart_m : robot.inradius_m;
 }
 
@@ -21,16 +22,20 @@ inline double ray_start_m(const Form& robot) {
 /// nothing was met. Physical distances: limits and noise come later.
 using RayDistances = std::array<double, kProximitySensors>;
 
-/// The rays of `self`, which start `start_m` from its centre, as if there were only walls: all are
-/// replaced. Hits beyond `range_m` may be left out. A ray that starts behind the face of a wall
-/// reads 0.
+/// The rays of `self` along kProximityDirections, which start `start_m` from its centre, as if
+/// there were only walls: all are replaced. Hits beyond `range_m` may be left out. A ray that
+/// starts behind the face of a wall reads 0.
 void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
                 RayDistances& distances);
 
+/// The same for any ring, which also says what a ray reads that starts behind a face.
+void meet_walls(const Body& self, const Ring& ring, double start_m, const Walls& walls,
+                double range_m, RayDistances& distances);
+
 /// Shortens the rays where they meet a solid of any form. A ray that starts inside of it does not
 /// meet it (simulator facts, section 4.1).
-void meet_solid(const Body& self, double start_m, const Form& form, const Body& at, double range_m,
-                RayDistances& distances);
+void meet_solid(const Body& self, const Ring& ring, double start_m, const Form& form,
+                const Body& at, double range_m, RayDistances& distances);
 
 /// The same for two RVRs, quicker.
 void meet_robot(const Body& self, const Body& other, double range_m, RayDistances& distances);

@@ -1,6 +1,7 @@
 #include "sim/engine/internal/robot_senses.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/control/labeler.h"
@@ -8,6 +9,7 @@
 #include "sim/engine/internal/float32.h"
 #include "sim/engine/internal/lidar.h"
 #include "sim/engine/internal/light.h"
+#include "sim/robot/robot_fields.h"
 
 namespace swarmsmith {
 namespace {
@@ -18,11 +20,38 @@ std::uint8_t noisy_channel(std::uint8_t value, double noise) {
   return static_cast<std::uint8_t>(std::clamp(static_cast<int>(raised), 0, 255));
 }
 
+/// gray_level of white.
+constexpr double kMostGray = 255'000;
+
 /// Whether this robot has trouble for the whole run, and so how often it misses a neighbour.
 double miss_rate_of_run(const NeighbourSensing& sensing, const Rng& run, int robot) {
   if (sensing.weak_share == 0) return sensing.miss_rate;
   Rng lot = run.split("weak neighbours", static_cast<std::uint64_t>(robot));
   return lot.bernoulli(sensing.weak_share) ? sensing.weak_miss_rate : sensing.miss_rate;
+}
+
+/// Uniform noise within the half width on up to eight values, then within [0, 1]. Four numbers of
+/// 16 bits come from one of the stream.
+void blur_strengths(std::span<double> values, double half_width, const NoiseStream& noise,
+                    std::int64_t cycle) {
+  if (half_width > 0) {
+    constexpr double kStep = 0x1.0p-16;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i % 4 == 0) bits = noise.at(2 * static_cast<std::uint64_t>(cycle) + i / 4).next();
+      const double share = (static_cast<double>(bits & 0xffffU) + 0.5) * kStep;
+      bits >>= 16U;
+      values[i] += half_width * (2 * share - 1);
+    }
+  }
+  for (double& value : values)
+    value = std::clamp(value, 0.0, 1.0);
+}
+
+/// How far proximity rays have to be followed.
+double ray_range_m(const ProximityRing& ring, const Profile& profile) {
+  return ring.reading == ProximityRing::Reading::Strength ? ring.reach_m
+                                                          : profile.proximity.range_m;
 }
 
 }  // namespace
@@ -33,8 +62,9 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       arena_(&arena),
       profile_(&profile),
       robot_(robot),
+      sight_(world, arena.wall_height_m),
       motion_(world.body(robot)),
-      proximity_rays_(world, robot, profile.proximity.range_m),
+      proximity_rays_(world, robot, ray_range_m(world.robot().proximity, profile)),
       proximity_noise_(profile.proximity, run, robot),
       distorts_proximity_(profile.float32_wire || profile.proximity.touch_is_nothing),
       ground_hold_{.beats = driver_beats(profile.timing.driver_sub_steps, run, robot),
@@ -44,15 +74,28 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
           .next = profile.neighbours.every_sub_steps == 0 ? Beats::kNever : 0},
       neighbour_miss_rate_(miss_rate_of_run(profile.neighbours, run, robot)) {
   const GroundColorSensing& ground = profile.ground_color;
-  if (ground.sd > 0) ground_noise_ = NoiseStream(run, "ground", robot);
+  if (ground.sd > 0 || ground.half_width > 0) ground_noise_ = NoiseStream(run, "ground", robot);
   if (ground.bias_sd > 0) {
     ground_bias_ = ground.bias_sd * NoiseStream(run, "ground bias", robot).normal(0);
   }
   if (profile.lidar.half_width_m > 0) lidar_noise_ = NoiseStream(run, "lidar", robot);
   if (neighbour_miss_rate_ > 0) neighbour_misses_ = NoiseStream(run, "neighbour misses", robot);
+  if (profile.light.half_width > 0) light_noise_ = NoiseStream(run, "light", robot);
+  if (profile.proximity.half_width > 0) strength_noise_ = NoiseStream(run, "strength", robot);
   readings_.neighbours.reserve(static_cast<std::size_t>(world.robots()));
   floor_ = floor_at(arena, floor_place_);
   read_at_beat(0);
+}
+
+void RobotSenses::remember(Sensors sensors) {
+  const Robot& robot = world_->robot();
+  if (sensors.has(Sensor::GroundColor) && robot.ground.reading == GroundSensor::Reading::Vote) {
+    remembered_ = remembered_ | Sensor::GroundColor;
+  }
+  if (sensors.has(Sensor::Neighbours) &&
+      robot.neighbours.source == NeighbourSensor::Source::Radio) {
+    remembered_ = remembered_ | Sensor::Neighbours;
+  }
 }
 
 void RobotSenses::read_at_beat(std::int64_t now) {
@@ -86,15 +129,36 @@ bool RobotSenses::is_due(Sensor sensor) {
 
 const ProximityReadings& RobotSenses::proximity() {
   if (is_due(Sensor::Proximity)) {
+    if (world_->robot().proximity.reading == ProximityRing::Reading::Strength) {
+      read_strengths();
+      return readings_.proximity_m;
+    }
     proximity_rays_.cast(readings_.proximity_m);
-    proximity_noise_.apply(readings_.proximity_m, cycle_.number);
+    proximity_noise_.apply(std::span(readings_.proximity_m).first(world_->proximity_ring().count),
+                           cycle_.number);
     if (distorts_proximity_) distort(readings_.proximity_m);
   }
   return readings_.proximity_m;
 }
 
+void RobotSenses::read_strengths() {
+  const ProximityRing& ring = world_->robot().proximity;
+  const std::size_t count = world_->proximity_ring().count;
+  ProximityReadings& readings = readings_.proximity_m;
+  proximity_rays_.cast(readings);
+  for (double& reading : readings) {
+    const double d = reading;
+    reading = d <= ring.reach_m ? ring.law[0] + (ring.law[1] + ring.law[2] * d) * d : 0;
+    reading = std::clamp(reading, 0.0, 1.0);
+  }
+  blur_strengths(std::span(readings).first(count), profile_->proximity.half_width, strength_noise_,
+                 cycle_.number);
+}
+
 FrontProximity RobotSenses::front_proximity() {
-  if (computed_.has(Sensor::Proximity)) return Senses::front_proximity();
+  if (computed_.has(Sensor::Proximity) ||
+      world_->robot().proximity.reading == ProximityRing::Reading::Strength)
+    return Senses::front_proximity();
   proximity_rays_.cast(front_m_);
   const auto front = std::span(front_m_).first<kFrontSensors>();
   proximity_noise_.apply(front, cycle_.number);
@@ -105,9 +169,14 @@ FrontProximity RobotSenses::front_proximity() {
 const Rgb& RobotSenses::ground_color() {
   Rgb& ground = readings_.ground_color;
   if (!is_due(Sensor::GroundColor)) return ground;
+  if (world_->robot().ground.reading == GroundSensor::Reading::Vote) {
+    count_votes();
+    return ground;
+  }
   const Body& body = world_->body(robot_);
-  const Point place = {body.x + kGroundSensorAhead_m * body.cos,
-                       body.y + kGroundSensorAhead_m * body.sin};
+  const Point& sensor = world_->robot().ground.places.front();
+  const Point place = {body.x + sensor.x * body.cos - sensor.y * body.sin,
+                       body.y + sensor.x * body.sin + sensor.y * body.cos};
   if (place != floor_place_) {  // robots often stand
     floor_place_ = place;
     floor_ = floor_at(*arena_, place);
@@ -120,6 +189,38 @@ const Rgb& RobotSenses::ground_color() {
   }
   if (sensing.labeler) ground = nearest_label(ground, sensing.labels);
   return ground;
+}
+
+void RobotSenses::count_votes() {
+  const GroundSensor& sensor = world_->robot().ground;
+  const Body& body = world_->body(robot_);
+  std::array<double, kMostGroundPoints> levels{};
+  const std::size_t count = std::min(sensor.places.size(), levels.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point& place = sensor.places[i];
+    const Rgb floor = floor_at(*arena_, {body.x + place.x * body.cos - place.y * body.sin,
+                                         body.y + place.x * body.sin + place.y * body.cos});
+    levels[i] = gray_level(floor) / kMostGray;
+  }
+  blur_strengths(std::span(levels).first(count), profile_->ground_color.half_width, ground_noise_,
+                 cycle_.number);
+  Votes now;
+  for (std::size_t i = 0; i < count; ++i) {
+    now.black += levels[i] < sensor.black_below ? 1 : 0;
+    now.white += levels[i] > sensor.white_above ? 1 : 0;
+  }
+  if (votes_.empty()) votes_.resize(static_cast<std::size_t>(sensor.vote_ticks));
+  Votes& oldest = votes_[static_cast<std::size_t>(cycle_.number) % votes_.size()];
+  vote_.black += now.black - oldest.black;
+  vote_.white += now.white - oldest.white;
+  oldest = now;
+  Rgb& ground = readings_.ground_color;
+  ground = {127, 127, 127};
+  if (vote_.black > sensor.vote_majority) {
+    ground = {0, 0, 0};
+  } else if (vote_.white > sensor.vote_majority) {
+    ground = {255, 255, 255};
+  }
 }
 
 void RobotSenses::blur(const Rgb& floor, Rgb& ground) const {
@@ -136,8 +237,12 @@ void RobotSenses::blur(const Rgb& floor, Rgb& ground) const {
 
 std::span<const Neighbour> RobotSenses::neighbours() {
   if (!is_due(Sensor::Neighbours)) return readings_.neighbours;
+  if (world_->robot().neighbours.source == NeighbourSensor::Source::Radio) {
+    receive_packets();
+    return readings_.neighbours;
+  }
   if (profile_->neighbours.source == NeighbourSensing::Source::Camera) {
-    find_neighbours(*world_, robot_, room_, readings_.neighbours);
+    find_neighbours(*world_, sight_, robot_, room_, readings_.neighbours);
     if (profile_->float32_wire) {
       for (Neighbour& seen : readings_.neighbours) {
         seen = {as_float32(seen.distance_m), as_float32(seen.direction_x),
@@ -146,13 +251,64 @@ std::span<const Neighbour> RobotSenses::neighbours() {
     }
   } else {
     turret_ranges_m_.resize(kLidarRays);
-    scan_turrets(*world_, robot_, turret_ranges_m_);
+    scan_turrets(*world_, sight_, robot_, turret_ranges_m_);
     add_lidar_noise(turret_ranges_m_, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
     round_scan(turret_ranges_m_);
     cluster_lidar(turret_ranges_m_, readings_.neighbours);
   }
   if (neighbour_miss_rate_ > 0) drop_missed_neighbours();
   return readings_.neighbours;
+}
+
+int RobotSenses::neighbour_count() {
+  neighbours();
+  const bool by_radio = world_->robot().neighbours.source == NeighbourSensor::Source::Radio;
+  return by_radio ? heard_ : static_cast<int>(readings_.neighbours.size());
+}
+
+/// Of each robot within range one packet is sent in a cycle; it is lost, or met on its way, or
+/// known until it is as old as the memory.
+void RobotSenses::receive_packets() {
+  const NeighbourSensor& radio = world_->robot().neighbours;
+  std::vector<Neighbour>& known = readings_.neighbours;
+  if (packets_.empty()) packets_.resize(static_cast<std::size_t>(radio.memory_ticks));
+  int& oldest = packets_[static_cast<std::size_t>(cycle_.number) % packets_.size()];
+  known.erase(known.begin(), known.begin() + oldest);
+  heard_ = 0;
+  // Sixteen bits of the stream decide on a packet, so that four senders share one of its numbers.
+  const auto lost_below = static_cast<std::uint64_t>(std::lround(neighbour_miss_rate_ * 65'536));
+  const auto groups = static_cast<std::uint64_t>(world_->robots() + 3) / 4;
+  const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * groups;
+  std::uint64_t group = groups;
+  std::uint64_t bits = 0;
+  const auto is_lost = [&](int other) {
+    const auto sender = static_cast<std::uint64_t>(other);
+    if (sender / 4 != group) {
+      group = sender / 4;
+      bits = neighbour_misses_.at(first + group).next();
+    }
+    return (bits >> (16 * (sender % 4)) & 0xffffU) < lost_below;
+  };
+  const auto take = [&](int other) {
+    if (other == robot_ || other >= world_->robots()) return;
+    if (lost_below > 0 && is_lost(other)) return;
+    if (world_->distance2(robot_, other) >= radio.range_m * radio.range_m) return;
+    if (sight_.is_hidden(robot_, other, between_)) return;
+    const Neighbour heard = neighbour_of(*world_, robot_, other);
+    // The e-puck's reference model takes a bearing of exactly 0 for no packet (epuck facts, 4.1).
+    if (heard.direction_y == 0 && heard.direction_x > 0) return;
+    known.push_back(heard);
+    ++heard_;
+  };
+  // Of few robots, most are lost before it matters where they are.
+  constexpr int kFew = 64;
+  if (world_->robots() <= kFew) {
+    for (int other = 0; other < world_->robots(); ++other)
+      take(other);
+  } else {
+    world_->visit_near(robot_, radio.range_m, room_, take);
+  }
+  oldest = heard_;
 }
 
 void RobotSenses::drop_missed_neighbours() {
@@ -168,7 +324,13 @@ void RobotSenses::drop_missed_neighbours() {
 }
 
 const LightReadings& RobotSenses::light() {
-  if (is_due(Sensor::LightRing)) readings_.light_lux = light_ring(*world_, *arena_, robot_);
+  if (is_due(Sensor::LightRing)) {
+    readings_.light_lux = light_ring(*world_, *arena_, robot_, room_);
+    if (world_->robot().light.reading == LightRing::Reading::Strength) {
+      blur_strengths(std::span(readings_.light_lux).first(world_->light_ring().count),
+                     profile_->light.half_width, light_noise_, cycle_.number);
+    }
+  }
   return readings_.light_lux;
 }
 

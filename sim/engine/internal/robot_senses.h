@@ -11,6 +11,7 @@
 #include "sim/engine/internal/noise_stream.h"
 #include "sim/engine/internal/proximity_noise.h"
 #include "sim/engine/internal/sensing.h"
+#include "sim/engine/internal/sight.h"
 #include "sim/engine/internal/world.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
@@ -18,12 +19,9 @@
 
 namespace swarmsmith {
 
-/// The place of the ground sensor, ahead of the centre (rvr-automode facts, section 3.2).
-inline constexpr double kGroundSensorAhead_m = 0.05;
-
 /// One robot's sensors in the simulated world, each computed when first asked for in a cycle.
 ///
-/// Ground colour (thesis 4.2.1): the floor 0.05 m ahead of the centre, plus a bias of robot and run
+/// Ground colour (thesis 4.2.1): the floor under the sensor, plus a bias of robot and run
 /// and normal noise a channel, rounded, clamped to 0..255, then labelled (eq. 3.1, 3.2) where the
 /// profile says so. Neighbours (thesis 5.1): by camera or from the lidar's clusters, less those
 /// that are missed (thesis 7.1). The others: motion_sensors.h, light.h, proximity_noise.h, lidar.h.
@@ -36,6 +34,11 @@ class RobotSenses final : public SimulatedSenses {
   /// The robot stands at its start. World, arena and profile must outlive the object.
   RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
               const Rng& run);
+
+  /// From now on these are read in each cycle where they are made of several cycles' readings
+  /// (GroundSensor::Reading::Vote, NeighbourSensor::Source::Radio): call it before the first one
+  /// with all that will be asked for. Others are read when asked for.
+  void remember(Sensors sensors);
 
   /// A control cycle of this robot.
   struct Cycle {
@@ -51,6 +54,8 @@ class RobotSenses final : public SimulatedSenses {
     cycle_.acted.left_mps = cycle.acted.left_mps;
     cycle_.acted.right_mps = cycle.acted.right_mps;
     computed_ = held_;
+    if (!remembered_.empty()) [[unlikely]]
+      read(remembered_);
   }
 
   /// When it next reads what it holds from one beat to the next; Beats::kNever when it holds
@@ -64,6 +69,7 @@ class RobotSenses final : public SimulatedSenses {
   FrontProximity front_proximity() override;
   const Rgb& ground_color() override;
   std::span<const Neighbour> neighbours() override;
+  int neighbour_count() override;
   const LightReadings& light() override;
   double time_s() override { return cycle_.time_s; }
 
@@ -84,6 +90,9 @@ class RobotSenses final : public SimulatedSenses {
   void distort(std::span<double> proximity) const;
   /// Whether the sensor has not been read in this cycle; it counts as read from now on.
   bool is_due(Sensor sensor);
+  void read_strengths();
+  void count_votes();
+  void receive_packets();
   /// What the ground sensor makes of the floor in this cycle, by its bias and noise.
   void blur(const Rgb& floor, Rgb& ground) const;
   void read_motion(Sensors sensors);
@@ -95,10 +104,13 @@ class RobotSenses final : public SimulatedSenses {
   const Arena* arena_;
   const Profile* profile_;
   int robot_;
+  Sight sight_;
   MotionSensors motion_;
   ProximityRays proximity_rays_;
   ProximityNoise proximity_noise_;
+  NoiseStream strength_noise_;
   NoiseStream ground_noise_;
+  NoiseStream light_noise_;
   NoiseStream lidar_noise_;
   NoiseStream neighbour_misses_;
   bool distorts_proximity_;
@@ -110,11 +122,24 @@ class RobotSenses final : public SimulatedSenses {
   Cycle cycle_;
   Sensors computed_;  ///< the others' readings are of an earlier cycle
   Readings readings_;
-  RayDistances front_m_{};  ///< front_proximity's, of which the first ones are readings
-  std::vector<int> room_;   ///< for numbers of movers
-  Point floor_place_;       ///< where the floor was last looked up, and what colour it has there
+  RayDistances front_m_{};    ///< front_proximity's, of which the first ones are readings
+  std::vector<int> room_;     ///< for numbers of movers
+  std::vector<int> between_;  ///< the same, while room_ is in use
+  Point floor_place_;         ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
   std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
+
+  Sensors remembered_;
+  /// How many points were black, and white, in each of the last cycles, and in all of them.
+  struct Votes {
+    int black = 0;
+    int white = 0;
+  };
+  std::vector<Votes> votes_;
+  Votes vote_;
+  /// How many of the packets in `readings_.neighbours` came in each of the last cycles.
+  std::vector<int> packets_;
+  int heard_ = 0;  ///< in this cycle
 };
 
 }  // namespace swarmsmith

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/engine/internal/rays.h"
+#include "sim/engine/internal/sight.h"
 #include "sim/engine/internal/world.h"
 
 namespace swarmsmith {
@@ -28,6 +29,7 @@ class ProximityRays {
   int robot_;
   double range_m_;
   double start_m_;
+  bool along_lines_;  ///< its ring is the RVR's: there are quicker ways
   Body looked_from_;
   Walls walls_;  ///< those near that place
   std::vector<const FixedSolid*> obstacles_;
@@ -37,9 +39,13 @@ class ProximityRays {
 /// The same, once.
 RayDistances ray_distances(const World& world, int robot, double range_m);
 
-/// The robots nearer than 0.75 m as an omnidirectional camera sees them, in the order of their
-/// numbers; replaces what was in `found`. `room` is room to work in.
-void find_neighbours(const World& world, int robot, std::vector<int>& room,
+/// The robots within the range of its sensor as an omnidirectional camera sees them, in the order
+/// of their numbers, but for those that are hidden; replaces what was in `found`. `room` is room to
+/// work in.
+void find_neighbours(const World& world, const Sight& sight, int robot, std::vector<int>& room,
                      std::vector<Neighbour>& found);
+
+/// Another robot as a sensor on the robot's axis has it, as NeighbourSensor says.
+Neighbour neighbour_of(const World& world, int robot, int other);
 
 }  // namespace swarmsmith

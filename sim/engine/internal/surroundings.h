@@ -11,6 +11,7 @@ namespace swarmsmith {
 struct Surroundings {
   Walls walls;
   std::vector<FixedSolid> obstacles;
+  double friction = kFriction;  ///< as MoverKind::friction
 };
 
 Surroundings surroundings_of(const Arena& arena);

@@ -8,10 +8,30 @@
 namespace swarmsmith {
 namespace {
 
-std::vector<MoverKind> kinds_of(const Arena& arena, const Outline& robot) {
+/// Of walls and all else that robots meet, so that its mean with theirs is what the robot says.
+double surface_friction(const RobotBody& robot) {
+  if (robot.robot_friction == robot.wall_friction || robot.robot_friction == 0) {
+    return robot.wall_friction;
+  }
+  return robot.wall_friction * robot.wall_friction / robot.robot_friction;
+}
+
+Surroundings surroundings_of(const Arena& arena, const Robot& robot) {
+  Surroundings surroundings = surroundings_of(arena);
+  surroundings.friction = surface_friction(robot.body);
+  return surroundings;
+}
+
+Ring proximity_ring_of(const Robot& robot) {
+  Ring ring = ring_of(robot.proximity.rays_deg);
+  ring.touches_walls = robot.proximity.reading == ProximityRing::Reading::Distance;
+  return ring;
+}
+
+std::vector<MoverKind> kinds_of(const Arena& arena, const Robot& robot) {
   std::vector<MoverKind> kinds = {robot_kind(robot)};
   for (const MovableObject& object : arena.objects)
-    kinds.push_back(object_kind(object));
+    kinds.push_back(object_kind(object, surface_friction(robot.body)));
   return kinds;
 }
 
@@ -37,13 +57,34 @@ double largest_radius_of(const std::vector<MoverKind>& kinds) {
 
 }  // namespace
 
-bool has_squares_alone(const Arena& arena, const Outline& robot) {
-  return walls_of(arena).convex && robot_kind(robot).form.is_rvr && arena.objects.empty();
+bool has_squares_alone(const Arena& arena, const Robot& robot) {
+  return walls_of(arena).convex && robot_kind(robot) == rvr_kind() && arena.objects.empty();
 }
 
-World::World(const Arena& arena, const Outline& robot, std::span<const Pose> starts,
+bool has_discs_alone(const Arena& arena, const Robot& robot) {
+  return std::holds_alternative<CircleOutline>(robot.body.outline) && arena.objects.empty() &&
+         robot != rvr_with(robot.body.outline);
+}
+
+namespace {
+
+std::unique_ptr<ContactSolver> solver_of(ContactModel contacts, const Arena& arena,
+                                         const Robot& robot, const Surroundings& surroundings) {
+  if (contacts == ContactModel::Exact && has_discs_alone(arena, robot)) {
+    return make_disc_solver(surroundings, robot.body.robot_friction, robot.body.wall_friction);
+  }
+  return make_contact_solver(contacts, has_squares_alone(arena, robot), surroundings);
+}
+
+}  // namespace
+
+World::World(const Arena& arena, const Robot& robot, std::span<const Pose> starts,
              ContactModel contacts)
-    : surroundings_(surroundings_of(arena)),
+    : robot_(robot),
+      proximity_ring_(proximity_ring_of(robot)),
+      light_ring_(robot.light.angles_deg.empty() ? proximity_ring_
+                                                 : ring_of(robot.light.angles_deg)),
+      surroundings_(surroundings_of(arena, robot)),
       robots_(static_cast<int>(starts.size())),
       kinds_(kinds_of(arena, robot)),
       movers_(movers_of(arena, starts, kinds_)),
@@ -52,7 +93,7 @@ World::World(const Arena& arena, const Outline& robot, std::span<const Pose> sta
       largest_radius_m_(largest_radius_of(kinds_)),
       places_(movers_.size()),
       reach_(surroundings_, movers_.size(), largest_radius_m_),
-      solver_(make_contact_solver(contacts, squares_, surroundings_)) {
+      solver_(solver_of(contacts, arena, robot, surroundings_)) {
   places_.update(movers_);
 }
 

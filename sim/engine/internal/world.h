@@ -10,26 +10,36 @@
 #include "sim/engine/internal/mover.h"
 #include "sim/engine/internal/places.h"
 #include "sim/engine/internal/reach.h"
+#include "sim/engine/internal/ring.h"
 #include "sim/engine/internal/surroundings.h"
 #include "sim/mission/arena.h"
 #include "sim/mission/pose.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
-/// Whether nothing moves but robots that are squares of the RVR's side, in a convex arena: then the
-/// exact contact model has its own solver, else Box2D plays it.
-bool has_squares_alone(const Arena& arena, const Outline& robot);
+/// Whether nothing moves but robots of the RVR's body and drive, in a convex arena: then the exact
+/// contact model has its own solver, else Box2D plays it.
+bool has_squares_alone(const Arena& arena, const Robot& robot);
+
+/// Whether nothing moves but discs that are not the RVR with another outline: then the exact
+/// contact model has a solver, too.
+bool has_discs_alone(const Arena& arena, const Robot& robot);
 
 /// Bodies, walls and the law of motion: what there is besides sensors and control software. Time
 /// counts in sub-steps of 10 ms. Movers are the robots, 0 to robots() - 1, and behind them the
 /// arena's movable objects.
 class World {
  public:
-  World(const Arena& arena, const Outline& robot, std::span<const Pose> starts,
+  World(const Arena& arena, const Robot& robot, std::span<const Pose> starts,
         ContactModel contacts);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// What each of the robots is.
+  const Robot& robot() const { return robot_; }
+  const Ring& proximity_ring() const { return proximity_ring_; }
+  const Ring& light_ring() const { return light_ring_; }
   int robots() const { return robots_; }
   int movers() const { return static_cast<int>(movers_.size()); }
   const Body& body(int mover) const { return movers_[static_cast<std::size_t>(mover)].body; }
@@ -37,7 +47,7 @@ class World {
   const Form& form(int mover) const { return movers_[static_cast<std::size_t>(mover)].form(); }
   const Walls& walls() const { return surroundings_.walls; }
   std::span<const FixedSolid> obstacles() const { return surroundings_.obstacles; }
-  /// Only robots that are squares of the RVR's side, and walls around a convex arena.
+  /// Only robots of the RVR's body, and walls around a convex arena.
   bool is_plain() const { return plain_; }
   /// Square of the distance between two centres, now.
   double distance2(int mover, int other) const { return distance2_of(body(mover), body(other)); }
@@ -53,7 +63,7 @@ class World {
   /// From now on the robot's drive steers towards the command, along its present heading.
   void command(int robot, const Command& command) {
     Mover& mover = movers_[static_cast<std::size_t>(robot)];
-    mover.set_point = set_point_of(command, mover.body);
+    mover.set_point = set_point_of(command, mover.body, robot_.drive.track_m);
     speed_limit_mps_ = std::max(
         speed_limit_mps_, std::max(std::fabs(command.left_mps), std::fabs(command.right_mps)));
   }
@@ -76,6 +86,9 @@ class World {
  private:
   void take_note(const Island& island, int sub_steps);
 
+  Robot robot_;
+  Ring proximity_ring_;
+  Ring light_ring_;
   Surroundings surroundings_;
   int robots_;
   std::vector<MoverKind> kinds_;  ///< the robots', then those of the objects

@@ -71,19 +71,27 @@ std::string point_list(const std::vector<Point>& points) {
          "]";
 }
 
-std::string outline_text(const Outline& outline) {
+std::vector<SectionLine> outline_lines(const Outline& outline) {
+  using Lines = std::vector<SectionLine>;
   return std::visit(
-      Overloaded{[](const CircleOutline& circle) {
-                   return "shape = \"circle\", diameter = " + number_text(2 * circle.radius_m);
-                 },
-                 [](const BoxOutline& box) {
-                   return "shape = \"box\", length = " + number_text(box.length_m) +
-                          ", width = " + number_text(box.width_m);
-                 },
-                 [](const PolygonOutline& polygon) {
-                   return "shape = \"polygon\", corners = " + point_list(polygon.corners);
-                 }},
+      Overloaded{
+          [](const CircleOutline& circle) {
+            return Lines{{"shape", "\"circle\""}, {"diameter", number_text(2 * circle.radius_m)}};
+          },
+          [](const BoxOutline& box) {
+            return Lines{{"shape", "\"box\""},
+                         {"length", number_text(box.length_m)},
+                         {"width", number_text(box.width_m)}};
+          },
+          [](const PolygonOutline& polygon) {
+            return Lines{{"shape", "\"polygon\""}, {"corners", point_list(polygon.corners)}};
+          }},
       outline);
+}
+
+std::string outline_text(const Outline& outline) {
+  return list_of(outline_lines(outline),
+                 [](const SectionLine& line) { return line.key + " = " + line.value; });
 }
 
 std::string pose_text(const Pose& pose) {

@@ -17,6 +17,9 @@ std::string point_list(const std::vector<Point>& points);
 /// The keys of an outline: `shape = "box", length = 1, width = 0.5`.
 std::string outline_text(const Outline& outline);
 
+/// The same, a line each.
+std::vector<SectionLine> outline_lines(const Outline& outline);
+
 /// x, y and theta.
 std::string pose_text(const Pose& pose);
 

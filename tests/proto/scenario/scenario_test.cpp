@@ -117,7 +117,7 @@ TEST(Scenarios, SayWhatIsWrongAndWhere) {
       {"`duration`", [](auto& s) { s.missions[1].cycles = 0; }},
       {"`duration`", [](auto& s) { s.missions[1].cycles = 2'000'000; }},
       {"`robots`", [](auto& s) { s.missions[0].robots = 0; }},
-      {"`diameter`", [](auto& s) { s.missions[0].body = CircleOutline{0}; }},
+      {"`diameter`", [](auto& s) { s.missions[0].robot.body.outline = CircleOutline{0}; }},
       {"a polygon has at least 3", [](auto& s) { s.missions[0].arena.walls.resize(2); }},
       {"`side`", [](auto& s) { s.missions[0].rule = Coverage{.side_m = std::nan("")}; }},
       {"`sd`", [](auto& s) { s.profile.proximity.sd_m = -1; }},

@@ -24,7 +24,8 @@ TEST(Flavour, AnUnknownNameListsTheKnownOnes) {
   ASSERT_FALSE(flavour.has_value());
   EXPECT_EQ(flavour.error().kind, ErrorKind::NotFound);
   EXPECT_EQ(flavour.error().message,
-            "there is no flavour `melon`; known are: watermelon, watermelon-argos3, chocolate");
+            "there is no flavour `melon`; known are: watermelon, watermelon-argos3, chocolate, "
+            "chocolate-epuck");
   EXPECT_THAT(find_flavour("chocolat").error().message,
               HasSubstr("`chocolat` (did you mean \"chocolate\"?); known are: "));
 }

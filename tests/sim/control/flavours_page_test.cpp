@@ -31,6 +31,8 @@ std::vector<std::pair<std::string, Text>> constants() {
       {"speed_mps", [](F f) { return short_text(f.speed_mps); }},
       {"obstacles.reading",
        [](F f) {
+         if (f.obstacles.reading == ObstacleModel::Reading::Strength)
+           return std::string("strength");
          const bool linear = f.obstacles.reading == ObstacleModel::Reading::Linear;
          return std::string(linear ? "linear" : "1/d");
        }},
@@ -61,9 +63,16 @@ std::vector<std::pair<std::string, Text>> constants() {
       {"neighbours.repulsion_gain", [](F f) { return short_text(f.neighbours.repulsion_gain); }},
       {"light.full_lux",
        [](F f) { return f.find(Module::Phototaxis) ? short_text(f.light.full_lux) : "-"; }},
+      {"light.law",
+       [](F f) {
+         const bool sum = f.light.law == LightModel::Law::Sum;
+         return std::string(!f.find(Module::Phototaxis) ? "-" : sum ? "sum" : "all or nothing");
+       }},
       {"light.least_vector",
        [](F f) { return f.find(Module::Phototaxis) ? short_text(f.light.least_vector) : "-"; }},
       {"steering.obstacle_gain", [](F f) { return short_text(f.steering.obstacle_gain); }},
+      {"steering.attraction_obstacle_gain",
+       [](F f) { return short_text(f.steering.attraction_obstacle_gain); }},
       {"steering.forward_by_default", [](F f) { return yes_no(f.steering.forward_by_default); }},
       {"steering.shortest_result", [](F f) { return short_text(f.steering.shortest_result); }},
       {"floor.black", [range](F f) { return range(f.floor.black); }},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -11,15 +12,17 @@
 #include <vector>
 
 #include "sim/control/used_senses.h"
+#include "sim/engine/fitting.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
 
 constexpr std::array kMissions = {"aggregation", "grid_exploration", "color_selection"};
-constexpr std::array kProfiles = {"argos3", "rvr", "pseudo-reality", "thesis-robots"};
+constexpr std::array kProfiles = {"argos3", "rvr", "pseudo-reality", "thesis-robots", "epuck"};
 
 /// One of each architecture, of modules that all flavours have; together they ask for every sensor
 /// that the flavour's modules know.
@@ -60,6 +63,7 @@ class TravelledSenses final : public Senses {
     if (used.neighbours) {
       const std::span<const Neighbour> seen = question.senses.neighbours();
       neighbours_.assign(seen.begin(), seen.end());
+      count_ = question.senses.neighbour_count();
     }
     if (used.ground_color) ground_ = question.senses.ground_color();
     if (used.proximity) proximity_ = question.senses.proximity();
@@ -77,6 +81,10 @@ class TravelledSenses final : public Senses {
     need(used_.neighbours, "neighbours");
     return neighbours_;
   }
+  int neighbour_count() override {
+    need(used_.neighbours, "neighbours");
+    return count_;
+  }
   const LightReadings& light() override {
     need(used_.light, "light");
     return light_;
@@ -93,6 +101,7 @@ class TravelledSenses final : public Senses {
   ProximityReadings proximity_{};
   Rgb ground_;
   std::vector<Neighbour> neighbours_;
+  int count_ = 0;
   LightReadings light_{};
 };
 
@@ -101,9 +110,10 @@ class OtherSide : public Decider {
  public:
   OtherSide(const SimulationSetup& setup)
       : used_(senses_used_by(setup.controller, setup.flavour)),
+        flavour_(fitted(setup.flavour, setup.mission.robot)),
         answers_(setup.instance.starts.size()) {
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      controls_.emplace_back(setup.controller, setup.flavour,
+      controls_.emplace_back(setup.controller, flavour_,
                              control_stream(setup.seed, static_cast<int>(i)));
     }
   }
@@ -128,6 +138,7 @@ class OtherSide : public Decider {
 
  private:
   UsedSenses used_;
+  Flavour flavour_;
   std::vector<ControlSoftware> controls_;
   std::vector<std::optional<Answer>> answers_;
 };
@@ -159,9 +170,11 @@ TEST(Decider, TheSameControlSoftwareBehindItGivesTheSameBits) {
     mission.arena.lights.push_back({.x_m = 0.4, .y_m = -0.8, .z_m = 0.75, .intensity_cd = 900});
     const Instance instance = instance_of(mission, 17).value();
     for (const Flavour* flavour : not_empty(all_flavours())) {
+      mission.robot = misfit(*flavour, rvr()) ? find_robot("epuck", "").value() : rvr();
       const std::vector<Controller> all = controllers(*flavour);
       for (const char* profile_name : kProfiles) {
         const Profile profile = built_in_profile(profile_name).value();
+        if (misfit(profile, mission.robot)) continue;
         // Of 800 cycles a second 20 s are enough.
         mission.cycles = profile.timing.most_period < 0.1 ? 200 : 1200;
         for (const Controller& controller : all) {

@@ -47,9 +47,9 @@ TEST(Forms, APolygonsMeansAreThoseOfManyPoints) {
 }
 
 TEST(Movers, TheRvrKeepsItsNumbersAndOtherOutlinesItsMassAndDrive) {
-  EXPECT_EQ(robot_kind(BoxOutline{kBodySide_m, kBodySide_m}), rvr_kind());
+  EXPECT_EQ(robot_kind(rvr()), rvr_kind());
   EXPECT_EQ(rvr_kind().dynamics, Dynamics{});
-  const Dynamics round = robot_kind(CircleOutline{0.1}).dynamics;
+  const Dynamics round = robot_kind(rvr_with(CircleOutline{0.1})).dynamics;
   EXPECT_EQ(round.mass_kg, kMass_kg);
   EXPECT_DOUBLE_EQ(round.inertia_kg_m2, 0.01);
   EXPECT_EQ(round.speed_step_mps, kSpeedStep_mps);

@@ -20,7 +20,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const BoxOutline kRvr = {kBodySide_m, kBodySide_m};
+const Robot kRvr = rvr();
 
 std::vector<double> scan(const World& world, int robot) {
   std::vector<double> ranges(kLidarRays, -1);
@@ -30,7 +30,7 @@ std::vector<double> scan(const World& world, int robot) {
 
 std::vector<double> turrets(const World& world, int robot) {
   std::vector<double> ranges(kLidarRays, -1);
-  scan_turrets(world, robot, ranges);
+  scan_turrets(world, Sight(world, kWallHeight_m), robot, ranges);
   return ranges;
 }
 
@@ -201,14 +201,15 @@ TEST(Lidar, HasTheBitsOfThePlainLawAmongObstaclesObjectsAndWallsThatAreNotConvex
   Arena arena = notched_arena();
   furnish(arena);
   const PolygonOutline triangle{{{0.1, 0}, {-0.05, 0.08}, {-0.05, -0.08}}};
-  const std::array<Outline, 4> outlines = {kRvr, CircleOutline{0.09}, BoxOutline{0.3, 0.2},
-                                           triangle};
+  const std::array<Outline, 4> outlines = {kRvr.body.outline, CircleOutline{0.09},
+                                           BoxOutline{0.3, 0.2}, triangle};
   Rng rng(7);
   for (std::size_t i = 0; i < 100; ++i) {
     std::vector<Pose> poses;
     while (poses.size() < 4)
       poses.push_back({rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-kPi, kPi)});
-    expect_bits_of_plain_scan(World(arena, outlines[i % 4], poses, ContactModel::Box2d), arena);
+    expect_bits_of_plain_scan(World(arena, rvr_with(outlines[i % 4]), poses, ContactModel::Box2d),
+                              arena);
   }
 }
 
@@ -220,8 +221,8 @@ TEST(Lidar, MeetsObstaclesObjectsAndWallsThatAreNotConvex) {
     const std::vector<Pose> poses = {
         {rng.uniform(-0.1, 0.1), rng.uniform(-0.25, -0.1), rng.uniform(-kPi, kPi)},
         {rng.uniform(-0.6, -0.4), rng.uniform(0.0, 0.1), rng.uniform(-kPi, kPi)}};
-    expect_plain_scan(World(arena, CircleOutline{0.09}, poses, ContactModel::Box2d), arena,
-                      poses[0]);
+    expect_plain_scan(World(arena, rvr_with(CircleOutline{0.09}), poses, ContactModel::Box2d),
+                      arena, poses[0]);
   }
 }
 

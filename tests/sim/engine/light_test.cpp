@@ -23,11 +23,12 @@ struct Scene {
   Arena arena = square();
   std::vector<Pose> poses = {{0, 0, 0}};
 
-  World world() const {
-    return World(arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Box2d);
-  }
+  World world() const { return World(arena, rvr(), poses, ContactModel::Box2d); }
   double front() const { return front_light(world(), arena, 0); }
-  LightReadings ring() const { return light_ring(world(), arena, 0); }
+  LightReadings ring() const {
+    std::vector<int> room;
+    return light_ring(world(), arena, 0, room);
+  }
   bool occluded(const SpacePoint& sensor, const SpacePoint& light) const {
     return is_occluded(world(), arena.wall_height_m, 0, sensor, light);
   }

@@ -29,8 +29,7 @@ OpenLoop drive_again(const LoggedRun& log) {
   std::array<Pose, 3> starts;
   for (std::size_t robot = 0; robot < 3; ++robot)
     starts[robot] = log[0][robot].pose;
-  World world(dodecagon_of_the_thesis(), BoxOutline{kBodySide_m, kBodySide_m}, starts,
-              ContactModel::Exact);
+  World world(dodecagon_of_the_thesis(), rvr(), starts, ContactModel::Exact);
   OpenLoop result{.poses = {starts}, .first_contact = static_cast<int>(log.size()) - 1};
   bool touched = false;
   for (std::size_t tick = 1; tick < log.size(); ++tick) {

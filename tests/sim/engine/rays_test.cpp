@@ -62,6 +62,8 @@ TEST_P(RaysAtRange, MeetTheWallsOfAConvexArenaAsThePlainWayDoes) {
     RayDistances distances = nothing();
     meet_walls(self, kRayStart_m, walls, GetParam(), distances);
     expect_same(distances, plain_distances(self, arena.walls), GetParam());
+    meet_walls(self, ring_of(ProximityRing::rvr_ring()), kRayStart_m, walls, GetParam(), distances);
+    expect_same(distances, plain_distances(self, arena.walls), GetParam());
   }
 }
 
@@ -75,6 +77,8 @@ TEST_P(RaysAtRange, MeetTheNearestWallOfANotchedArena) {
         body_at({rng.uniform(-0.4, 0.3), rng.uniform(-0.3, 0.0), rng.uniform(-kPi, kPi)});
     RayDistances distances = nothing();
     meet_walls(self, kRayStart_m, walls, GetParam(), distances);
+    expect_same(distances, plain_distances(self, arena.walls), GetParam());
+    meet_walls(self, ring_of(ProximityRing::rvr_ring()), kRayStart_m, walls, GetParam(), distances);
     expect_same(distances, plain_distances(self, arena.walls), GetParam());
   }
 }
@@ -105,7 +109,7 @@ TEST(Rays, MeetASquareLikeAnyOtherSolid) {
     RayDistances quick = nothing();
     meet_robot(self, other, 0.4, quick);
     RayDistances general = nothing();
-    meet_solid(self, kRayStart_m, kRvr, other, 0.4, general);
+    meet_solid(self, ring_of(ProximityRing::rvr_ring()), kRayStart_m, kRvr, other, 0.4, general);
     expect_same(general, quick, 0.4);
   }
 }
@@ -120,7 +124,7 @@ void expect_plain_distances_among_things(const Outline& robot, std::uint64_t see
     const std::vector<Pose> poses = {
         {rng.uniform(-0.1, 0.1), rng.uniform(-0.25, -0.1), rng.uniform(-kPi, kPi)},
         {rng.uniform(-0.6, -0.4), rng.uniform(0.0, 0.1), rng.uniform(-kPi, kPi)}};
-    const World world(arena, robot, poses, ContactModel::Box2d);
+    const World world(arena, rvr_with(robot), poses, ContactModel::Box2d);
     const double out = world.form(0).inradius_m;
     const RayDistances distances = ray_distances(world, 0, 0.4);
     RayDistances want;
@@ -141,7 +145,7 @@ TEST(Rays, WhatIsKeptInMindOfWallsAndObstaclesChangesNoDistance) {
   furnish(arena);
   const std::vector<Pose> starts = {{0, -0.2, 0.3}, {-0.5, 0.05, 2}};
   for (const bool fast : {false, true}) {
-    World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, starts, ContactModel::Box2d);
+    World world(arena, rvr(), starts, ContactModel::Box2d);
     ProximityRays rays(world, 0, 0.4);
     Rng rng(3);
     for (int cycle = 0; cycle < 500; ++cycle) {
@@ -169,15 +173,16 @@ TEST(Rays, OfPolygonsStartOnTheInscribedCircle) {
 }
 
 TEST(Rays, StartOnTheInscribedCircle) {
-  EXPECT_EQ(ray_start_m(kRvr), 0.143);
-  EXPECT_DOUBLE_EQ(ray_start_m(form_of(BoxOutline{0.4, 0.2}, 0.1)), 0.1);
-  EXPECT_EQ(ray_start_m(form_of(CircleOutline{0.09}, 0.1)), 0.09);
+  EXPECT_EQ(ray_start_m({}, kRvr), 0.143);
+  EXPECT_DOUBLE_EQ(ray_start_m({}, form_of(BoxOutline{0.4, 0.2}, 0.1)), 0.1);
+  EXPECT_EQ(ray_start_m({}, form_of(CircleOutline{0.09}, 0.1)), 0.09);
 }
 
 TEST(Rays, ThatStartInsideASolidDoNotMeetIt) {
   const Body self = body_at({0, 0, 0});
   RayDistances distances = nothing();
-  meet_solid(self, 0.143, form_of(CircleOutline{0.1}, 0.1), body_at({0.2, 0, 0}), 2, distances);
+  meet_solid(self, ring_of(ProximityRing::rvr_ring()), 0.143, form_of(CircleOutline{0.1}, 0.1),
+             body_at({0.2, 0, 0}), 2, distances);
   EXPECT_EQ(distances[1], kInfinity);
 }
 

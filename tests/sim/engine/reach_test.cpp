@@ -188,7 +188,7 @@ TEST_P(ReachAmongSolids, MoversItCallsFreeMoveAsIfTheSolverRanEverywhere) {
   Rng rng(static_cast<std::uint64_t>(GetParam()));
   const std::vector<Outline> outlines = {CircleOutline{0.12}, BoxOutline{0.25, 0.1},
                                          PolygonOutline{{{0.2, 0}, {-0.1, 0.1}, {-0.1, -0.1}}}};
-  const MoverKind robot = robot_kind(outlines[rng.below(3)]);
+  const MoverKind robot = robot_kind(rvr_with(outlines[rng.below(3)]));
   const MoverKind object = object_kind(
       {.outline = outlines[rng.below(3)], .start = {}, .mass_kg = 0.3, .friction_N = 0.4});
   Scene scene{.around = bent_room_with_obstacles(), .robots = {}};

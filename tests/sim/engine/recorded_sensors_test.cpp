@@ -20,7 +20,7 @@ struct RichScene {
   Arena arena = dodecagon_of_the_thesis();
   std::vector<Pose> poses = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.6, 0}};
   Profile profile = built_in_profile("pseudo-reality").value();
-  World world{arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact};
+  World world{arena, rvr(), poses, ContactModel::Exact};
 
   RichScene() {
     profile.neighbours.source = NeighbourSensing::Source::Lidar;

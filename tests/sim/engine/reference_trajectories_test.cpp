@@ -40,7 +40,7 @@ constexpr double kRayLength_m = 2.0;
 std::vector<Readings> readings_at(const Poses& poses, const Arena& arena, double range_m) {
   Profile profile;
   profile.proximity.range_m = range_m;
-  const World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact);
+  const World world(arena, rvr(), poses, ContactModel::Exact);
   std::vector<Readings> all;
   for (int robot = 0; robot < world.robots(); ++robot) {
     RobotSenses senses(world, arena, profile, robot, Rng(1));

@@ -19,7 +19,7 @@ struct Scene {
   Arena arena = dodecagon_of_the_thesis();
   std::vector<Pose> poses = {{0, 0, 0}, {0.5, 0, 0}, {0, -1, kPi}};
   Profile profile;
-  World world{arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact};
+  World world{arena, rvr(), poses, ContactModel::Exact};
 
   RobotSenses senses(int robot, std::uint64_t seed = 1) const {
     return RobotSenses(world, arena, profile, robot, Rng(seed));
@@ -40,6 +40,28 @@ TEST(RobotSenses, ReadWhatIsThere) {
   EXPECT_DOUBLE_EQ(senses.neighbours()[0].direction_x, 1);
 }
 
+TEST(RobotSenses, DoNotSeeNeighboursBehindWhatIsAsHighAsTheCamera) {
+  const std::vector<Pose> poses = {{0, 0, 0}, {0.6, 0, 0}, {0, 0.6, 0}};
+  Profile profile;
+  const auto seen = [&](Arena arena) {
+    const World world(arena, rvr(), poses, ContactModel::Exact);
+    RobotSenses senses(world, arena, profile, 0, Rng(1));
+    senses.begin_cycle({.number = 1});
+    return senses.neighbours().size();
+  };
+  for (const auto source : {NeighbourSensing::Source::Camera, NeighbourSensing::Source::Lidar}) {
+    profile.neighbours.source = source;
+    Arena arena = dodecagon_of_the_thesis();
+    EXPECT_EQ(seen(arena), 2);
+    arena.obstacles = {{.outline = BoxOutline{0.02, 0.3}, .pose = {0.3, 0, 0}, .height_m = 0.16}};
+    EXPECT_EQ(seen(arena), 1);
+    arena.obstacles[0].height_m = 0.15;
+    EXPECT_EQ(seen(arena), 2);
+    arena.objects = {{.outline = CircleOutline{0.05}, .start = {0, 0.3, 0}, .height_m = 0.154}};
+    EXPECT_EQ(seen(arena), 1);
+  }
+}
+
 TEST(RobotSenses, RaysPassOverWhatIsLow) {
   const std::vector<Pose> poses = {{0, 0, 0}};
   Arena arena = dodecagon_of_the_thesis();
@@ -49,7 +71,7 @@ TEST(RobotSenses, RaysPassOverWhatIsLow) {
   const auto look = [&](double height_m) {
     arena.obstacles[0].height_m = height_m;
     arena.objects[0].height_m = height_m;
-    const World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact);
+    const World world(arena, rvr(), poses, ContactModel::Exact);
     RobotSenses senses(world, arena, profile, 0, Rng(1));
     senses.begin_cycle({.number = 1});
     return senses.read(Sensor::Proximity | Sensor::Lidar);

@@ -18,7 +18,7 @@ struct Scene {
   Arena arena = dodecagon_of_the_thesis();
   std::vector<Pose> poses = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.6, 0}};
   Profile profile;
-  World world{arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact};
+  World world{arena, rvr(), poses, ContactModel::Exact};
 
   RobotSenses senses(std::uint64_t seed = 1, int robot = 0) const {
     return RobotSenses(world, arena, profile, robot, Rng(seed));

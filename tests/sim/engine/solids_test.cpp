@@ -15,7 +15,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr BoxOutline kRvr = {kBodySide_m, kBodySide_m};
+const Robot kRvr = rvr();
 /// The RVR's highest wheel speed, m/s (thesis facts, section 5).
 constexpr double kFullSpeed_mps = 1.55;
 
@@ -67,7 +67,7 @@ TEST(Solids, OnlyPlainWorldsArePlain) {
   const std::vector<Pose> starts = {{0, 0, 0}};
   EXPECT_TRUE(World(room(), kRvr, starts, ContactModel::Exact).is_plain());
   EXPECT_FALSE(World(bent_room(), kRvr, starts, ContactModel::Exact).is_plain());
-  EXPECT_FALSE(World(room(), CircleOutline{0.1}, starts, ContactModel::Exact).is_plain());
+  EXPECT_FALSE(World(room(), rvr_with(CircleOutline{0.1}), starts, ContactModel::Exact).is_plain());
   Arena arena = room();
   arena.obstacles = {{.outline = CircleOutline{0.1}, .pose = {1, 1, 0}}};
   EXPECT_FALSE(World(arena, kRvr, starts, ContactModel::Exact).is_plain());
@@ -81,7 +81,7 @@ TEST(Solids, AnObstacleOfAnyFormStopsARobotOfAnyFormAtItsFace) {
     for (const Outline& obstacle : outlines()) {
       Arena arena = room();
       arena.obstacles = {{.outline = obstacle, .pose = {0.6, 0, kPi}}};
-      World world(arena, robot, std::vector<Pose>{{0, 0, 0}}, ContactModel::Exact);
+      World world(arena, rvr_with(robot), std::vector<Pose>{{0, 0, 0}}, ContactModel::Exact);
       const FixedSolid& solid = world.obstacles()[0];
       double least = 1;
       for (int tick = 0; tick < 40; ++tick) {
@@ -213,12 +213,12 @@ TEST(Solids, SlidingAlongAWallARobotDoesNotCatchOnItsJoints) {
 TEST(Solids, AtFullSpeedNobodyPassesThroughWallsOrObstacles) {
   Rng rng(7);
   for (const Outline& robot :
-       {Outline{kRvr}, Outline{CircleOutline{0.06}}, Outline{BoxOutline{0.3, 0.12}}}) {
+       {kRvr.body.outline, Outline{CircleOutline{0.06}}, Outline{BoxOutline{0.3, 0.12}}}) {
     Arena arena = bent_room();
     arena.obstacles = {{.outline = BoxOutline{0.02, 1}, .pose = {-1, 0, 0.3}},
                        {.outline = CircleOutline{0.03}, .pose = {0, 1.2, 0}},
                        {.outline = CircleOutline{0.3}, .pose = {0, -1.2, 0}}};
-    World world(arena, robot, std::vector<Pose>{{0, 0, 0}, {1.5, 1.5, 0}, {1.5, -1.5, 0}},
+    World world(arena, rvr_with(robot), std::vector<Pose>{{0, 0, 0}, {1.5, 1.5, 0}, {1.5, -1.5, 0}},
                 ContactModel::Exact);
     double deepest = 0;
     for (int tick = 0; tick < 3000; ++tick) {

@@ -13,8 +13,7 @@ namespace {
 class Worlds : public testing::TestWithParam<ContactModel> {
  protected:
   World world_with(const std::vector<Pose>& starts) const {
-    return World(dodecagon_of_the_thesis(), BoxOutline{kBodySide_m, kBodySide_m}, starts,
-                 GetParam());
+    return World(dodecagon_of_the_thesis(), rvr(), starts, GetParam());
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, Worlds, testing::Values(ContactModel::Exact, ContactModel::Box2d),

@@ -255,7 +255,7 @@ TEST(Placements, ThatCannotBeAreExplained) {
 
 TEST(Robots, HaveBodiesOfAnyConvexShape) {
   const auto body = [](const std::string& keys) {
-    return read("", "robot = { " + keys + " }\n").body;
+    return read("", "robot = { " + keys + " }\n").robot.body.outline;
   };
   EXPECT_EQ(body("shape = \"circle\", diameter = 0.3"), Outline(CircleOutline{0.15}));
   EXPECT_EQ(body("shape = \"square\", side = 0.2"), Outline(BoxOutline{0.2, 0.2}));

@@ -87,7 +87,7 @@ Mission crowded(const Outline& body) {
                              {BoxOutline{0.8, 0.1}, {1, 0.2, 1}},
                              {triangle, {-1.4, -0.5, 0.7}}};
   mission.arena.objects = {{BoxOutline{0.3, 0.5}, {1.6, -0.5, 0.3}}};
-  mission.body = body;
+  mission.robot.body.outline = body;
   mission.robots = 5;
   mission.placement = PlaceAnywhere{};
   return mission;
@@ -129,7 +129,7 @@ TEST(Placement, AnywhereIsUniformOverTheArena) {
   // Of one small robot in an L of three unit squares, each square gets a third of the starts.
   Mission mission{.name = "l", .arena = {}, .shuffled = {}, .rule = RobotsOn{}};
   mission.arena.walls = walls_around({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
-  mission.body = CircleOutline{0.001};
+  mission.robot.body.outline = CircleOutline{0.001};
   mission.robots = 1;
   mission.placement = PlaceAnywhere{};
   std::array<int, 3> counts{};
@@ -146,7 +146,7 @@ TEST(Placement, AnywhereIsUniformOverTheArena) {
 
 TEST(Placement, InARectangleIsUniformInIt) {
   Mission mission = built_in_mission("aggregation").value();
-  mission.body = CircleOutline{0.001};
+  mission.robot.body.outline = CircleOutline{0.001};
   mission.robots = 1;
   mission.placement = PlaceInRectangle{{{0.2, -0.1}, 1.0, 0.4}};
   std::array<int, 8> counts{};

@@ -101,6 +101,18 @@ TEST(ObjectsOn, CountsObjectsAndNoRobots) {
   EXPECT_EQ(at_end.score(), 0);
 }
 
+TEST(MostOn, CountsTheFullestSpot) {
+  Arena arena;
+  arena.patches = {{Disc{{0, 0}, 0.5}, {0, 0, 0}},
+                   {Disc{{2, 0}, 0.5}, {0, 0, 0}},
+                   {Disc{{4, 0}, 0.5}, {255, 255, 255}}};
+  const std::vector<std::vector<Point>> walk = {{{0, 0}, {0.1, 0}, {2, 0}, {4, 0}, {4, 0}},
+                                                {{0, 0}, {2, 0}, {2, 0.5}, {2, 0.1}, {4, 0}}};
+  EXPECT_EQ(score_after(Scorer(MostOn{.color = {0, 0, 0}}, arena), walk), 3);
+  EXPECT_EQ(score_after(Scorer(MostOn{.color = {0, 0, 0}, .at = When::Sum}, arena), walk), 5);
+  EXPECT_EQ(score_after(Scorer(MostOn{.color = {0, 0, 0}, .share = true}, arena), walk), 0.6);
+}
+
 // --- Grid exploration ----------------------------------------------------------------------------
 
 TEST(Coverage, ThreeRobotsThatStandOnTilesOfTheirOwnCost697818) {

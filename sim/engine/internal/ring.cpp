@@ -1,0 +1,28 @@
+#include "sim/engine/internal/ring.h"
+
+#include "base/assert.h"
+#include "base/math.h"
+
+namespace swarmsmith {
+
+Ring ring_of(const RingAngles& angles_deg) {
+  SWARMSMITH_ASSERT(angles_deg.size() <= kProximitySensors, "a ring has at most eight sensors");
+  Ring ring;
+  for (const double angle_deg : angles_deg) {
+    const double angle_rad = angle_deg * kPi / 180;
+    const SinCos angle = sin_cos(angle_rad);
+    ring.angles_rad[ring.count] = wrap_angle(angle_rad);
+    ring.directions[ring.count++] = {angle.cos, angle.sin};
+  }
+  if (angles_deg == ProximityRing::rvr_ring()) ring.directions = kProximityDirections;
+  return ring;
+}
+
+std::optional<RayDirections> labels_of(const Robot& robot) {
+  const ProximityRing& ring = robot.proximity;
+  const Ring labels = ring_of(ring.labels_deg.empty() ? ring.rays_deg : ring.labels_deg);
+  if (labels == ring_of(ProximityRing::rvr_ring())) return std::nullopt;
+  return labels.directions;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/engine/internal/world.h"
+
+namespace swarmsmith {
+
+/// Whether anything in the arena, or the robots themselves, can stand between two robots at the height
+/// of their NeighbourSensor.
+bool can_hide(const Arena& arena, const Robot& robot);
+
+/// Who can be seen, or heard, from a robot, at the height of its NeighbourSensor.
+class Sight {
+ public:
+  /// `world` must outlive the object.
+  Sight(const World& world, double wall_height_m);
+
+  /// Whether nothing in this world is as high as the sensor: then all see each other.
+  bool is_clear() const { return clear_; }
+
+  /// Whether the line between the centres of two robots meets what is as high: a wall, an obstacle,
+  /// an object or a third robot. `room` is room to work in.
+  bool is_hidden(int robot, int other, std::vector<int>& room) const;
+
+ private:
+  const World* world_;
+  double height_m_;
+  bool walls_hide_;
+  bool obstacles_hide_;
+  bool movers_hide_;
+  bool clear_;
+};
+
+}  // namespace swarmsmith

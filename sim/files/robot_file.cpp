@@ -1,0 +1,199 @@
+#include "sim/files/robot_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/assert.h"
+#include "base/math.h"
+#include "base/overloaded.h"
+#include "base/suggestion.h"
+#include "base/text/document.h"
+#include "base/text/whole_file.h"
+#include "embedded/kEpuckRobot.h"
+#include "embedded/kRvrRobot.h"
+#include "sim/files/internal/field_reader.h"
+#include "sim/files/internal/field_writer.h"
+#include "sim/files/mission_file.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kRobotFiles = {
+    {{"rvr", kRvrRobot}, {"epuck", kEpuckRobot}}};
+
+Robot built_in_robot(std::string_view name) {
+  auto robot = parse_robot(built_in_robot_text(name), std::string(name) + ".toml");
+  SWARMSMITH_ASSERT(robot.has_value(), "the robots that the program carries can be read");
+  return std::move(*robot);
+}
+
+double inradius_of(const std::vector<Point>& corners) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point& from = corners[i];
+    const Point& to = corners[(i + 1) % corners.size()];
+    const double length_m = hypot(to.x - from.x, to.y - from.y);
+    least_m = std::min(least_m, std::fabs(from.x * to.y - from.y * to.x) / length_m);
+  }
+  return least_m;
+}
+
+/// Radius of the largest circle around the centre within the body.
+double inradius_of(const Outline& outline) {
+  return std::visit(
+      Overloaded{[](const CircleOutline& circle) { return circle.radius_m; },
+                 [](const BoxOutline& box) { return std::min(box.length_m, box.width_m) / 2; },
+                 [](const PolygonOutline& polygon) { return inradius_of(polygon.corners); }},
+      outline);
+}
+
+/// What no single field shows to be wrong.
+void check_robot(TableReader& table, const Robot& robot) {
+  const ProximityRing& ring = robot.proximity;
+  const auto number = [](double value) { return number_text(value); };
+  if (ring.rays_deg.empty()) table.complain("proximity", "a robot needs at least one ray");
+  if (!ring.labels_deg.empty() && ring.labels_deg.size() != ring.rays_deg.size()) {
+    table.complain("proximity", "there are " + std::to_string(ring.rays_deg.size()) + " rays and " +
+                                    std::to_string(ring.labels_deg.size()) +
+                                    " labels; give a label to each ray, or none");
+  }
+  const double inradius_m = inradius_of(robot.body.outline);
+  if (ring.start_m > 0 && ring.start_m < inradius_m) {
+    table.complain("proximity", "rays would start inside of the body, " + number(ring.start_m) +
+                                    " m from the centre: let them start at " + number(inradius_m) +
+                                    " m or farther, or at 0 for the body's edge");
+  }
+  if (ring.reading == ProximityRing::Reading::Strength && ring.reach_m == 0) {
+    table.complain("proximity", "a ring with reading = \"strength\" needs a `reach` and a `law`");
+  }
+  const GroundSensor& ground = robot.ground;
+  if (ground.reading == GroundSensor::Reading::Vote) {
+    const auto readings = static_cast<int>(ground.places.size()) * ground.vote_ticks;
+    if (ground.vote_majority < 1 || ground.vote_majority >= readings) {
+      table.complain("ground", "a vote of " + std::to_string(readings) +
+                                   " readings needs a `majority` from 1 to " +
+                                   std::to_string(readings - 1) + ", not " +
+                                   std::to_string(ground.vote_majority));
+    }
+    if (ground.black_below > ground.white_above) {
+      table.complain("ground", "`black_below` is above `white_above`: exchange them");
+    }
+  } else if (ground.places.size() > 1) {
+    table.complain("ground", "with reading = \"color\" there is one point, these are " +
+                                 std::to_string(ground.places.size()));
+  }
+}
+
+/// An error about a name is the key's own.
+void complain_of(TableReader& table, std::string_view key, const Error& error) {
+  if (error.where.empty()) {
+    table.complain(key, error.message);
+  } else {
+    table.complain_foreign(key, error);
+  }
+}
+
+void read_base(TableReader& table, const std::filesystem::path* folder, Robot& robot) {
+  if (const auto base = table.text("base")) {
+    if (names_a_file(*base) && folder == nullptr) {
+      table.complain("base", "a robot begins with a built-in one here: " + joined(robot_names()));
+    } else if (auto found = find_robot(*base, folder == nullptr ? "" : *folder)) {
+      robot = std::move(*found);
+    } else {
+      for (const Error& error : found.error())
+        complain_of(table, "base", error);
+    }
+  }
+}
+
+void read_devices(TableReader& table, Robot& robot) {
+  const std::size_t before = table.complaints();
+  FieldReader reader(table);
+  visit_robot_fields(robot, reader);
+  reader.finish();
+  if (table.complaints() == before) check_robot(table, robot);
+}
+
+}  // namespace
+
+std::vector<std::string> robot_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, text] : kRobotFiles)
+    names.emplace_back(name);
+  return names;
+}
+
+std::string_view built_in_robot_text(std::string_view name) {
+  for (const auto& [known, text] : kRobotFiles) {
+    if (known == name) return text;
+  }
+  return {};
+}
+
+RobotOrErrors parse_robot(std::string_view text, const std::filesystem::path& file) {
+  const auto document = parse_document(text, file.string());
+  if (!document) return tl::unexpected(std::vector<Error>{document.error()});
+  Complaints complaints(file.string());
+  TableReader root(*document, "", complaints);
+  read_format(root);
+  Robot robot;
+  const std::filesystem::path folder = file.parent_path();
+  read_base(root, &folder, robot);
+  robot.name = file.stem().string();
+  if (!is_name(robot.name)) {
+    root.complain(
+        "name",
+        "a robot has its file's name, so that the file's must consist of letters, digits, "
+        "`_`, `-` and `.`; this is \"" +
+            robot.name + "\"");
+  }
+  read_devices(root, robot);
+  root.finish();
+  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  return robot;
+}
+
+RobotOrErrors find_robot(const std::string& word, const std::filesystem::path& folder) {
+  if (!names_a_file(word)) {
+    if (!built_in_robot_text(word).empty()) return built_in_robot(word);
+    const std::vector<std::string> names = robot_names();
+    return tl::unexpected(std::vector<Error>{
+        {ErrorKind::NotFound, "there is no robot `" + word + "`" + did_you_mean(word, names) +
+                                  "; built in are: " + joined(names) +
+                                  "; a file of your own ends in .toml"}});
+  }
+  const auto text = read_file(folder / word, "robot");
+  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
+  auto robot = parse_robot(*text, folder / word);
+  if (robot && !built_in_robot_text(robot->name).empty() && *robot != built_in_robot(robot->name)) {
+    const std::string why = "a robot has its file's name, and `" + robot->name +
+                            "` is built in with other values; give the file another name";
+    return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, (folder / word).string()}});
+  }
+  return robot;
+}
+
+Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot) {
+  read_base(table, folder, robot);
+  if (table.has("name")) {
+    robot.name = table.text("name").value_or("");
+    check_name(table, robot.name, {});
+  }
+  read_devices(table, robot);
+  table.finish();
+  return robot;
+}
+
+std::vector<Section> robot_sections(const Robot& robot, const std::string& header) {
+  std::vector<Section> sections;
+  FieldWriter writer(sections, header);
+  writer.add("name", quoted_text(robot.name));
+  visit_robot_fields(robot, writer);
+  writer.drop_empty();
+  return sections;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace swarmsmith {
+
+/// A point of the plane, metres: of the arena, whose centre is the origin, or of a robot's frame.
+struct Point {
+  double x = 0;
+  double y = 0;
+
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,264 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/math.h"
+#include "base/text/csv.h"
+#include "sim/control/behaviours.h"
+#include "sim/control/readings.h"
+#include "sim/engine/internal/robot_senses.h"
+#include "sim/engine/internal/world.h"
+#include "sim/engine/simulate.h"
+#include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
+#include "tests/support/not_empty.h"
+
+// The e-puck against traces of its original program (tests/golden/epuck).
+
+namespace swarmsmith {
+namespace {
+
+/// A row by the names of its columns.
+using Row = std::map<std::string, std::string>;
+
+double number_in(const Row& row, const std::string& column) {
+  return std::stod(row.at(column));
+}
+
+std::vector<Row> rows_of(const std::string& name) {
+  std::ifstream in(SWARMSMITH_SOURCE_DIR "/tests/golden/epuck/" + name);
+  if (!in) throw std::runtime_error("no golden file " + name);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  CsvReader reader(text);
+  const std::vector<std::string> head = reader.next().value();
+  std::vector<Row> rows;
+  while (!reader.at_end()) {
+    const std::vector<std::string> cells = reader.next().value();
+    Row& row = rows.emplace_back();
+    for (std::size_t i = 0; i < head.size(); ++i)
+      row[head[i]] = cells.at(i);
+  }
+  return rows;
+}
+
+Mission golden_mission(const std::string& name) {
+  auto mission =
+      read_mission_file(SWARMSMITH_SOURCE_DIR "/examples/missions/epuck/" + name + ".toml");
+  if (!mission) throw std::runtime_error(to_string(mission.error().front()));
+  return std::move(mission->mission);
+}
+
+const Profile& ideal() {
+  static const Profile kIdeal = built_in_profile("epuck-ideal").value();
+  return kIdeal;
+}
+
+/// Robots that stand at their places, and the senses of the first.
+struct Stand {
+  Stand(const Mission& mission, std::vector<Pose> at)
+      : arena(mission.arena),
+        poses(std::move(at)),
+        world(arena, mission.robot, poses, ContactModel::Exact),
+        senses(world, arena, ideal(), 0, Rng(1)) {
+    senses.remember(Sensors::all());
+    begin(1);
+  }
+  void begin(int cycle) {
+    senses.begin_cycle({.number = cycle, .time_s = 0.1 * cycle, .acted = {}});
+  }
+
+  Arena arena;
+  std::vector<Pose> poses;
+  World world;
+  RobotSenses senses;
+};
+
+void expect_readings(const Row& row, const std::string& stem, std::span<const double> readings,
+                     double within) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    EXPECT_NEAR(readings[i], number_in(row, stem + std::to_string(i)), within)
+        << stem << i << " at " << row.begin()->second;
+  }
+}
+
+TEST(Epuck, ReadsAWallAsTheOriginalDoes) {
+  const Mission mission = golden_mission("rt-aac");
+  for (const Row& row : not_empty(rows_of("module-proximity-wall.csv"))) {
+    Stand stand(mission, {{1.226 - 0.035 - number_in(row, "gap"), 0,
+                           number_in(row, "heading_deg") * kPi / 180}});
+    expect_readings(row, "prox", stand.senses.proximity(), 1e-6);
+  }
+}
+
+TEST(Epuck, ReadsAnotherRobotAsTheOriginalDoes) {
+  const Mission mission = golden_mission("rt-aac");
+  for (const Row& row : not_empty(rows_of("module-proximity-robot.csv"))) {
+    const double bearing = number_in(row, "bearing_deg") * kPi / 180;
+    const double distance = number_in(row, "distance");
+    Stand stand(mission, {{0, 0, 0}, {distance * cos(bearing), distance * sin(bearing), 0}});
+    expect_readings(row, "prox", stand.senses.proximity(), 1e-6);
+  }
+}
+
+TEST(Epuck, ReadsTheLightAsTheOriginalDoes) {
+  const Mission mission = golden_mission("rt-aac");
+  int hidden = 0;
+  for (const Row& row : not_empty(rows_of("module-light.csv"))) {
+    std::vector<Pose> poses = {
+        {number_in(row, "x"), number_in(row, "y"), number_in(row, "heading_deg") * kPi / 180}};
+    if (!row.at("neighbour_x").empty())
+      poses.push_back({number_in(row, "neighbour_x"), number_in(row, "neighbour_y"), 0});
+    Stand stand(mission, poses);
+    expect_readings(row, "light", stand.senses.light(), 1e-6);
+    hidden += number_in(row, "light_value") == 0 ? 1 : 0;
+    const Flavour flavour = chocolate_epuck();
+    LightModel model = flavour.light;
+    model.directions = labels_of(mission.robot);
+    const Vector2 light = light_vector(stand.senses.light(), model);
+    EXPECT_NEAR(hypot(light.x, light.y), number_in(row, "light_value"), 1e-6);
+    if (number_in(row, "light_value") > 0) {
+      EXPECT_NEAR(wrap_angle(atan2(light.y, light.x) - number_in(row, "light_angle")), 0, 1e-5);
+    }
+  }
+  EXPECT_GT(hidden, 3);
+}
+
+TEST(Epuck, HearsOthersAsTheOriginalDoes) {
+  int hidden = 0;
+  for (const Row& row : not_empty(rows_of("module-radio.csv"))) {
+    Mission mission = golden_mission("rt-aac");
+    mission.robot.neighbours.range_m = number_in(row, "range");
+    const double distance = number_in(row, "distance");
+    const bool has_hider = !row.at("hider_offset").empty();
+    const double bearing = has_hider ? 0 : 0.7;
+    std::vector<Pose> poses = {{0, 0, number_in(row, "heading_deg") * kPi / 180},
+                               {distance * cos(bearing), distance * sin(bearing), 0}};
+    if (has_hider) {
+      const double offset = number_in(row, "hider_offset");
+      poses.push_back({distance / 2, offset, 0});
+    }
+    Stand stand(mission, poses);
+    for (int cycle = 2; cycle <= static_cast<int>(number_in(row, "tick")); ++cycle)
+      stand.begin(cycle);
+    EXPECT_EQ(stand.senses.neighbour_count(), number_in(row, "neighbours"))
+        << distance << " " << row.at("hider_offset");
+    EXPECT_EQ(static_cast<double>(stand.senses.neighbours().size()), number_in(row, "buffered"));
+    hidden += has_hider ? 1 : 0;
+    Vector2 sum;
+    for (const Neighbour& heard : stand.senses.neighbours()) {
+      const double strength = 1 / (1 + 100 * heard.distance_m);
+      sum.x += strength * heard.direction_x;
+      sum.y += strength * heard.direction_y;
+    }
+    EXPECT_NEAR(hypot(sum.x, sum.y), number_in(row, "attr1_length"), 1e-6);
+    EXPECT_NEAR(wrap_angle(atan2(sum.y, sum.x) - number_in(row, "attr1_angle")), 0, 1e-4);
+  }
+  EXPECT_GT(hidden, 0);
+}
+
+/// Lets the robots drive by the commands of a trace.
+class Trace final : public Decider {
+ public:
+  explicit Trace(std::vector<std::vector<Row>> ticks) : ticks_(std::move(ticks)) {}
+
+  void ask(const Question& question) override {
+    const auto cycle = static_cast<std::size_t>(question.cycle) - 1;
+    if (cycle >= ticks_.size()) return;
+    const Row& row = ticks_[cycle].at(static_cast<std::size_t>(question.robot));
+    command_ = {number_in(row, "cmd_left") / 100, number_in(row, "cmd_right") / 100};
+    answers_.resize(ticks_.front().size());
+    answers_[static_cast<std::size_t>(question.robot)] = Answer{command_, 0};
+  }
+  std::optional<Answer> answer(int robot) override {
+    return answers_.empty() ? std::nullopt : answers_.at(static_cast<std::size_t>(robot));
+  }
+  const std::vector<std::vector<Row>>& ticks() const { return ticks_; }
+
+ private:
+  std::vector<std::vector<Row>> ticks_;
+  std::vector<std::optional<Answer>> answers_;
+  Command command_;
+};
+
+std::vector<std::vector<Row>> ticks_of(const std::string& file) {
+  std::vector<std::vector<Row>> ticks;
+  for (const Row& row : rows_of(file)) {
+    const auto tick = static_cast<std::size_t>(number_in(row, "tick"));
+    if (ticks.size() < tick) ticks.emplace_back();
+    ticks.back().push_back(row);
+  }
+  return ticks;
+}
+
+/// In the first cycle no robot has moved yet.
+std::vector<Pose> starts_of(const std::vector<Row>& first_tick) {
+  std::vector<Pose> starts;
+  for (const Row& row : first_tick)
+    starts.push_back({number_in(row, "x"), number_in(row, "y"), number_in(row, "theta")});
+  return starts;
+}
+
+/// The farthest that a robot is from where it was in the original, over `cycles` cycles.
+double farthest_off(const std::string& mission_name, const std::string& file, int cycles,
+                    bool reads) {
+  Mission mission = golden_mission(mission_name);
+  Trace trace(ticks_of(file));
+  const std::size_t robots = trace.ticks().front().size();
+  mission.robots = static_cast<int>(robots);
+  mission.cycles = cycles;
+  const Instance instance{.starts = starts_of(trace.ticks().front()), .patches = {}};
+  double farthest = 0;
+  const Recorder recorder(
+      [&](const Snapshot& snapshot) {
+        if (snapshot.cycle == 0) return;
+        const auto& tick = trace.ticks().at(static_cast<std::size_t>(snapshot.cycle) - 1);
+        for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+          const Pose& pose = snapshot.robots[i].pose;
+          farthest = std::max(
+              farthest, hypot(pose.x - number_in(tick[i], "x"), pose.y - number_in(tick[i], "y")));
+          if (!reads) continue;
+          expect_readings(tick[i], "prox", snapshot.robots[i].readings->proximity_m, 2e-4);
+          expect_readings(tick[i], "light", snapshot.robots[i].readings->light_lux, 2e-4);
+          const double gray = number_in(tick[i], "ground");
+          EXPECT_EQ(snapshot.robots[i].readings->ground_color.r, gray == 0   ? 0
+                                                                 : gray == 1 ? 255
+                                                                             : 127)
+              << snapshot.cycle;
+        }
+      },
+      Sensors(Sensor::Proximity) | Sensor::LightRing | Sensor::GroundColor);
+  const Controller idle = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
+  simulate({.controller = idle,
+            .flavour = chocolate_epuck(),
+            .profile = ideal(),
+            .mission = mission,
+            .instance = instance},
+           recorder, &trace);
+  return farthest;
+}
+
+TEST(Epuck, DrivesAsTheOriginalDoes) {
+  for (const char* run : {"rt-aac-hc03", "rt-for-hc07", "rt-grid-hc04"}) {
+    const std::string name = run;
+    EXPECT_LT(farthest_off(name.substr(0, name.rfind('-')), "traj-" + name + "-nonoise-1robots.csv",
+                           600, true),
+              1e-3)
+        << name;
+  }
+}
+
+TEST(Epuck, DrivesInASwarmAsTheOriginalDoesForSixSeconds) {
+  EXPECT_LT(farthest_off("rt-aac", "traj-rt-aac-hc03-nonoise-20robots.csv", 60, false), 1e-3);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,152 @@
+#include "sim/files/robot_file.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "sim/engine/fitting.h"
+#include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
+#include "tests/support/not_empty.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Optional;
+
+/// The errors of a robot file as "file:line:column: sentence".
+std::vector<std::string> complaints(const std::string& text) {
+  std::vector<std::string> lines;
+  const auto robot = parse_robot("format = 1\n" + text, "mine.toml");
+  if (robot) return lines;
+  for (const Error& error : robot.error())
+    lines.push_back(to_string(error));
+  return lines;
+}
+
+Robot built_in(const std::string& name) {
+  return find_robot(name, "").value();
+}
+
+TEST(RobotFile, TheBuiltInRvrIsTheTable) {
+  EXPECT_EQ(built_in("rvr"), rvr());
+}
+
+TEST(RobotFile, TheEpuckHasTheNumbersOfItsFacts) {
+  const Robot epuck = built_in("epuck");
+  EXPECT_EQ(epuck.body.outline, Outline(CircleOutline{0.035}));
+  EXPECT_EQ(epuck.body.mass_kg, 0.4);
+  EXPECT_EQ(epuck.body.inertia_kg_m2, 0.00098);
+  EXPECT_EQ(epuck.drive.track_m, 0.053);
+  EXPECT_EQ(epuck.proximity.rays_deg.front(), 11.25);
+  EXPECT_NEAR(epuck.proximity.labels_deg.front(), 180 / 10.5884, 1e-9);
+  EXPECT_EQ(epuck.ground.places.size(), 3U);
+  EXPECT_EQ(epuck.neighbours.memory_ticks, 11);
+}
+
+TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
+  EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.1\n[proximity]\nstart = 0.04\n"),
+              ElementsAre("mine.toml:5:1: rays would start inside of the body, 0.04 m from the "
+                          "centre: let them start at 0.05 m or farther, or at 0 for the body's "
+                          "edge"));
+  EXPECT_THAT(
+      complaints("base = \"epuck\"\n[ground]\nmajority = 0\n"),
+      ElementsAre(HasSubstr("a vote of 15 readings needs a `majority` from 1 to 14, not 0")));
+  EXPECT_THAT(complaints("[proximity]\nrays = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"),
+              ElementsAre("mine.toml:3:8: `rays` has 9 sensors; at most 8 are taken"));
+  EXPECT_THAT(complaints("[proximity]\nlabels = [1, 2]\n"),
+              ElementsAre(HasSubstr("there are 8 rays and 2 labels")));
+  EXPECT_THAT(complaints("[proximity]\nreading = \"strength\"\n"),
+              ElementsAre(HasSubstr("needs a `reach` and a `law`")));
+  EXPECT_THAT(complaints("[drive]\ntrack = 0\n"), ElementsAre(HasSubstr("`track` must be from")));
+  EXPECT_THAT(complaints("[drive]\ntrak = 1\n"), ElementsAre(HasSubstr("trak")));
+  EXPECT_THAT(complaints("base = \"epuk\"\n"),
+              ElementsAre(HasSubstr("there is no robot `epuk` (did you mean \"epuck\"?)")));
+}
+
+TEST(RobotFile, AMissionWithARobotReadsBackToTheSameBits) {
+  for (const char* robot :
+       {"robot = \"epuck\"\n", "[robot]\nbase = \"epuck\"\n[robot.neighbours]\nrange = 0.7\n",
+        "[robot]\nname = \"round\"\n[robot.body]\nshape = \"circle\"\n"
+        "diameter = 0.2\nmass = 1\n"}) {
+    const std::string text = std::string("format = 1\nname = \"x\"\nrobots = 2\n") + robot +
+                             "[score]\nkind = \"coverage\"\n";
+    const auto mission = parse_mission(text, "x.toml");
+    ASSERT_TRUE(mission) << to_string(mission.error().front());
+    EXPECT_NE(mission->mission.robot, rvr());
+    const auto again = parse_mission(mission_text(*mission), "x.toml");
+    ASSERT_TRUE(again) << to_string(again.error().front());
+    EXPECT_EQ(*again, *mission);
+  }
+}
+
+TEST(RobotFile, AMissionOfTheRvrSaysItsOutlineAlone) {
+  const MissionEntry entry{built_in_mission("aggregation").value()};
+  EXPECT_THAT(mission_text(entry),
+              HasSubstr("robot = { shape = \"box\", length = 0.286, width = 0.286 }"));
+}
+
+TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
+  const Robot epuck = built_in("epuck");
+  EXPECT_THAT(misfit(chocolate(), epuck), Optional(HasSubstr("takes distances")));
+  EXPECT_THAT(misfit(chocolate_epuck(), rvr()), Optional(HasSubstr("takes strengths")));
+  EXPECT_EQ(misfit(chocolate_epuck(), epuck), std::nullopt);
+  EXPECT_THAT(misfit(built_in_profile("rvr").value(), epuck), Optional(HasSubstr("`proximity`")));
+  EXPECT_THAT(misfit(built_in_profile("epuck").value(), rvr()),
+              Optional(HasSubstr("`proximity.half_width`")));
+  for (const char* name : {"epuck", "epuck-ideal", "epuck-pseudo-reality", "argos3"})
+    EXPECT_EQ(misfit(built_in_profile(name).value(), epuck), std::nullopt) << name;
+}
+
+TEST(RobotFile, TheExampleRobotFitsTheFlavoursOfDistances) {
+  const auto robot = find_robot(SWARMSMITH_SOURCE_DIR "/examples/robots/turtlebot4.toml", "");
+  ASSERT_TRUE(robot) << to_string(robot.error().front());
+  EXPECT_EQ(robot->proximity.rays_deg.size(), 7U);
+  EXPECT_EQ(misfit(watermelon(), *robot), std::nullopt);
+}
+
+TEST(ProfileRanges, AreReadAndWritten) {
+  const auto profile = parse_profile(
+      "format = 1\n[treads]\nsd = [0.01, 0.1]\nway = { run = [0.9, 1] }\n", "mine.toml");
+  ASSERT_TRUE(profile) << to_string(profile.error().front());
+  EXPECT_THAT(profile->ranges, ElementsAre(FieldRange{"treads.sd", 0.01, 0.1, false},
+                                           FieldRange{"treads.way", 0.9, 1, true}));
+  std::string text = "format = 1\n";
+  for (Section& section : profile_sections(*profile, "profile")) {
+    if (section.header != "[profile.treads]") continue;
+    section.header = "[treads]";
+    text += text_of({section});
+  }
+  EXPECT_EQ(parse_profile(text, "mine.toml"), *profile);
+}
+
+TEST(ProfileRanges, AreDrawnForRobotAndRunOrForTheRun) {
+  Profile profile{.name = "mine"};
+  profile.ranges = {{"treads.sd", 0.01, 0.1, false}, {"treads.way", 0.9, 1, true}};
+  const Profile first = drawn_profile(profile, Rng(1), 0);
+  const Profile second = drawn_profile(profile, Rng(1), 1);
+  EXPECT_NE(first.treads.sd, second.treads.sd);
+  EXPECT_EQ(first.treads.way, second.treads.way);
+  EXPECT_NE(first.treads.way, drawn_profile(profile, Rng(2), 0).treads.way);
+  EXPECT_GE(first.treads.sd, 0.01);
+  EXPECT_LE(first.treads.sd, 0.1);
+  EXPECT_THAT(first.ranges, IsEmpty());
+}
+
+TEST(ProfileRanges, WithTheirEndsExchangedOrTooWideAreRefused) {
+  const auto errors = [](const std::string& range) {
+    const auto profile = parse_profile("format = 1\n[treads]\nsd = " + range + "\n", "mine.toml");
+    return profile ? std::string() : to_string(profile.error().front());
+  };
+  EXPECT_THAT(errors("[0.2, 0.1]"), HasSubstr("the ends of the range `treads.sd` are exchanged"));
+  EXPECT_THAT(errors("[0.2, 7]"), HasSubstr("must be within 0 and 1"));
+  EXPECT_THAT(errors("{ runs = [0.1, 0.2] }"), HasSubstr("{ run = [0, 0.1] }"));
+  EXPECT_THAT(errors("[1]"), HasSubstr("a range such as [0, 0.1]"));
+}
+
+}  // namespace
+}  // namespace swarmsmith
