@@ -64,7 +64,7 @@ int main(int count, char** words) {
   const auto campaign = read_campaign(words[1], budget);
   if (!campaign) give_up(to_string(campaign.error().front()));
   const Method& method = campaign->methods.front();
-  const auto flavour = find_flavour(method.flavour);
+  const auto flavour = flavour_of(method);
   auto space = MachineSpace::in_grammar(method, **flavour, static_cast<int>(campaign->digits));
   if (!space) give_up(to_string(space.error()));
   Scenario scenario = campaign->race;

@@ -61,6 +61,8 @@ class Simulation {
     if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
     Expected<Controller> controller = parse_controller(item.machine, flavours_[item.method]);
     if (!controller) return Unexpected(controller.error());
+    if (const auto complaint = complaint_about_running(*controller, flavours_[item.method]))
+      return bad_input(*complaint);
     if (known.size() >= kMaxControllers) known.clear();
     return &known.emplace(item.machine, std::move(*controller)).first->second;
   }
@@ -91,7 +93,7 @@ Expected<Evaluator> make_simulation_evaluator(WorkerScenario scenario) {
   }
   std::vector<Flavour> flavours;
   for (const WorkerMethod& method : scenario.methods) {
-    Expected<Flavour> flavour = find_flavour(method.flavour, method.turn_clock);
+    Expected<Flavour> flavour = find_flavour(method.flavour, method.turn_clock, method.own_flavour);
     if (!flavour) return Unexpected(flavour.error());
     flavours.push_back(std::move(*flavour));
   }

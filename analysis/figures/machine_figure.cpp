@@ -14,6 +14,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/controller_table.h"
+#include "analysis/figures/internal/design_flavour.h"
 #include "analysis/figures/makers.h"
 #include "analysis/machines/controller_drawing.h"
 #include "analysis/machines/machine_layout.h"
@@ -62,7 +63,7 @@ struct Drawn {
 Expected<Drawn> drawn(StoreReader& store, CandidateId id, double width) {
   auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  auto stored = controller_of(*record, store.schema());
+  auto stored = controller_of(*record, store);
   if (!stored) return Unexpected(stored.error());
   ControllerDrawing drawing =
       drawing_of(stored->controller, *stored->flavour, width, title_of(*record));
@@ -191,7 +192,13 @@ Svg with_heading(const Drawn& machine, const FigureOptions& options) {
 
 }  // namespace
 
-Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema) {
+Expected<StoredController> controller_of(const MachineRecord& candidate, StoreReader& store) {
+  const Flavour* flavour = flavour_of_design(store, candidate.design, candidate.flavour);
+  return controller_of(candidate, store.schema(), flavour);
+}
+
+Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema,
+                                         const Flavour* own) {
   const std::string id = to_string(candidate.candidate);
   // A program's parameters may have the switches of machines.
   const bool is_machine = architecture_of_text(candidate.machine).has_value();
@@ -205,10 +212,8 @@ Expected<StoredController> controller_of(const MachineRecord& candidate, std::in
         "the store has an older version without the flavour of its machines; `swarmsmith backup "
         "OLD NEW` makes a copy that has it");
   }
-  const auto flavours = all_flavours();
-  const auto flavour = std::ranges::find_if(
-      flavours, [&](const Flavour* known) { return known->name == candidate.flavour; });
-  if (flavour == flavours.end()) {
+  const auto flavour = find_flavour(candidate.flavour, own);
+  if (!flavour) {
     return bad_input(id + " is written in the flavour " + candidate.flavour +
                      ", which this version does not have");
   }

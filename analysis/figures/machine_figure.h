@@ -17,8 +17,13 @@ struct StoredController {
 
 /// Reads a candidate's text in its design's flavour. Errors: BadInput when it is no control
 /// software but a program's configuration, when the store does not say the flavour (with how to
-/// make it), or the text is damaged. `schema` is the store's.
-Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema);
+/// make it), or the text is damaged. `schema` is the
+/// store's; `own` a flavour that is not built in.
+Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema,
+                                         const Flavour* own = nullptr);
+
+/// The same of a store, which may have flavours of its own.
+Expected<StoredController> controller_of(const MachineRecord& candidate, StoreReader& store);
 
 /// What a picture of it shows, with values as they are: a row for each state and transition, each
 /// subtree, or each input.

@@ -39,6 +39,9 @@ bool within(Number value, Limits<Number> limits) {
   return value >= limits.least && value <= limits.most;
 }
 
+/// Names stand in tables and figures. Stores refuse longer ones.
+constexpr std::size_t kLongestName = 1000;
+
 /// A key that the file's author chose, short enough for a sentence.
 std::string shown_key(std::string_view key) {
   constexpr std::size_t kLongest = 60;
@@ -331,6 +334,33 @@ void TableReader::finish(std::span<const std::string> not_yet) {
     if (hint.empty()) hint = "; known are: " + joined(known);
     complaints_->add(entry.place, name() + " has no key " + shown_key(entry.key) + hint);
   }
+}
+
+bool is_name(std::string_view name) {
+  constexpr std::string_view kLetters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  return !name.empty() && name.size() <= kLongestName &&
+         name.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
+bool check_name(TableReader& reader, const std::string& name,
+                const std::vector<std::string>& taken) {
+  if (name.empty() && !reader.has("name")) {
+    reader.complain("name", reader.name() + " needs a `name`");
+    return false;
+  }
+  if (!is_name(name)) {
+    reader.complain("name",
+                    "a name consists of letters, digits, `_`, `-` and `.`, is not empty, and has "
+                    "at most " +
+                        std::to_string(kLongestName) + " of them");
+    return false;
+  }
+  if (std::ranges::find(taken, name) != taken.end()) {
+    reader.complain("name", "two " + reader.name() + " have the name \"" + name + "\"");
+    return false;
+  }
+  return true;
 }
 
 bool names_a_file(const std::string& word) {

@@ -114,6 +114,13 @@ class TableReader {
 /// Whether a word that could be a name is meant as a file: it ends in .toml or has a slash.
 bool names_a_file(const std::string& word);
 
+/// Whether a name is good for stores, command lines and files: letters, digits, `_`, `-`, `.`.
+bool is_name(std::string_view name);
+
+/// Complains under `name` and says so when it is none, or when it is in `taken`.
+bool check_name(TableReader& reader, const std::string& name,
+                const std::vector<std::string>& taken);
+
 /// Files begin with `format = 1`; one of a later format is refused before its unknown keys confuse
 /// anybody.
 void read_format(TableReader& root);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sim/control/flavour_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 
@@ -27,6 +28,13 @@ Expected<Mission> find_mission_or_complain(const std::string& word, const std::s
 Expected<Profile> find_profile_or_complain(const std::string& word, const std::string& flag,
                                            Output& output) {
   auto found = find_profile(word, {});
+  if (!found) return complain(found.error(), flag, output);
+  return std::move(*found);
+}
+
+Expected<Flavour> find_flavour_or_complain(const std::string& word, const std::string& flag,
+                                           Output& output) {
+  auto found = find_flavour_file(word, {});
   if (!found) return complain(found.error(), flag, output);
   return std::move(*found);
 }

@@ -158,6 +158,16 @@ Examples:
   swarmsmith profile rvr -o my_rvr.toml
   swarmsmith profile my_rvr.toml)";
 
+constexpr std::string_view kFlavourDetails =
+    R"(Prints a built-in flavour as a commented file, to edit and to name in a campaign file (flavour =
+"mine.toml") or after --flavour. Of a file of your own it prints all of it, what its base has
+included. Without a name it lists the built-in flavours. docs/flavours.md explains the file.
+
+Examples:
+  swarmsmith flavour
+  swarmsmith flavour chocolate -o mine.toml
+  swarmsmith flavour mine.toml)";
+
 constexpr std::string_view kStatusDetails =
     R"(Asks the running coordinator for campaigns, idle slots and their reasons, designs, and hosts, the worst
 first. If no coordinator is known, it reads the store. On a terminal --watch redraws one screen until
@@ -190,12 +200,14 @@ Examples:
   swarmsmith dashboard demo.db --export demo.html --design d1)";
 
 constexpr std::string_view kLsDetails =
-    R"(Conditions and order are SQL over the columns. --json shows all columns.
+    R"(Conditions and order are SQL over the columns. --json shows all columns. `ls flavours` lists the
+built-in flavours, and needs no store.
 
 Examples:
   swarmsmith ls designs demo.db
   swarmsmith ls candidates demo.db --where "n_states = 2 AND mean > 2.5" --sort "mean DESC" --limit 10
-  swarmsmith ls evaluations demo.db --where "status <> 'ok'" --json)";
+  swarmsmith ls evaluations demo.db --where "status <> 'ok'" --json
+  swarmsmith ls flavours)";
 
 constexpr std::string_view kShowDetails = R"(Examples:
   swarmsmith show d1 demo.db
@@ -335,6 +347,8 @@ constexpr std::array kCommands = {
                    declare_check},
     ProgramCommand{"profile", "Print a simulator profile, as a starting point", kProfileDetails,
                    declare_profile},
+    ProgramCommand{"flavour", "Print a flavour, as a starting point", kFlavourDetails,
+                   declare_flavour},
     ProgramCommand{"serve", "Run a campaign with workers on other hosts", kServeDetails,
                    declare_serve},
     ProgramCommand{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
@@ -352,8 +366,8 @@ constexpr std::array kCommands = {
     ProgramCommand{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     ProgramCommand{"dashboard", "Show stores and campaigns in the browser", kDashboardDetails,
                    declare_dashboard},
-    ProgramCommand{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
-                   declare_ls},
+    ProgramCommand{"ls", "List designs, candidates, evaluations, elites, workers or flavours",
+                   kLsDetails, declare_ls},
     ProgramCommand{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
     ProgramCommand{"explain", "Show the history of one evaluation or one design", kExplainDetails,
                    declare_explain},

@@ -31,6 +31,7 @@ CommandRun declare_keygen(Options& options);
 CommandRun declare_evaluate(Options& options);
 CommandRun declare_replay(Options& options);
 CommandRun declare_profile(Options& options);
+CommandRun declare_flavour(Options& options);
 CommandRun declare_status(Options& options);
 CommandRun declare_dashboard(Options& options);
 CommandRun declare_ls(Options& options);

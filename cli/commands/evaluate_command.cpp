@@ -254,9 +254,10 @@ CommandRun declare_evaluate(Options& options) {
                "(c812), or best: "
                "the winner of each finished design",
                Options::Need::Required);
-  options.text("--flavour FLAVOUR", arguments->flavour,
-               "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
-               "candidate's or the file's)");
+  options.text(
+      "--flavour FLAVOUR|FILE", arguments->flavour,
+      "Flavour of the machine (default: the candidate's or the file's); `swarmsmith flavour` "
+      "lists the built-in ones");
   options.choice("--turn-clock", arguments->turn_clock, {"cycles", "seconds"},
                  "What turns of exploration are measured in (default: as the candidate or the file "
                  "says, else cycles)");

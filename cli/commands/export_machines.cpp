@@ -93,7 +93,7 @@ Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineEx
                              double width) {
   const auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  const auto stored = controller_of(*record, store.schema());
+  const auto stored = controller_of(*record, store);
   if (!stored) return Unexpected(stored.error());
   auto bytes = what.format == "argos" ? experiment_of(store, *record, *stored, what)
                                       : picture_of(*record, *stored, what, width);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <random>
 
+#include "base/suggestion.h"
 #include "base/text/toml_text.h"
 #include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
@@ -13,6 +14,7 @@
 #include "coordinator/campaign/irace_campaign.h"
 #include "irace_core/files/command_line.h"
 #include "irace_core/files/setup.h"
+#include "sim/control/flavour_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -111,8 +113,8 @@ CommandRun declare_import(Options& options) {
                "Store to import into; made if needed for machines and logs, while scores need "
                "their designs");
   options.text("--flavour FLAVOUR", arguments->flavour,
-               "Flavour of machines whose file names none, or of a log's configurations: "
-               "watermelon, watermelon-argos3, chocolate");
+               "Flavour of machines whose file names none, or of a log's configurations: " +
+                   joined(flavour_names()));
   options.texts("--mission MISSION|FILE", arguments->missions,
                 "Mission of rows that name none; OLD=NEW renames one; a mission file in place of a "
                 "name says what the mission is, alone that of all rows; may be repeated");

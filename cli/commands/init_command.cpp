@@ -77,10 +77,11 @@ void replace_all(std::string& text, std::string_view what, std::string_view with
   }
 }
 
-std::vector<std::string> flavour_names() {
+/// Those that the simulated robot has.
+std::vector<std::string> names_of_flavours() {
   std::vector<std::string> names;
-  for (const Flavour* flavour : all_flavours())
-    names.emplace_back(flavour->name);
+  for (const Flavour* flavour : flavours_for(kRvrModel))
+    names.push_back(flavour->name);
   return names;
 }
 
@@ -89,7 +90,7 @@ std::string campaign_template(const std::string& mission, const std::string& fla
   std::string text(kTemplate);
   replace_all(text, "@MISSION@", mission);
   replace_all(text, "@FLAVOUR@", flavour);
-  replace_all(text, "@FLAVOURS@", fmt::format("{}", fmt::join(flavour_names(), ", ")));
+  replace_all(text, "@FLAVOURS@", fmt::format("{}", fmt::join(names_of_flavours(), ", ")));
   replace_all(text, "@SCORES@", fmt::format("{}", fmt::join(score_kinds(), ", ")));
   return text;
 }
@@ -128,7 +129,7 @@ CommandRun declare_init(Options& options) {
   auto arguments = std::make_shared<InitArguments>();
   options.text("DIR", arguments->folder, "Folder of the new campaign.toml (default: this one)");
   options.choice("--mission", arguments->mission, mission_names(), "Mission to design for");
-  options.choice("--flavour", arguments->flavour, flavour_names(), "Flavour of the modules");
+  options.choice("--flavour", arguments->flavour, names_of_flavours(), "Flavour of the modules");
   return [arguments](Output& output) { return run_init(*arguments, output); };
 }
 

@@ -1,5 +1,7 @@
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "base/suggestion.h"
@@ -9,6 +11,7 @@
 #include "cli/output/stored_campaigns.h"
 #include "cli/output/stored_quarantine.h"
 #include "cli/output/stored_stages.h"
+#include "sim/control/flavour.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -75,7 +78,34 @@ std::string statement(const Kind& kind, const LsArguments& arguments, bool all_c
   return sql;
 }
 
+constexpr std::string_view kFlavours = "flavours";
+
+/// Those that are built in: what needs no store.
+Rows flavour_rows() {
+  using Cell = StoreReader::Cell;
+  const auto text = [](const std::string& value) {
+    return Cell{.type = Cell::Type::Text, .text = value};
+  };
+  const auto number = [](std::size_t value) {
+    return Cell{.type = Cell::Type::Integer, .text = std::to_string(value)};
+  };
+  Rows rows{
+      .columns = {"flavour", "reference", "states", "transitions", "behaviours", "conditions"},
+      .cells = {}};
+  for (const Flavour* flavour : all_flavours()) {
+    rows.cells.push_back({text(flavour->name), text(flavour->reference),
+                          number(static_cast<std::size_t>(flavour->most_states)),
+                          number(static_cast<std::size_t>(flavour->most_transitions)),
+                          number(flavour->behaviours.size()), number(flavour->conditions.size())});
+  }
+  return rows;
+}
+
 ExitCode run_ls(const LsArguments& arguments, Output& output) {
+  if (arguments.kind == kFlavours) {
+    write_rows(output, flavour_rows(), output.json ? Form::Json : Form::Text);
+    return ExitCode::Done;
+  }
   constexpr std::int64_t kShown = 100;
   constexpr std::int64_t kAll = 1'000'000'000;
   const Kind* kind = nullptr;
@@ -110,6 +140,7 @@ CommandRun declare_ls(Options& options) {
   kinds.reserve(std::size(kKinds));
   for (const Kind& kind : kKinds)
     kinds.emplace_back(kind.name);
+  kinds.emplace_back(kFlavours);
   options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);
   arguments->store.declare(options);
   options.text("--where SQL", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");

@@ -10,7 +10,7 @@
 
 #include "base/log.h"
 #include "console/options.h"
-#include "sim/control/flavour.h"
+#include "sim/control/flavour_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "storage/store.h"
@@ -75,10 +75,7 @@ void offer_built_in(std::string_view kind, Offer& offer) {
   if (kind == "MISSION") offer_names(mission_names(), offer);
   if (kind == "PROFILE") offer_names(profile_names(), offer);
   if (kind == "BEST") offer.words.push_back({"best", "the winners of the finished designs"});
-  if (kind == "FLAVOUR") {
-    for (const Flavour* flavour : all_flavours())
-      offer.words.push_back({flavour->name, ""});
-  }
+  if (kind == "FLAVOUR") offer_names(flavour_names(), offer);
 }
 
 }  // namespace

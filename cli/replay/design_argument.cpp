@@ -69,6 +69,7 @@ void put_into_world(NamedMachine& machine, const Campaign& campaign, const Desig
   });
   const Method& method = *std::ranges::find(campaign.methods, design.method, &Method::name);
   machine.flavour = method.flavour;
+  machine.own_flavour = method.own_flavour;
   machine.turn_clock = method.turn_clock;
 }
 

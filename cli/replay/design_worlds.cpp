@@ -42,6 +42,7 @@ void put_campaign(DesignWorld& world, const Campaign& campaign) {
   if (method == campaign.methods.end()) return;
   world.has_parameters = !method->parameters.empty();
   world.flavour = world.has_parameters ? "" : method->flavour;
+  world.own_flavour = method->own_flavour;
   world.turn_clock = method->turn_clock;
 }
 

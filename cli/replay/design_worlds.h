@@ -19,6 +19,7 @@ struct DesignWorld {
   KnownDesign design;
   std::optional<CampaignMission> mission;  ///< nothing: its programs', or of an unknown name
   std::string flavour;
+  const Flavour* own_flavour = nullptr;  ///< null: built in
   std::optional<TurnClock> turn_clock;
   std::optional<Profile> profile;      ///< the campaign's; nothing for imported machines
   std::vector<Profile> test_profiles;  ///< further ones of the campaign

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/rng.h"
+#include "base/suggestion.h"
 #include "base/text/whole_file.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/arguments/world_argument.h"
@@ -14,6 +15,7 @@
 #include "cli/replay/design_worlds.h"
 #include "console/seeds.h"
 #include "sim/control/controller.h"
+#include "sim/control/flavour_file.h"
 #include "sim/control/foreign_text.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
@@ -27,18 +29,28 @@ constexpr const char* kTurnClock = "--turn-clock";
 
 /// The same text is another machine under another flavour, so the flavour is not guessed. A
 /// candidate's method has a say in its flavour's constants; another flavour has its own.
-Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMachine& named) {
-  const std::string name = arguments.flavour.empty() ? named.flavour : arguments.flavour;
+Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMachine& named,
+                             Output& output) {
+  std::string name = named.flavour;
+  const Flavour* own = named.own_flavour;
+  if (!arguments.flavour.empty() && arguments.flavour != named.flavour) {
+    auto given = find_flavour_or_complain(arguments.flavour, "--flavour", output);
+    if (!given) return Unexpected(given.error());
+    name = given->name;
+    own = kept_flavour(std::move(*given));
+  }
   if (name.empty()) {
-    return bad_input(
-        "the machine's flavour is unknown; add --flavour watermelon, watermelon-argos3 or "
-        "chocolate; files that `swarmsmith export` writes name it");
+    return bad_input("the machine's flavour is unknown; add --flavour with one of " +
+                     joined(flavour_names()) +
+                     ", or a file; files that `swarmsmith export` writes say it");
   }
-  if (!named.candidate && !named.flavour.empty() && name != named.flavour) {
+  const bool is_other = name != named.flavour || own != named.own_flavour;
+  if (!named.candidate && !named.flavour.empty() && is_other) {
     return bad_input("the machine is of the flavour " + named.flavour + " (" + named.place +
-                     "), not " + name + "; leave the flag out, or change the file's head");
+                     "), not " + arguments.flavour +
+                     "; leave the flag out, or change the file's head");
   }
-  const auto known = find_flavour(name);
+  const auto known = find_flavour(name, own);
   if (!known) return Unexpected(known.error());
   std::optional<TurnClock> clock;
   if (name == named.flavour) clock = named.turn_clock;
@@ -55,7 +67,7 @@ Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMach
     clock = wanted;
   }
   if (!clock) return **known;
-  return find_flavour(name, *clock);
+  return find_flavour(name, *clock, own);
 }
 
 /// A candidate's own mission may have been changed by its file; the flag names a built-in one, or a
@@ -185,15 +197,17 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   EvaluationJob job{.candidate = named.candidate, .name = named.name};
   std::string where = named.candidate ? to_string(named.candidate) : named.place;
   if (where.empty()) where = "MACHINE";
-  auto flavour = flavour_of(arguments, named);
+  auto flavour = flavour_of(arguments, named, output);
   if (!flavour) {
     const Error& error = flavour.error();
-    return bad_input(error.message, error.where == kTurnClock ? kTurnClock : "--flavour");
+    return bad_input(error.message, error.where.empty() ? "--flavour" : error.where);
   }
   job.flavour = std::move(*flavour);
   auto controller = parse_controller(named.text, job.flavour);
   if (!controller)
     return bad_input(controller.error().message, where + ", " + controller.error().where);
+  if (const auto complaint = complaint_about_running(*controller, job.flavour))
+    return bad_input(*complaint, where);
   job.controller = std::move(*controller);
   auto profile = profile_of(arguments, named, output);
   if (!profile) return Unexpected(profile.error());

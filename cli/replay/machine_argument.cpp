@@ -48,6 +48,7 @@ Expected<std::vector<NamedMachine>> machines_of_file(const std::string& file, Ou
     MachineHead& head = from.head;
     if (head.mission) machine.mission = CampaignMission{std::move(*head.mission), {}};
     machine.flavour = std::move(head.flavour);
+    machine.own_flavour = head.own_flavour;
     machine.turn_clock = head.turn_clock;
     machine.profile = std::move(head.profile);
     machine.seeds = std::move(head.seeds);
@@ -81,6 +82,7 @@ Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorl
   machine.design_mission = (*world)->design.mission;
   machine.mission = std::move((*world)->mission);
   machine.flavour = std::move((*world)->flavour);
+  machine.own_flavour = (*world)->own_flavour;
   machine.turn_clock = (*world)->turn_clock;
   machine.profile = std::move((*world)->profile);
   return machine;

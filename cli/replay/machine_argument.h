@@ -21,6 +21,7 @@ struct NamedMachine {
   // Of a candidate its design's, of a file its head's, as far as they say it.
   std::optional<CampaignMission> mission;
   std::string flavour;
+  const Flavour* own_flavour = nullptr;  ///< null: built in
   std::optional<TurnClock> turn_clock;
   std::optional<Profile> profile;
   std::string seeds;  ///< of a file: those of the tests whose scores its store has

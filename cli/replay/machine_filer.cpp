@@ -45,6 +45,7 @@ Expected<MachineHead> MachineFiler::head_of(CandidateId candidate) {
   auto seeds = test_seeds(*store_, candidate);
   if (!seeds) return Unexpected(seeds.error());
   return MachineHead{.flavour = world_->flavour,
+                     .own_flavour = world_->own_flavour,
                      .turn_clock = world_->turn_clock,
                      .profile = world_->profile,
                      .mission = world_->mission,

@@ -88,12 +88,14 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
   if (world.flavour.empty()) {
     return bad_input("the store's campaign has no method " + world.design.method);
   }
-  auto flavour = world.turn_clock ? find_flavour(world.flavour, *world.turn_clock)
-                                  : find_flavour(world.flavour, TurnClock::Cycles);
+  auto flavour =
+      find_flavour(world.flavour, world.turn_clock.value_or(TurnClock::Cycles), world.own_flavour);
   if (!flavour) return Unexpected(flavour.error());
   run.flavour = std::move(*flavour);
   auto controller = parse_controller(text, run.flavour);
   if (!controller) return Unexpected(controller.error());
+  if (const auto complaint = complaint_about_running(*controller, run.flavour))
+    return bad_input(*complaint);
   run.controller = std::move(*controller);
   auto instance = instance_of(run.mission, run.seed);
   if (!instance) return Unexpected(instance.error());

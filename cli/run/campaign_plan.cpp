@@ -81,7 +81,8 @@ void warn_about_scores(const std::string& mission, const Measured& measured,
 /// too long for that, its beginning is simulated: as much as fits.
 Measured measure(const Campaign& campaign, const Method& method, const Mission& mission,
                  double budget_s) {
-  const Flavour flavour = find_flavour(method.flavour, method.turn_clock).value();
+  const Flavour flavour =
+      find_flavour(method.flavour, method.turn_clock, method.own_flavour).value();
   const std::vector<Controller> controllers = some_controllers(campaign, method);
   constexpr int kFirstCycles = 50;
   constexpr int kGrowth = 4;

@@ -77,7 +77,7 @@ std::vector<std::string> warnings_about(const Campaign& campaign) {
   for (const CampaignMission& mission : campaign.missions)
     warn_about_robot(mission.mission, warnings);
   for (const Method& method : campaign.methods) {
-    const Flavour& flavour = **find_flavour(method.flavour);
+    const Flavour& flavour = **flavour_of(method);
     warn_about_black(method, flavour, campaign.profile, warnings);
     warn_about_range(method, flavour, campaign.profile, warnings);
     warn_about_light(method, campaign, warnings);

@@ -30,7 +30,9 @@ WorkerScenario scenario_of(const Campaign& campaign) {
     scenario.missions.push_back(mission.mission);
   }
   for (const Method& method : campaign.methods)
-    scenario.methods.push_back({.flavour = method.flavour, .turn_clock = method.turn_clock});
+    scenario.methods.push_back({.flavour = method.flavour,
+                                .turn_clock = method.turn_clock,
+                                .own_flavour = method.own_flavour});
   return scenario;
 }
 

@@ -50,6 +50,7 @@ std::int64_t repetitions_of(const Campaign& campaign, const Method& method);
 struct Method {
   std::string name;
   std::string flavour = "watermelon";
+  const Flavour* own_flavour = nullptr;      ///< of a file, see kept_flavour; null: built in
   TurnClock turn_clock = TurnClock::Cycles;  ///< the flavour's own unless the file has another
   std::int64_t max_states = 4;
   std::int64_t max_transitions = 4;
@@ -71,6 +72,11 @@ struct Method {
 
   friend bool operator==(const Method&, const Method&) = default;
 };
+
+/// The method's flavour, but for the turn clock. Fails for a name that this program does not know.
+inline Expected<const Flavour*> flavour_of(const Method& method) {
+  return find_flavour(method.flavour, method.own_flavour);
+}
 
 /// Of a design: lists of pairs are as long as a part of it.
 inline constexpr std::int64_t kLargestBudget = 100'000'000;

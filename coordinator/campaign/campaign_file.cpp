@@ -207,7 +207,7 @@ void check_robots(TableReader& root, const Campaign& campaign) {
     const Robot& robot = mission.mission.robot;
     const std::string of = "mission \"" + mission.mission.name + "\": ";
     for (const Method& method : campaign.methods) {
-      const auto flavour = find_flavour(method.flavour);
+      const auto flavour = flavour_of(method);
       if (!flavour) continue;
       if (const auto why = misfit(**flavour, robot)) root.complain("method", of + *why);
     }

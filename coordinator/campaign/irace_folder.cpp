@@ -159,7 +159,7 @@ Expected<IraceSetup> setup_of_simulations(const Campaign& campaign, const Method
   if (campaign.race.max_time > 0) {
     return bad_input("a simulation prints no time, which max_time needs", "max_time");
   }
-  const auto flavour = find_flavour(method.flavour, method.turn_clock);
+  const auto flavour = find_flavour(method.flavour, method.turn_clock, method.own_flavour);
   if (!flavour) return Unexpected(flavour.error());
   auto space = space_in_grammar(method, *flavour, static_cast<int>(campaign.digits));
   if (!space) return Unexpected(space.error());

@@ -172,7 +172,8 @@ std::string parameters_json(const ParameterSpace& space, const Configuration& co
   return object.text();
 }
 
-std::vector<std::pair<std::string, int>> module_counts(const Controller& controller) {
+std::vector<std::pair<std::string, int>> module_counts(const Controller& controller,
+                                                       const Flavour& flavour) {
   std::map<Module, int> counts;
   if (const auto* machine = std::get_if<Machine>(&controller)) {
     for (const State& state : machine->states) {
@@ -189,13 +190,13 @@ std::vector<std::pair<std::string, int>> module_counts(const Controller& control
   std::vector<std::pair<std::string, int>> named;
   named.reserve(counts.size());
   for (const auto& [module, count] : counts)
-    named.emplace_back(id_of(module), count);
+    named.emplace_back(flavour.find(module)->id, count);
   return named;
 }
 
-std::string modules_json(const Controller& controller) {
+std::string modules_json(const Controller& controller, const Flavour& flavour) {
   JsonObject object;
-  for (const auto& [module, count] : module_counts(controller))
+  for (const auto& [module, count] : module_counts(controller, flavour))
     object.add(module, count);
   return object.text();
 }

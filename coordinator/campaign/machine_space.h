@@ -73,16 +73,18 @@ struct SearchRange {
 
   friend bool operator==(const SearchRange&, const SearchRange&) = default;
 };
-SearchRange range_of(const Method& method, Module module, const ParameterSpec& parameter);
+SearchRange range_of(const Method& method, const ModuleSpec& module,
+                     const ParameterSpec& parameter);
 
 /// The active parameters as a JSON object, in the space's order: choices as texts.
 std::string parameters_json(const ParameterSpace& space, const Configuration& configuration);
 
 /// How often the control software has each module: by id, in the order of the flavours' tables; a
 /// network has none.
-std::vector<std::pair<std::string, int>> module_counts(const Controller& controller);
+std::vector<std::pair<std::string, int>> module_counts(const Controller& controller,
+                                                       const Flavour& flavour);
 /// The same as a JSON object.
-std::string modules_json(const Controller& controller);
+std::string modules_json(const Controller& controller, const Flavour& flavour);
 
 /// The number of transitions of all states.
 int transition_count(const Machine& machine);

@@ -33,8 +33,10 @@ std::size_t longest_call(const ParameterSpace& space) {
 
 CandidateText text_of(const Controller& controller, const Flavour& flavour) {
   const std::string printed = print_controller(controller, flavour);
-  CandidateText text{
-      .parameters = "{}", .machine = printed, .call = printed, .modules = modules_json(controller)};
+  CandidateText text{.parameters = "{}",
+                     .machine = printed,
+                     .call = printed,
+                     .modules = modules_json(controller, flavour)};
   if (const auto* machine = std::get_if<Machine>(&controller)) {
     text.states = static_cast<std::int64_t>(machine->states.size());
     text.transitions = transition_count(*machine);
@@ -48,7 +50,7 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
   MethodSpace made;
   made.aclib_ = aclib;
   if (method.parameters.empty()) {
-    auto flavour = find_flavour(method.flavour);
+    const auto flavour = flavour_of(method);
     if (!flavour) return Unexpected(flavour.error());
     made.method_ = method;
     made.flavour_ = *flavour;

@@ -27,7 +27,7 @@ Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
     return {};
   }
   // It may be no point of the space, whose ranges a person need not keep to.
-  const auto flavour = find_flavour(method.flavour);
+  const auto flavour = flavour_of(method);
   if (!flavour) return Unexpected(flavour.error());
   const auto given = parse_controller(method.baseline, **flavour);
   if (!given) return Unexpected(given.error());

@@ -118,7 +118,7 @@ Expected<CandidateRow> Rows::candidate(const LogConfiguration& configuration) co
   const auto machine = parse_machine(row.machine, *known_.flavour);
   if (!machine) return Unexpected(machine.error());
   row.machine = print_machine(*machine, *known_.flavour);
-  row.modules = modules_json(*machine);
+  row.modules = modules_json(*machine, *known_.flavour);
   row.states = static_cast<std::int64_t>(machine->states.size());
   row.transitions = transition_count(*machine);
   return row;

@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/suggestion.h"
 #include "base/text/json.h"
 #include "coordinator/campaign/method_space.h"
 #include "sim/control/controller.h"
+#include "sim/control/flavour_file.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
@@ -196,7 +198,7 @@ OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
   std::vector<Error> errors;
   for (FiledMachine& from : *filed) {
     MachineHead& head = from.head;
-    const auto flavour = find_flavour(head.flavour);
+    const auto flavour = find_flavour(head.flavour, head.own_flavour);
     if (flavour && head.turn_clock && *head.turn_clock != (*flavour)->exploration.turn_clock) {
       errors.push_back(
           {ErrorKind::BadInput,
@@ -264,8 +266,7 @@ Expected<std::string> flavour_of(const std::vector<MachineText>& machines,
   const auto silent = std::ranges::find(machines, "", &MachineText::flavour);
   if (said.empty() && silent != machines.end()) {
     return bad_input(
-        "the machine's flavour is unknown; add --flavour watermelon, watermelon-argos3 or "
-        "chocolate",
+        "the machine's flavour is unknown; add --flavour with one of " + joined(flavour_names()),
         silent->place);
   }
   return flavour;

@@ -1,11 +1,14 @@
 #include "proto/scenario/scenario.h"
 
+#include <utility>
+
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "proto/key.h"
 #include "proto/scenario.pb.h"
 #include "proto/scenario/target_message.h"
+#include "sim/control/flavour_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 
@@ -15,6 +18,7 @@ namespace {
 void write(const WorkerMethod& method, pb::Method& out) {
   out.set_flavour(method.flavour);
   const bool cycles = method.turn_clock == TurnClock::Cycles;
+  if (method.own_flavour != nullptr) out.set_own_flavour(flavour_text(*method.own_flavour));
   out.set_turn_clock(cycles ? pb::Method::TURN_CLOCK_CYCLES : pb::Method::TURN_CLOCK_SECONDS);
 }
 
@@ -24,7 +28,12 @@ Expected<WorkerMethod> read(const pb::Method& message) {
     return bad_input("a clock of turns that this program does not know", "turn_clock");
   }
   const bool cycles = message.turn_clock() == pb::Method::TURN_CLOCK_CYCLES;
-  return WorkerMethod{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};
+  WorkerMethod method{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};
+  if (message.own_flavour().empty()) return method;
+  auto own = parse_flavour(message.own_flavour(), message.flavour() + ".toml");
+  if (!own) return bad_input(to_string(own.error().front()), "own_flavour");
+  method.own_flavour = kept_flavour(std::move(*own));
+  return method;
 }
 
 /// Missions and profile as a campaign file has them, every field said: another version may have

@@ -17,6 +17,7 @@ namespace swarmsmith {
 struct WorkerMethod {
   std::string flavour;  ///< name
   TurnClock turn_clock = TurnClock::Cycles;
+  const Flavour* own_flavour = nullptr;  ///< null: built in
 
   friend bool operator==(const WorkerMethod&, const WorkerMethod&) = default;
 };

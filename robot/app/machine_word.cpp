@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/text/whole_file.h"
+#include "sim/control/flavour_file.h"
 #include "sim/engine/fitting.h"
 #include "sim/files/machine_file.h"
 
@@ -39,7 +40,14 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
         filed->place);
   }
   if (!turn_clock) turn_clock = filed->head.turn_clock;
-  auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles));
+  const Flavour* own = filed->head.own_flavour;
+  if (flavour != filed->head.flavour) {
+    auto given = find_flavour_file(flavour, {});
+    if (!given) return Unexpected(given.error().front());
+    flavour = given->name;
+    own = kept_flavour(std::move(*given));
+  }
+  auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles), own);
   if (!known) return Unexpected(known.error());
   // Drivers speak of the RVR's sensors and treads alone (docs/robot-messages.md).
   if (const auto why = misfit(*known, rvr())) return bad_input(*why, filed->place);
@@ -55,6 +63,8 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
     error.where = filed->place + (error.where.empty() ? "" : ", " + error.where);
     return Unexpected(std::move(error));
   }
+  if (const auto complaint = complaint_about_running(*controller, *known))
+    return bad_input(*complaint, filed->place);
   return RobotMachine{std::move(*known), std::move(*controller)};
 }
 

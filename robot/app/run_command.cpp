@@ -246,7 +246,7 @@ CommandRun declare_robot_run(Options& options) {
   options.text("--robot ROBOT", words->robot, "Which robot: 2 is rvr2; or its name", kNeeded);
   options.text("--machine MACHINE|FILE", words->machine,
                "Machine, tree or network: a text or a file", kNeeded);
-  options.text("--flavour FLAVOUR", words->flavour,
+  options.text("--flavour FLAVOUR|FILE", words->flavour,
                "What its modules do (default: as its file says)");
   options.choice("--turn-clock", words->turn_clock,
                  {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}},

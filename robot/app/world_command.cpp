@@ -412,7 +412,7 @@ CommandRun declare_robot_world(Options& options) {
   options.flag("--compare", words->compare,
                "Run everything in this process, too, and say whether all bits agree");
   options.text("--machine MACHINE|FILE", words->machine, "For --compare: the machine of the nodes");
-  options.text("--flavour FLAVOUR", words->flavour,
+  options.text("--flavour FLAVOUR|FILE", words->flavour,
                "For --compare: its flavour (default: its file's)");
   options.choice("--turn-clock", words->turn_clock,
                  {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}},

@@ -221,6 +221,7 @@ void visit_head(Head& head, Field& field) {
   field("machine", head.machine);
   field("machine_digest", head.machine_digest);
   field("flavour", head.flavour);
+  field.maybe(!head.own_flavour.empty(), "own_flavour", head.own_flavour);
   field("turn_clock", head.turn_clock);
   field("seed", head.seed, kCounts);
   field("lock_step", head.lock_step);

@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/hash.h"
+#include "sim/control/flavour_file.h"
 #include "sim/control/used_senses.h"
 
 namespace swarmsmith {
@@ -41,6 +42,7 @@ std::string digest_of(const std::string& machine, const Flavour& flavour) {
   Digest digest;
   digest.add(machine);
   digest.add(flavour.name);
+  if (const std::string own = own_flavour_text(flavour); !own.empty()) digest.add(own);
   digest.add(name_of(flavour.exploration.turn_clock));
   return digest.hex();
 }
@@ -609,6 +611,7 @@ LogHead RobotNode::head() const {
                .machine = machine_text_,
                .machine_digest = machine_digest_,
                .flavour = flavour_->name,
+               .own_flavour = own_flavour_text(*flavour_),
                .turn_clock = std::string(name_of(flavour_->exploration.turn_clock)),
                .seed = seed_,
                .lock_step = lock_step_,

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <utility>
 
 #include "base/assert.h"
 #include "robot/runtime/node.h"
 #include "sim/control/control_software.h"
+#include "sim/control/flavour_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -38,16 +40,26 @@ Expected<TurnClock> turn_clock_of(const std::string& name) {
   return bad_input("there is no turn clock `" + name + "`; there are cycles and seconds");
 }
 
+Expected<Flavour> flavour_of(const LogHead& head, TurnClock turn_clock) {
+  if (head.own_flavour.empty()) return find_flavour(head.flavour, turn_clock);
+  auto own = parse_flavour(head.own_flavour, head.flavour + ".toml");
+  if (!own) return Unexpected(own.error().front());
+  own->exploration.turn_clock = turn_clock;
+  return std::move(*own);
+}
+
 }  // namespace
 
 Expected<LogReplay> replay_log(const RunRecord& record) {
   const LogHead& head = record.head;
   const auto turn_clock = turn_clock_of(head.turn_clock);
   if (!turn_clock) return Unexpected(turn_clock.error());
-  const auto flavour = find_flavour(head.flavour, *turn_clock);
+  const auto flavour = flavour_of(head, *turn_clock);
   if (!flavour) return Unexpected(flavour.error());
   const auto controller = parse_controller(head.machine, *flavour);
   if (!controller) return Unexpected(controller.error());
+  if (const auto complaint = complaint_about_running(*controller, *flavour))
+    return bad_input(*complaint);
   ControlSoftware control(*controller, *flavour,
                           control_stream(head.seed, static_cast<int>(head.robot_index)));
   LogReplay replay;

@@ -85,6 +85,7 @@ struct LogHead {
   std::string machine;           ///< text of the grammar
   std::string machine_digest;
   std::string flavour;
+  std::string own_flavour;  ///< all of it as a file; empty for one that is built in
   std::string turn_clock;
   std::int64_t seed = 1;
   bool lock_step = false;  ///< stepped by a simulated world, not by the clock

@@ -42,17 +42,20 @@ bool Report::passes() const {
 
 Report assess(const Flavour& flavour, const Profile& profile, const Progress& progress) {
   Report report;
-  const auto of = static_cast<int>(flavour.behaviours.size() + flavour.conditions.size());
+  const auto runs = [](const ModuleSpec& spec) { return !is_external(spec.module); };
+  const auto of = static_cast<int>(std::ranges::count_if(flavour.behaviours, runs) +
+                                   std::ranges::count_if(flavour.conditions, runs));
   const auto add = [&](ModuleReport module) {
     report.modules.push_back(std::move(module));
     if (progress) progress(static_cast<int>(report.modules.size()), of);
   };
   for (const ModuleSpec& spec : flavour.behaviours) {
-    add({.module = spec.module, .checks = check_behaviour(spec, flavour, profile), .rates = {}});
+    if (runs(spec))
+      add({.module = spec.module, .checks = check_behaviour(spec, flavour, profile), .rates = {}});
   }
   const Profile nominal = with_nominal_clock(profile);
   for (const ModuleSpec& spec : flavour.conditions)
-    add(assess_condition(spec, flavour, nominal));
+    if (runs(spec)) add(assess_condition(spec, flavour, nominal));
   return report;
 }
 

@@ -10,6 +10,8 @@
 namespace swarmsmith {
 
 Module module_of(const Behaviour& behaviour) {
+  if (const auto* external = std::get_if<ExternalBehaviour>(&behaviour))
+    return external_behaviour(external->number);
   return module_at<Behaviour>(behaviour.index());
 }
 
@@ -18,6 +20,10 @@ std::vector<double> parameters_of(const Behaviour& behaviour) {
 }
 
 Behaviour make_behaviour(Module module, std::span<const double> parameters) {
+  if (is_external(module) && is_behaviour(module)) {
+    const int number = static_cast<int>(module) - static_cast<int>(external_behaviour(0));
+    return ExternalBehaviour{number, {parameters.begin(), parameters.end()}};
+  }
   const auto made = made_of<Behaviour>(module, parameters);
   if (!made) throw std::invalid_argument(std::string(id_of(module)) + " is not a behaviour");
   return *made;
@@ -31,10 +37,6 @@ Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,
 
 UsedSenses senses_used_by(const Behaviour& behaviour, const Flavour& flavour) {
   return std::visit([&](const auto& kind) { return kind.uses(flavour); }, behaviour);
-}
-
-std::vector<ModuleSpec> behaviours_of(std::string_view flavour) {
-  return specs_of<Behaviour>(flavour);
 }
 
 }  // namespace swarmsmith

@@ -31,7 +31,4 @@ Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,
 /// What the behaviour may ask for in some cycle or other, without the time.
 UsedSenses senses_used_by(const Behaviour& behaviour, const Flavour& flavour);
 
-/// The behaviours of the flavour with this name, in the order of its numbers.
-std::vector<ModuleSpec> behaviours_of(std::string_view flavour);
-
 }  // namespace swarmsmith

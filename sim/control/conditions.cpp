@@ -10,6 +10,8 @@
 namespace swarmsmith {
 
 Module module_of(const Condition& condition) {
+  if (const auto* external = std::get_if<ExternalCondition>(&condition))
+    return external_condition(external->number);
   return module_at<Condition>(condition.index());
 }
 
@@ -18,6 +20,10 @@ std::vector<double> parameters_of(const Condition& condition) {
 }
 
 Condition make_condition(Module module, std::span<const double> parameters) {
+  if (is_external(module) && !is_behaviour(module)) {
+    const int number = static_cast<int>(module) - static_cast<int>(external_condition(0));
+    return ExternalCondition{number, {parameters.begin(), parameters.end()}};
+  }
   const auto made = made_of<Condition>(module, parameters);
   if (!made) throw std::invalid_argument(std::string(id_of(module)) + " is not a condition");
   return *made;
@@ -31,10 +37,6 @@ double enabling_probability(const Condition& condition, Senses& senses, const Fl
 
 UsedSenses senses_used_by(const Condition& condition) {
   return std::visit([]<class Kind>(const Kind& /*kind*/) { return Kind::Reads::kUses; }, condition);
-}
-
-std::vector<ModuleSpec> conditions_of(std::string_view flavour) {
-  return specs_of<Condition>(flavour);
 }
 
 }  // namespace swarmsmith

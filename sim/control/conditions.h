@@ -30,7 +30,4 @@ double enabling_probability(const Condition& condition, Senses& senses, const Fl
 /// What the condition asks for.
 UsedSenses senses_used_by(const Condition& condition);
 
-/// The conditions of the flavour with this name, in the order of its numbers.
-std::vector<ModuleSpec> conditions_of(std::string_view flavour);
-
 }  // namespace swarmsmith

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include "base/overloaded.h"
+#include "sim/control/flavour.h"
 #include "sim/control/foreign_text.h"
 #include "sim/control/internal/fields.h"
 #include "sim/control/internal/genome.h"
@@ -119,6 +123,34 @@ std::string_view acting_in(const Controller& controller, int state) {
           [at](const Tree& tree) { return id_of(module_of(tree.subtrees[at].action)); },
           [](const Network&) { return name_of(Architecture::Network); }},
       controller);
+}
+
+std::optional<std::string> complaint_about_running(const Controller& controller,
+                                                   const Flavour& flavour) {
+  std::optional<std::string> complaint;
+  const auto look_at = [&](Module module) {
+    if (!is_external(module)) return;
+    const ModuleSpec* spec = flavour.find(module);
+    complaint = "the module " + (spec == nullptr ? "external" : spec->id) + " of the flavour " +
+                flavour.name +
+                " is external: this program can read it, and only a program of its own can run it";
+  };
+  std::visit(Overloaded{[&](const Machine& machine) {
+                          for (const State& state : machine.states) {
+                            look_at(module_of(state.behaviour));
+                            for (const Transition& transition : state.transitions)
+                              look_at(module_of(transition.condition));
+                          }
+                        },
+                        [&](const Tree& tree) {
+                          for (const Subtree& subtree : tree.subtrees) {
+                            look_at(module_of(subtree.action));
+                            look_at(module_of(subtree.condition));
+                          }
+                        },
+                        [](const Network&) {}},
+             controller);
+  return complaint;
 }
 
 std::optional<Error> check(const Controller& controller, const Flavour& flavour) {

@@ -44,4 +44,9 @@ std::string_view acting_in(const Controller& controller, int state);
 /// What is wrong with the controller, if anything.
 std::optional<Error> check(const Controller& controller, const Flavour& flavour);
 
+/// Why the control software cannot act on the RVR or in its simulation, as a sentence: its flavour
+/// is for another robot, or has external modules. Nothing when it can.
+std::optional<std::string> complaint_about_running(const Controller& controller,
+                                                   const Flavour& flavour);
+
 }  // namespace swarmsmith

@@ -10,12 +10,19 @@
 #include "sim/control/module.h"
 #include "sim/control/readings.h"
 #include "sim/control/reference_model.h"
+#include "sim/control/treads.h"
 
 namespace swarmsmith {
 
 /// A flavour of the method as plain data: its modules, their numbers in the text grammar, the
 /// ranges of their parameters, and the constants that say what a module does. One code runs all
-/// flavours. Where the value of a constant comes from stands beside it in flavours.cpp.
+/// flavours. Each is a file (flavour_file.h); where the value of a constant comes from stands
+/// beside it in the built-in ones, sim/control/flavours.
+
+/// A flavour's machines have up to so many states, and transitions from each; those of the thesis
+/// have 4 (thesis 5.2).
+inline constexpr int kMaxStates = 16;
+inline constexpr int kMaxTransitions = 16;
 
 /// One parameter of a module.
 struct ParameterSpec {
@@ -37,12 +44,17 @@ struct ParameterSpec {
   friend bool operator==(const ParameterSpec&, const ParameterSpec&) = default;
 };
 
+/// What a kind of module takes as parameters, with what a flavour has for them unless it says
+/// otherwise.
+std::vector<ParameterSpec> parameters_of_kind(Module module);
+
 /// Why `value` cannot be the parameter's value, as a sentence; nothing when it can.
 std::optional<std::string> complaint_about(const ParameterSpec& parameter, double value);
 
 /// A module in a flavour's tables, with its parameters in the order of `parameters_of`.
 struct ModuleSpec {
   Module module = Module::Stop;
+  std::string id;  ///< its name outside of the program
   int number = 0;  ///< in the text grammar
   std::vector<ParameterSpec> parameters;
 
@@ -70,7 +82,7 @@ struct ObstacleModel {
   enum class Reading {
     Linear,           ///< 1 at `near_m` and closer, falling to 0 at `far_m`
     InverseDistance,  ///< 1/d within [near_m, far_m], nothing outside: blind when touching
-    Strength,         ///< the sensors give strengths in [0, 1] themselves
+    AsSensed,         ///< what the robot's sensors give is no distance but a reading in [0, 1]
   };
   Reading reading = Reading::Linear;
   double near_m = kBlindZone_m;
@@ -101,6 +113,7 @@ struct ExplorationModel {
   enum class Trigger {
     FrontReadings,  ///< one reading of the front is enough; away from the highest
     VectorSum,      ///< the sum of all readings points to the front; away from its side
+    FrontThenSum,   ///< one reading of the front is enough; away from the side of the sum of all
   };
   enum class TurnLength {
     ZeroToTau,    ///< uniform in 0..tau; 0 is no turn
@@ -112,6 +125,7 @@ struct ExplorationModel {
   /// Front of FrontReadings: |y| <= front_slope * x; of VectorSum: x >= 0.
   double front_slope = 1;
   TurnLength turn_length = TurnLength::ZeroToTau;
+  double track_m = kTreadDistance_m;  ///< from tread to tread, for random walks' turns by an angle
 
   friend bool operator==(const ExplorationModel&, const ExplorationModel&) = default;
 };
@@ -126,6 +140,9 @@ struct NeighbourModel {
   int repulsion_power = 1;
   double attraction_gain = 1;
   double repulsion_gain = 1;
+  /// Counts are subtracted without a sign: more neighbours than xi are as if there were none
+  /// (e-puck facts, 4.5).
+  bool unsigned_count = false;
 
   friend bool operator==(const NeighbourModel&, const NeighbourModel&) = default;
 };
@@ -133,15 +150,11 @@ struct NeighbourModel {
 /// w' of Phototaxis and Anti-phototaxis: the sum of the ring's readings, each min(1, lux /
 /// full_lux), in their directions.
 struct LightModel {
-  enum class Law {
-    Sum,           ///< the vector sum of the readings
-    AllOrNothing,  ///< its direction with length 1 where any reading is above `least_reading`
-  };
-  Law law = Law::Sum;
-  double least_reading = 0;
-  double full_lux = 1000;                    ///< a reading of 1
-  double least_vector = 0.1;                 ///< a shorter sum is no light
-  std::optional<RingDirections> directions;  ///< as those of ObstacleModel
+  double full_lux = 1000;     ///< a reading of 1
+  double least_vector = 0.1;  ///< a shorter sum is no light
+  double least_reading = 0;   ///< and no reading above this; 0: whatever the readings
+  bool unit_vector = false;   ///< the light is all or nothing: of length 1
+  std::optional<RingDirections> directions{};  ///< as those of ObstacleModel
 
   friend bool operator==(const LightModel&, const LightModel&) = default;
 };
@@ -149,11 +162,13 @@ struct LightModel {
 /// Where a behaviour goes that has something to go by: along w' - obstacle_gain * obstacles.
 struct SteeringModel {
   double obstacle_gain = 5;
-  double attraction_obstacle_gain = 5;  ///< the same of Attraction
+  double attraction_obstacle_gain = 5;  ///< of Attraction
   /// Without anything to go by (no neighbour, no light), w' is (1, 0); else it is zero.
   bool forward_by_default = true;
   /// A shorter result means straight ahead.
   double shortest_result = 0.1;
+  /// The tread on the near side runs at no less than this part of the speed.
+  double least_inner = -1;
 
   friend bool operator==(const SteeringModel&, const SteeringModel&) = default;
 };
@@ -183,6 +198,11 @@ struct FloorModel {
 
 struct Flavour {
   std::string name;
+  /// The reference model that its modules read; control software of the flavour runs on robots with
+  /// this one alone.
+  std::string reference{kRvrModel};
+  int most_states = 4;       ///< of a machine
+  int most_transitions = 4;  ///< from a state
   std::vector<ModuleSpec> behaviours;
   std::vector<ModuleSpec> conditions;
   double speed_mps = 0.30;
@@ -193,13 +213,15 @@ struct Flavour {
   SteeringModel steering;
   FloorModel floor;
 
-  /// The entry of a module in the tables, or null when the flavour lacks it.
+  /// The entry of a module in the tables, by its kind or its id, or null when the flavour lacks it.
   const ModuleSpec* find(Module module) const;
+  const ModuleSpec* find(std::string_view id) const;
 
   friend bool operator==(const Flavour&, const Flavour&) = default;
 };
 
-/// The thesis as written, its silent points decided (thesis facts, sections 5 to 8 and 14).
+/// The built-in ones that the RVR has. The thesis as written, its silent points decided (thesis
+/// facts, sections 5 to 8 and 14).
 const Flavour& watermelon();
 
 /// The program published with the thesis, defects included (rvr-automode facts, sections 4 to 6).
@@ -208,16 +230,23 @@ const Flavour& watermelon_argos3();
 /// Chocolate's modules on an RVR with a ring of light sensors (thesis facts, sections 6.1 and 7).
 const Flavour& chocolate();
 
-/// Chocolate as its program of 2020 has it, on the e-puck (epuck facts, section 4).
-const Flavour& chocolate_epuck();
-
-/// All of them, in the order of their listing.
+/// All that are built in, in the order of their listing.
 std::span<const Flavour* const> all_flavours();
 
-/// The flavour with this name; an unknown name is an error that lists the known ones.
-Expected<const Flavour*> find_flavour(std::string_view name);
+/// Those of them whose reference model this is.
+std::vector<const Flavour*> flavours_for(std::string_view reference);
+
+/// `own`, or without it the built-in flavour with this name; an unknown name is an error that lists
+/// the known ones.
+Expected<const Flavour*> find_flavour(std::string_view name, const Flavour* own = nullptr);
 
 /// The same as a value of one's own, with the turn clock that a method chose.
-Expected<Flavour> find_flavour(std::string_view name, TurnClock turn_clock);
+Expected<Flavour> find_flavour(std::string_view name, TurnClock turn_clock,
+                               const Flavour* own = nullptr);
+
+/// A flavour of one's own, kept until the program ends as the built-in ones are: what refers to it
+/// may outlive the file that it was read from. Equal flavours are kept once, so that pointers are
+/// equal where flavours are; null for one that is built in, whose name is enough.
+const Flavour* kept_flavour(Flavour flavour);
 
 }  // namespace swarmsmith

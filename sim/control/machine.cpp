@@ -17,8 +17,10 @@ std::optional<Error> check_state(const Machine& machine, std::size_t index,
                                               parameters_of(state.behaviour), flavour)) {
     return Error{ErrorKind::BadInput, *complaint, where};
   }
-  if (state.transitions.size() > kMaxTransitions) {
-    return Error{ErrorKind::BadInput, "a state has at most 4 transitions", where};
+  if (static_cast<int>(state.transitions.size()) > flavour.most_transitions) {
+    return Error{ErrorKind::BadInput,
+                 "a state has at most " + std::to_string(flavour.most_transitions) + " transitions",
+                 where};
   }
   for (std::size_t j = 0; j < state.transitions.size(); ++j) {
     const Transition& transition = state.transitions[j];
@@ -56,8 +58,9 @@ std::vector<bool> reachable_states(const Machine& machine) {
 }
 
 std::optional<Error> check(const Machine& machine, const Flavour& flavour) {
-  if (machine.states.empty() || machine.states.size() > kMaxStates) {
-    return Error{ErrorKind::BadInput, "a machine has 1 to 4 states", ""};
+  if (machine.states.empty() || static_cast<int>(machine.states.size()) > flavour.most_states) {
+    return Error{ErrorKind::BadInput,
+                 "a machine has 1 to " + std::to_string(flavour.most_states) + " states", ""};
   }
   for (std::size_t i = 0; i < machine.states.size(); ++i) {
     if (auto error = check_state(machine, i, flavour)) return error;

@@ -11,10 +11,6 @@ namespace swarmsmith {
 
 struct Flavour;
 
-/// Bounds of the search space (thesis 5.2).
-inline constexpr int kMaxStates = 4;
-inline constexpr int kMaxTransitions = 4;
-
 /// An outgoing transition: when its condition enables it, the machine may go to state `target`.
 struct Transition {
   Condition condition;

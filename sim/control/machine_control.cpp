@@ -20,14 +20,13 @@ std::uint32_t number_of(const Rgb& color) {
 
 MachineControl::MachineControl(const Machine& machine, const Flavour& flavour, Rng rng)
     : machine_(&machine), flavour_(&flavour), rng_(rng) {
-  SWARMSMITH_ASSERT(!machine.states.empty() && machine.states.size() <= kMaxStates,
-                    "a machine has 1 to 4 states");
+  SWARMSMITH_ASSERT(!machine.states.empty(), "a machine has a state");
+  known_.resize(machine.states.size());
   for (std::size_t i = 0; i < machine.states.size(); ++i) {
     const std::vector<Transition>& transitions = machine.states[i].transitions;
-    SWARMSMITH_ASSERT(transitions.size() <= kMaxTransitions, "a state has at most 4 transitions");
-    for (std::size_t j = 0; j < transitions.size(); ++j) {
-      known_[i][j] = known_of(transitions[j].condition, flavour);
-    }
+    SWARMSMITH_ASSERT(transitions.size() <= kMaxTransitions, "a state has at most 16 transitions");
+    for (const Transition& transition : transitions)
+      known_[i].push_back(known_of(transition.condition, flavour));
   }
 }
 

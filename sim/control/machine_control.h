@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/rng.h"
 #include "sim/control/behaviours.h"
@@ -57,7 +58,7 @@ class MachineControl {
   int state_ = 0;
   bool entered_ = true;
   BehaviourMemory memory_;
-  std::array<std::array<Known, kMaxTransitions>, kMaxStates> known_;
+  std::vector<std::vector<Known>> known_;  ///< by state and transition
 };
 
 }  // namespace swarmsmith

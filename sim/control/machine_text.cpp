@@ -25,10 +25,10 @@ class Parser {
     }
     const Expected<int> states = integer_of(fields[0]);
     if (!states) return Unexpected(states.error());
-    if (*states < 1 || *states > kMaxStates) {
+    if (*states < 1 || *states > flavour_.most_states) {
       return Unexpected(error_at(fields[0].value, "a machine of " + std::to_string(*states) +
                                                       " states; machines of 1 to " +
-                                                      std::to_string(kMaxStates) +
+                                                      std::to_string(flavour_.most_states) +
                                                       " states are read"));
     }
     states_ = *states;
@@ -66,7 +66,7 @@ class Parser {
     const Expected<std::vector<double>> values = read_parameters(**spec, own, flavour_);
     if (!values) return Unexpected(values.error());
     if (auto error = check_count(own, transitions)) return Unexpected(*error);
-    if (auto error = own.check_empty(id_of((*spec)->module))) return Unexpected(*error);
+    if (auto error = own.check_empty((*spec)->id)) return Unexpected(*error);
     State state{.behaviour = make_behaviour((*spec)->module, *values), .transitions = {}};
     for (Block& block : transitions) {
       const Expected<Transition> transition = this->transition(index, block);
@@ -116,7 +116,7 @@ class Parser {
     if (states_ == 1) {
       return error_at(announced->name, "the only state of a machine has no transitions");
     }
-    const Expected<int> count = integer_of(*announced, 1, kMaxTransitions);
+    const Expected<int> count = integer_of(*announced, 1, flavour_.most_transitions);
     if (!count) return count.error();
     if (static_cast<std::size_t>(*count) == transitions.size()) return std::nullopt;
     return error_at(announced->value, quoted(name) + " says " + std::to_string(*count) +
@@ -135,7 +135,7 @@ class Parser {
     if (!spec) return Unexpected(spec.error());
     const Expected<std::vector<double>> values = read_parameters(**spec, block, flavour_);
     if (!values) return Unexpected(values.error());
-    if (auto error = block.check_empty(id_of((*spec)->module))) return Unexpected(*error);
+    if (auto error = block.check_empty((*spec)->id)) return Unexpected(*error);
     return Transition{.condition = make_condition((*spec)->module, *values),
                       .target = *destination < state ? *destination : *destination + 1};
   }

@@ -6,12 +6,16 @@
 #include <string_view>
 #include <utility>
 
+#include "base/assert.h"
 #include "sim/control/internal/module_kinds.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr std::size_t kCount = std::variant_size_v<Behaviour> + std::variant_size_v<Condition>;
+constexpr std::size_t kCount = kKinds<Behaviour> + kKinds<Condition>;
+/// Above the enumerators: first behaviours, then conditions.
+constexpr int kFirstExternal = 1000;
+static_assert(kCount < kFirstExternal);
 
 /// What `text` finds in the struct of each module, in the order of the enumerators.
 template <class Text>
@@ -38,7 +42,22 @@ std::span<const Module> all_modules() {
   return kAll;
 }
 
+Module external_behaviour(int number) {
+  SWARMSMITH_ASSERT(0 <= number && number < kExternalNumbers, "the number of an external module");
+  return static_cast<Module>(kFirstExternal + number);
+}
+
+Module external_condition(int number) {
+  SWARMSMITH_ASSERT(0 <= number && number < kExternalNumbers, "the number of an external module");
+  return static_cast<Module>(kFirstExternal + kExternalNumbers + number);
+}
+
+bool is_external(Module module) {
+  return static_cast<int>(module) >= kFirstExternal;
+}
+
 std::string_view id_of(Module module) {
+  if (is_external(module)) return ExternalBehaviour::kId;
   static const auto kIds = texts_of([](const auto& kind) { return kind.kId; });
   return kIds[static_cast<std::size_t>(module)];
 }
@@ -48,7 +67,13 @@ std::optional<Module> module_from_id(std::string_view id) {
   return found == all_modules().end() ? std::nullopt : std::optional(*found);
 }
 
+bool is_behaviour(Module module) {
+  if (is_external(module)) return static_cast<int>(module) < kFirstExternal + kExternalNumbers;
+  return static_cast<std::size_t>(module) < kFirstModule<Condition>;
+}
+
 std::string_view label_of(Module module) {
+  if (is_external(module)) return ExternalBehaviour::kId;
   static const auto kLabels = texts_of([](const auto& kind) { return kind.kLabel; });
   return kLabels[static_cast<std::size_t>(module)];
 }

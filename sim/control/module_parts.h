@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "base/rng.h"
 #include "sim/control/flavour.h"
@@ -16,7 +15,6 @@ namespace swarmsmith {
 /// without:
 ///
 /// - `kId`, its id outside of the program: the struct's name in lower case, with underscores;
-/// - `kNumbers`, an array of NumberIn: the flavours that have it;
 /// - `kLabel`, its name in drawings, on as many lines as it takes to be no wider than its
 ///   parameters;
 /// - `parameters(module, visitor)`, which calls `visitor(ParameterSpec, member)` for each parameter
@@ -34,12 +32,6 @@ namespace swarmsmith {
 /// - `Reads`, what it reads: NoReading, FloorReading, NeighbourTally, or a struct like them;
 /// - `enabling(reads, flavour)`, the probability with which it enables its transition in this
 ///   cycle; 0 when the reading is not the one it waits for. It follows from these two alone.
-
-/// Where a flavour's text grammar has a module.
-struct NumberIn {
-  std::string_view flavour;
-  int number = 0;
-};
 
 /// Kinds of readings of `Senses`.
 struct UsedSenses {
@@ -78,20 +70,21 @@ struct FloorReading {
 /// How many neighbours there are.
 struct NeighbourTally {
   static constexpr UsedSenses kUses{.neighbours = true};
-  static NeighbourTally of(Senses& senses) {
-    return {senses.neighbour_count()};
-  }
+  static NeighbourTally of(Senses& senses) { return {senses.neighbour_count()}; }
 
   int count = 0;
 };
 
-/// What a behaviour remembers from one cycle to the next: Exploration's turn. A state that is
+/// What a behaviour remembers from one cycle to the next: the turn of Exploration, the turn and the
+/// step of random walks. A state that is
 /// entered begins with a fresh one.
 struct BehaviourMemory {
   /// 0: going forward. By TurnClock::Seconds, the drawn number until the turn is over.
   int turn_cycles_left = 0;
   bool turn_left = false;
-  double turn_end_s = 0;  ///< of TurnClock::Seconds: the first time that is no turn any more
+  double turn_end_s = 0;      ///< of TurnClock::Seconds: the first time that is no turn any more
+  double turn_left_rad = 0;   ///< of random walks: the rest of the turn; 0: going forward
+  int step_cycles_left = -1;  ///< the same of the step; 0: it is over; -1: none was begun
 
   friend bool operator==(const BehaviourMemory&, const BehaviourMemory&) = default;
 };

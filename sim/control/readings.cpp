@@ -45,10 +45,16 @@ Vector2 sum_along(const RingDirections& directions,
   return sum;
 }
 
-/// A vector of length 1 in the direction of the readings' sum, if any of them is high enough.
-Vector2 light_by_threshold(const LightReadings& readings, const LightModel& model) {
-  if (*std::max_element(readings.begin(), readings.end()) <= model.least_reading) return {};
-  const Vector2 sum = sum_along(model.directions.value_or(kProximityDirections), readings);
+/// The light of a model that has a law or directions of its own.
+Vector2 light_by_law(const LightReadings& readings, const LightModel& model) {
+  std::array<double, kProximitySensors> strengths;
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    strengths[i] = std::min(1.0, readings[i] / model.full_lux);
+  const double strongest = *std::max_element(strengths.begin(), strengths.end());
+  if (model.least_reading > 0 && strongest <= model.least_reading) return {};
+  const Vector2 sum = sum_along(model.directions.value_or(kProximityDirections), strengths);
+  if (!model.unit_vector) return sum;
+  // Readings that add up to nothing are a light ahead (e-puck facts, 3.2).
   const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
   return length > 0 ? Vector2{sum.x / length, sum.y / length} : Vector2{1, 0};
 }
@@ -56,7 +62,7 @@ Vector2 light_by_threshold(const LightReadings& readings, const LightModel& mode
 }  // namespace
 
 double obstacle_strength(double distance_m, const ObstacleModel& model) {
-  if (model.reading == ObstacleModel::Reading::Strength) return distance_m;
+  if (model.reading == ObstacleModel::Reading::AsSensed) return distance_m;
   if (model.reading == ObstacleModel::Reading::Linear) {
     return ramp(distance_m, model.near_m, model.far_m);
   }
@@ -65,13 +71,15 @@ double obstacle_strength(double distance_m, const ObstacleModel& model) {
 
 std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings& proximity,
                                                          const ObstacleModel& model) {
-  if (model.reading == ObstacleModel::Reading::Strength) return proximity;
+  if (model.reading == ObstacleModel::Reading::AsSensed) return proximity;
   std::array<double, kProximitySensors> strengths;
   const double near = model.near_m;
   const double far = model.far_m;
   if (model.reading == ObstacleModel::Reading::Linear) {
     for (std::size_t i = 0; i < strengths.size(); ++i)
       strengths[i] = ramp(proximity[i], near, far);
+  } else if (model.reading == ObstacleModel::Reading::AsSensed) {
+    strengths = proximity;
   } else {
     for (std::size_t i = 0; i < strengths.size(); ++i)
       strengths[i] = inverse_within(proximity[i], near, far);
@@ -86,7 +94,7 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
 Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                      const ObstacleModel& model) {
   Vector2 sum;
-  const bool has_strengths = model.reading == ObstacleModel::Reading::Strength;
+  const bool has_strengths = model.reading == ObstacleModel::Reading::AsSensed;
   if (!has_strengths && neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) {
     return sum;
   }
@@ -113,13 +121,8 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
 }
 
 Vector2 light_vector(const LightReadings& lux, const LightModel& model) {
-  if (model.law == LightModel::Law::AllOrNothing) return light_by_threshold(lux, model);
-  if (model.directions) {
-    std::array<double, kProximitySensors> strengths;
-    for (std::size_t i = 0; i < lux.size(); ++i)
-      strengths[i] = std::min(1.0, lux[i] / model.full_lux);
-    return sum_along(*model.directions, strengths);
-  }
+  if (model.unit_vector || model.least_reading > 0 || model.directions)
+    return light_by_law(lux, model);
   Vector2 sum;
   for (std::size_t i = 0; i < lux.size(); ++i) {
     const double strength = std::min(1.0, lux[i] / model.full_lux);

@@ -14,6 +14,9 @@ namespace swarmsmith {
 
 inline constexpr int kProximitySensors = 8;
 
+/// Its name, which flavours have for it.
+inline constexpr std::string_view kRvrModel = "rvr";
+
 /// Directions of the proximity sensors from the robot's head, in degrees, by index
 /// (argos3-rvr; rvr-automode facts, section 3.1).
 inline constexpr std::array<int, kProximitySensors> kProximityDirections_deg = {45,   0,   -45, -90,

@@ -70,7 +70,7 @@ Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
   if (!spec) return Unexpected(spec.error());
   const auto values = read_parameters(**spec, block, flavour);
   if (!values) return Unexpected(values.error());
-  if (auto error = block.check_empty(id_of((*spec)->module))) return Unexpected(*error);
+  if (auto error = block.check_empty((*spec)->id)) return Unexpected(*error);
   return make_condition((*spec)->module, *values);
 }
 
@@ -84,7 +84,7 @@ Expected<Behaviour> read_action(Block& block, const Flavour& flavour, const Last
   const auto values = read_parameters(**spec, block, flavour);
   if (!values) return Unexpected(values.error());
   if (std::optional<Error> error = last()) return Unexpected(std::move(*error));
-  if (auto error = block.check_empty(id_of((*spec)->module))) return Unexpected(*error);
+  if (auto error = block.check_empty((*spec)->id)) return Unexpected(*error);
   return make_behaviour((*spec)->module, *values);
 }
 

@@ -1,5 +1,10 @@
 #include "sim/engine/fitting.h"
 
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+
 #include "sim/engine/internal/ring.h"
 
 namespace swarmsmith {
@@ -7,6 +12,14 @@ namespace {
 
 bool gives_strengths(const Robot& robot) {
   return robot.proximity.reading == ProximityRing::Reading::Strength;
+}
+
+/// The reference models that the robot's senses are (docs/robots.md).
+std::span<const std::string_view> models_of(const Robot& robot) {
+  static constexpr std::array<std::string_view, 1> kOfDistances = {kRvrModel};
+  static constexpr std::array<std::string_view, 2> kOfStrengths = {"rm1.1", "rm1.2"};
+  if (gives_strengths(robot)) return kOfStrengths;
+  return kOfDistances;
 }
 
 std::string noun_of(bool strengths) {
@@ -22,11 +35,19 @@ std::string profile_sentence(const Profile& profile, const Robot& robot, const s
 }  // namespace
 
 std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
-  const bool takes_strengths = flavour.obstacles.reading == ObstacleModel::Reading::Strength;
-  if (takes_strengths == gives_strengths(robot)) return std::nullopt;
-  return "the flavour `" + flavour.name + "` takes " + noun_of(takes_strengths) +
-         " from proximity sensors, and the robot `" + robot.name + "` gives " +
-         noun_of(!takes_strengths) + "; choose another flavour, or a mission of another robot";
+  const bool takes_strengths = flavour.obstacles.reading == ObstacleModel::Reading::AsSensed;
+  if (takes_strengths != gives_strengths(robot)) {
+    return "the flavour `" + flavour.name + "` takes " + noun_of(takes_strengths) +
+           " from proximity sensors, and the robot `" + robot.name + "` gives " +
+           noun_of(!takes_strengths) + "; choose another flavour, or a mission of another robot";
+  }
+  const std::span<const std::string_view> models = models_of(robot);
+  if (std::ranges::find(models, flavour.reference) != models.end()) return std::nullopt;
+  std::string known;
+  for (const std::string_view model : models)
+    known += (known.empty() ? "" : " and ") + std::string(model);
+  return "the flavour `" + flavour.name + "` needs the reference model " + flavour.reference +
+         ", and the robot `" + robot.name + "` is simulated with " + known;
 }
 
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {

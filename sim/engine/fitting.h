@@ -10,7 +10,8 @@
 namespace swarmsmith {
 
 /// Why modules of the flavour cannot run on the robot, as a sentence; nothing when they can: they
-/// take distances, or strengths, as the robot's sensors give them.
+/// take distances, or strengths, as the robot's sensors give them, and its reference model is one
+/// that the robot is simulated with.
 std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot);
 
 /// Why the profile cannot be one of the robot, as a sentence; nothing when it can: noise is that of

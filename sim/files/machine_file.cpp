@@ -9,6 +9,7 @@
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "sim/control/controller.h"
+#include "sim/control/flavour_file.h"
 #include "sim/control/foreign_text.h"
 #include "sim/files/internal/file_kind.h"
 #include "sim/files/profile_file.h"
@@ -68,6 +69,22 @@ std::optional<MissionEntry> read_mission(TableReader& root) {
   return std::nullopt;
 }
 
+void read_flavour(TableReader& root, MachineHead& head) {
+  if (!root.has("flavour")) return;
+  if (is_name_there(root, "flavour")) {
+    head.flavour = root.text("flavour").value_or("");
+    if (const auto known = find_flavour(head.flavour); !known)
+      root.complain("flavour", known.error().message);
+    return;
+  }
+  auto table = root.table("flavour");
+  if (!table) return;
+  const std::size_t before = root.complaints();
+  Flavour flavour = read_flavour_table(*table);
+  head.flavour = flavour.name;
+  if (root.complaints() == before) head.own_flavour = kept_flavour(std::move(flavour));
+}
+
 /// `toml` has the head's lines at their places in the file.
 MachineHead read_head(std::string_view toml, const std::string& file, std::vector<Error>& errors) {
   MachineHead head;
@@ -79,10 +96,7 @@ MachineHead read_head(std::string_view toml, const std::string& file, std::vecto
   Complaints complaints(file);
   TableReader root(*document, "", complaints);
   read_format(root);
-  head.flavour = root.text("flavour").value_or("");
-  if (const auto known = find_flavour(head.flavour); !known && root.has("flavour")) {
-    root.complain("flavour", known.error().message);
-  }
+  read_flavour(root, head);
   if (root.has("turn_clock")) head.turn_clock = read_turn_clock(root);
   head.profile = read_profile(root);
   head.mission = read_mission(root);
@@ -185,12 +199,14 @@ class Reader {
 /// The lines of what is not built in.
 std::vector<Section> tables_of(const MachineHead& head, Section& top) {
   std::vector<Section> tables;
+  if (head.own_flavour != nullptr) tables = flavour_sections(*head.own_flavour, "flavour");
   if (head.profile) {
     const auto built_in = built_in_profile(head.profile->name);
     if (built_in && *built_in == *head.profile) {
       top.lines.push_back({"profile", quoted_text(head.profile->name)});
     } else {
-      tables = profile_sections(*head.profile, "profile");
+      for (Section& section : profile_sections(*head.profile, "profile"))
+        tables.push_back(std::move(section));
     }
   }
   if (!head.mission) return tables;
@@ -225,7 +241,7 @@ std::string head_text(const MachineHead& head) {
   const auto say = [&top](const char* key, const std::string& value) {
     if (!value.empty()) top.lines.push_back({key, quoted_text(value)});
   };
-  say("flavour", head.flavour);
+  if (head.own_flavour == nullptr) say("flavour", head.flavour);
   if (head.turn_clock) say("turn_clock", std::string(name_of(*head.turn_clock)));
   std::vector<Section> sections = tables_of(head, top);
   say("method", head.method);

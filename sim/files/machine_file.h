@@ -18,6 +18,7 @@ namespace swarmsmith {
 /// (docs/machines.md). Missing values are empty.
 struct MachineHead {
   std::string flavour;
+  const Flavour* own_flavour = nullptr;  ///< see kept_flavour; null: built in
   std::optional<TurnClock> turn_clock;
   std::optional<Profile> profile;
   std::optional<MissionEntry> mission;
@@ -48,8 +49,8 @@ struct FiledMachine {
 tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
     std::string_view text, const std::filesystem::path& file);
 
-/// The head's lines, which parse_machine_file reads back. Missions and profiles that are built in
-/// are named, others are there with all their keys.
+/// The head's lines, which parse_machine_file reads back. Flavours, missions and profiles that are
+/// built in are named, others are there with all their keys.
 std::string head_text(const MachineHead& head);
 
 }  // namespace swarmsmith

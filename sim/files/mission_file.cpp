@@ -202,36 +202,6 @@ const std::vector<std::string>& mission_names() {
   return names;
 }
 
-/// Names stand in tables and figures. Stores refuse longer ones.
-constexpr std::size_t kLongestName = 1000;
-
-bool is_name(std::string_view name) {
-  constexpr std::string_view kLetters =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
-  return !name.empty() && name.size() <= kLongestName &&
-         name.find_first_not_of(kLetters) == std::string_view::npos;
-}
-
-bool check_name(TableReader& reader, const std::string& name,
-                const std::vector<std::string>& taken) {
-  if (name.empty() && !reader.has("name")) {
-    reader.complain("name", reader.name() + " needs a `name`");
-    return false;
-  }
-  if (!is_name(name)) {
-    reader.complain("name",
-                    "a name consists of letters, digits, `_`, `-` and `.`, is not empty, and has "
-                    "at most " +
-                        std::to_string(kLongestName) + " of them");
-    return false;
-  }
-  if (std::ranges::find(taken, name) != taken.end()) {
-    reader.complain("name", "two " + reader.name() + " have the name \"" + name + "\"");
-    return false;
-  }
-  return true;
-}
-
 std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem::path& folder) {
   return read_missions(root, ReadingPlace{{folder}, true});
 }

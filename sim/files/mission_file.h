@@ -54,11 +54,4 @@ std::vector<Section> mission_sections(const MissionEntry& entry);
 /// The mission as a file of its own that says everything: parse_mission reads the same bits back.
 std::string mission_text(const MissionEntry& entry);
 
-/// Whether a name is good for stores, command lines and files: letters, digits, `_`, `-`, `.`.
-bool is_name(std::string_view name);
-
-/// Complains under `name` and says so when it is none, or when it is in `taken`.
-bool check_name(TableReader& reader, const std::string& name,
-                const std::vector<std::string>& taken);
-
 }  // namespace swarmsmith

@@ -22,6 +22,7 @@
 #include "embedded/kTargetsSchema.h"
 #include "embedded/kTrackingSchema.h"
 #include "embedded/kViewIndexesSchema.h"
+#include "sim/control/flavour_file.h"
 #include "storage/internal/machine_parts.h"
 #include "storage/internal/view_text.h"
 
@@ -63,14 +64,26 @@ std::string without_blanks(std::string text) {
   return text;
 }
 
+/// Of the store's campaigns, which are not built in.
+std::vector<const Flavour*> own_flavours(const sqlite::Connection& connection) {
+  std::vector<const Flavour*> flavours;
+  sqlite::Statement file(connection, "SELECT file FROM campaign ORDER BY id");
+  while (file.step()) {
+    for (const Flavour* flavour : own_flavours_in(file.text(0)))
+      flavours.push_back(flavour);
+  }
+  return flavours;
+}
+
 /// The store may have been made by a program that knew fewer modules.
 void know_flavours(sqlite::Connection& connection) {
+  const std::string view = flavour_view(own_flavours(connection));
   const std::string known = sqlite::text_of(
       connection,
       "SELECT sql || ';' FROM sqlite_schema WHERE type = 'view' AND name = 'flavour_name'");
-  if (without_blanks(known) == without_blanks(flavour_view())) return;
+  if (without_blanks(known) == without_blanks(view)) return;
   sqlite::Transaction transaction(connection);
-  connection.execute("DROP VIEW flavour_name; " + flavour_view());
+  connection.execute("DROP VIEW flavour_name; " + view);
   transaction.commit();
 }
 
@@ -123,7 +136,7 @@ void lend_views(sqlite::Connection& connection) {
   constexpr std::string_view kCreate = "CREATE VIEW ";
   constexpr std::string_view kLend = "CREATE TEMP VIEW IF NOT EXISTS ";
   // The first of a name stays.
-  std::string views = kLentViews + our_views();
+  std::string views = kLentViews + our_views(own_flavours(connection));
   for (std::size_t at = 0; (at = views.find(kCreate, at)) != std::string::npos; at += kLend.size())
     views.replace(at, kCreate.size(), kLend);
   connection.execute("PRAGMA query_only = OFF; " + views + "; PRAGMA query_only = ON");
@@ -142,7 +155,7 @@ void create_schema(sqlite::Connection& connection) {
 }
 
 void finish_schema(sqlite::Connection& connection, std::int64_t schema) {
-  if (schema == kSchemaVersion) connection.execute(our_views());
+  if (schema == kSchemaVersion) connection.execute(our_views({}));
   connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
   set_version(connection, schema);
 }
@@ -221,7 +234,7 @@ void upgrade(sqlite::Connection& connection, std::span<const Migration> steps) {
     sqlite::Transaction transaction(connection);
     drop_views(connection);  // ALTER TABLE would stumble over them
     step.apply(connection);
-    connection.execute(our_views());
+    connection.execute(our_views(own_flavours(connection)));
     set_version(connection, step.to);
     // A table may have got columns that count.
     if (RowSums::stored(connection)) RowSums::found(connection).write(connection);

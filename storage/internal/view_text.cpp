@@ -1,5 +1,6 @@
 #include "storage/internal/view_text.h"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -7,7 +8,6 @@
 
 #include "base/assert.h"
 #include "embedded/kViews.h"
-#include "sim/control/flavour.h"
 
 namespace swarmsmith {
 namespace {
@@ -16,20 +16,27 @@ namespace {
 std::vector<std::string> rows_of(const Flavour& flavour) {
   std::vector<std::string> rows;
   for (const ModuleSpec& spec : flavour.behaviours)
-    rows.push_back(fmt::format("'s', {}, '{}'", spec.number, id_of(spec.module)));
+    rows.push_back(fmt::format("'s', {}, '{}'", spec.number, spec.id));
   for (const ModuleSpec& spec : flavour.conditions)
-    rows.push_back(fmt::format("'c', {}, '{}'", spec.number, id_of(spec.module)));
+    rows.push_back(fmt::format("'c', {}, '{}'", spec.number, spec.id));
   for (const LabelSpec& spec : flavour.floor.labels)
     rows.push_back(fmt::format("'l', {}, '{}'", spec.number, name_of(spec.label)));
   return rows;
 }
 
-/// The rows of the first flavour stand once for all flavours that have the same.
-std::string made_flavour_view() {
+}  // namespace
+
+/// The rows of the first flavour stand once for all flavours that have the same. Of two flavours
+/// with one name, of merged campaigns, the first counts.
+std::string flavour_view(const std::vector<const Flavour*>& own) {
+  std::vector<const Flavour*> all(all_flavours().begin(), all_flavours().end());
+  for (const Flavour* flavour : own) {
+    if (std::ranges::find(all, flavour->name, &Flavour::name) == all.end()) all.push_back(flavour);
+  }
   std::string same;
   std::string others;
-  const std::vector<std::string> first = rows_of(*all_flavours().front());
-  for (const Flavour* flavour : all_flavours()) {
+  const std::vector<std::string> first = rows_of(*all.front());
+  for (const Flavour* flavour : all) {
     const std::vector<std::string> rows = rows_of(*flavour);
     if (rows == first) {
       same += fmt::format("{}('{}')", same.empty() ? "" : ", ", flavour->name);
@@ -47,22 +54,12 @@ std::string made_flavour_view() {
       same, fmt::join(first, "),\n  ("), others);
 }
 
-}  // namespace
-
-const std::string& flavour_view() {
-  static const std::string kView = made_flavour_view();
-  return kView;
-}
-
-const std::string& our_views() {
-  static const std::string kOurs = [] {
-    constexpr std::string_view kPlace = "-- flavour_name\n";
-    std::string views(kViews);
-    const std::size_t at = views.find(kPlace);
-    SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has the place of flavour_name");
-    return views.replace(at, kPlace.size(), flavour_view());
-  }();
-  return kOurs;
+std::string our_views(const std::vector<const Flavour*>& own) {
+  constexpr std::string_view kPlace = "-- flavour_name\n";
+  std::string views(kViews);
+  const std::size_t at = views.find(kPlace);
+  SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has the place of flavour_name");
+  return views.replace(at, kPlace.size(), flavour_view(own));
 }
 
 }  // namespace swarmsmith

@@ -281,7 +281,8 @@ SELECT m.candidate, m.design, 0 + substr(j.value, 2) AS state,
           AND n.number = 0 + substr(j.value, instr(j.value, ' '))) AS behaviour,
        (SELECT 0 + substr(p.value, instr(p.value, ' '))
         FROM json_each(m.words) AS p
-        WHERE p.value GLOB '[a-z][a-z]*' || (0 + substr(j.value, 2)) || ' *') AS parameter,
+        WHERE p.value GLOB '[a-z][a-z]*' AND p.value GLOB '*[a-z]' || (0 + substr(j.value, 2)) || ' *'
+       ) AS parameter,
        instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0 AS reachable
 FROM machine_reach AS m
 JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*';

@@ -114,7 +114,7 @@ TEST(Init, NamesEveryFlavourAndKindOfScore) {
   ASSERT_EQ(run({"init", folder.path().string()}).code, 0);
   const std::string text = *read_whole_file((folder / "campaign.toml").string());
   EXPECT_THAT(text, HasSubstr(fmt::format("# {}\n", fmt::join(score_kinds(), ", "))));
-  for (const Flavour* flavour : all_flavours())
+  for (const Flavour* flavour : flavours_for(kRvrModel))
     EXPECT_THAT(text, HasSubstr(flavour->name));
 }
 

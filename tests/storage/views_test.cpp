@@ -421,7 +421,7 @@ TEST_F(MachineViewsTest, AgreeWithTheProgramsOnMachinesAtRandom) {
   std::vector<Machine> machines;
   std::vector<std::pair<std::string, std::string>> texts;
   for (int i = 0; i < 200; ++i) {
-    machines.push_back(random_machine(rng, 1 + i % kMaxStates));
+    machines.push_back(random_machine(rng, 1 + i % watermelon().most_states));
     texts.emplace_back("watermelon", print_machine(machines.back(), watermelon()));
   }
   store(texts);

@@ -38,8 +38,8 @@ std::string parameters_text(const Condition& condition, const Flavour& flavour) 
 }
 
 template <class Part>
-std::string id_text(const Part& part) {
-  return std::string(id_of(module_of(part)));
+std::string id_text(const Part& part, const Flavour& flavour) {
+  return flavour.find(module_of(part))->id;
 }
 
 /// Makes the table of any kind of controller.
@@ -52,14 +52,15 @@ struct TableOf {
                           .rows = {}};
     for (std::size_t i = 0; i < machine.states.size(); ++i) {
       const State& state = machine.states[i];
-      const std::vector<std::string> begin = {std::to_string(i), id_text(state.behaviour),
+      const std::vector<std::string> begin = {std::to_string(i), id_text(state.behaviour, *flavour),
                                               parameters_text(state.behaviour, *flavour)};
       table.rows.push_back(begin);
       table.rows.back().resize(table.columns.size());
       for (std::size_t j = 0; j < state.transitions.size(); ++j) {
         const Transition& transition = state.transitions[j];
         table.rows.push_back({begin[0], begin[1], begin[2], std::to_string(j),
-                              std::to_string(transition.target), id_text(transition.condition),
+                              std::to_string(transition.target),
+                              id_text(transition.condition, *flavour),
                               parameters_text(transition.condition, *flavour)});
       }
     }
@@ -71,8 +72,9 @@ struct TableOf {
         .columns = {"subtree", "condition", "condition_parameters", "action", "action_parameters"},
         .rows = {}};
     for (const Subtree& subtree : tree.subtrees) {
-      table.rows.push_back({std::to_string(table.rows.size()), id_text(subtree.condition),
-                            parameters_text(subtree.condition, *flavour), id_text(subtree.action),
+      table.rows.push_back({std::to_string(table.rows.size()), id_text(subtree.condition, *flavour),
+                            parameters_text(subtree.condition, *flavour),
+                            id_text(subtree.action, *flavour),
                             parameters_text(subtree.action, *flavour)});
     }
     return table;

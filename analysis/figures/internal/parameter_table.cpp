@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/figures/internal/design_flavour.h"
 #include "analysis/figures/internal/parameter_words.h"
 
 #include "sim/control/controller.h"
@@ -147,13 +148,11 @@ Expected<ParameterTable> read_parameter_table(StoreReader& store, DesignId desig
   }
   const auto all_designs = designs(store, {.design = design});
   if (!all_designs) return Unexpected(all_designs.error());
-  const auto flavours = all_flavours();
-  const auto flavour = std::ranges::find_if(flavours, [&](const Flavour* known) {
-    return !all_designs->empty() && known->name == all_designs->front().flavour;
-  });
+  const Flavour* flavour = all_designs->empty()
+                               ? nullptr
+                               : flavour_of_design(store, design, all_designs->front().flavour);
   for (ParameterColumn& column : table.columns)
-    column.words =
-        flavour == flavours.end() ? column.name : words_of_parameter(column.name, **flavour);
+    column.words = flavour == nullptr ? column.name : words_of_parameter(column.name, *flavour);
   return table;
 }
 

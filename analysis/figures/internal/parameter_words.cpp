@@ -35,8 +35,7 @@ std::string parameter_of(std::string_view symbol, const std::vector<ModuleSpec>&
     for (const ParameterSpec& parameter : module.parameters) {
       if (parameter.symbol != symbol) continue;
       shared = parameter.name;
-      found = found.empty() ? as_words(std::string(id_of(module.module))) + " " + parameter.name
-                            : shared;
+      found = found.empty() ? as_words(module.id) + " " + parameter.name : shared;
     }
   }
   return found;

@@ -1,6 +1,7 @@
 #include "analysis/machines/internal/machine_labels.h"
 
 #include <algorithm>
+#include <cctype>
 #include <ranges>
 #include <span>
 #include <stdexcept>
@@ -12,9 +13,15 @@
 namespace swarmsmith {
 namespace {
 
-std::vector<std::string> name_lines(Module module) {
+std::vector<std::string> name_lines(const ModuleSpec& spec) {
   std::vector<std::string> lines;
-  for (const auto line : std::views::split(label_of(module), '\n'))
+  if (is_external(spec.module)) {
+    std::string words = spec.id;
+    std::ranges::replace(words, '_', ' ');
+    words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
+    return {std::move(words)};
+  }
+  for (const auto line : std::views::split(label_of(spec.module), '\n'))
     lines.emplace_back(line.begin(), line.end());
   return lines;
 }
@@ -52,7 +59,7 @@ ModuleLabel label(Module module, std::span<const double> values, const Flavour& 
       parameters += symbol_of(parameter.name) + " = " + value_text(values[i]);
     }
   }
-  ModuleLabel result{.name = name_lines(module), .parameters = {}};
+  ModuleLabel result{.name = name_lines(*spec), .parameters = {}};
   if (!parameters.empty()) result.parameters.push_back(std::move(parameters));
   return result;
 }

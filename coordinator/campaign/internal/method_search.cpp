@@ -224,7 +224,7 @@ void read_numbers(TableReader& table, Method& method) {
 
 void read_network(TableReader& table, Method& method) {
   const bool is_network = method.architecture == Architecture::Network;
-  const auto flavour = find_flavour(method.flavour);
+  const auto flavour = flavour_of(method);
   if (flavour && (*flavour)->find(Module::Phototaxis) != nullptr)
     method.inputs = NetworkInputs::Rm12;
   table.take("network");

@@ -14,7 +14,7 @@ std::vector<const ModuleSpec*> chosen(const std::vector<ModuleSpec>& table,
                                       const std::vector<std::string>& names) {
   std::vector<const ModuleSpec*> modules;
   for (const ModuleSpec& spec : table) {
-    if (std::ranges::find(names, id_of(spec.module)) != names.end()) modules.push_back(&spec);
+    if (std::ranges::find(names, spec.id) != names.end()) modules.push_back(&spec);
   }
   return modules;
 }
@@ -31,9 +31,10 @@ double value_or(const Configuration& configuration, std::size_t index, double ot
   return configuration[index];
 }
 
-SearchRange range_of(const Method& method, Module module, const ParameterSpec& parameter) {
+SearchRange range_of(const Method& method, const ModuleSpec& module,
+                     const ParameterSpec& parameter) {
   for (const RangeOverride& range : method.ranges) {
-    if (range.module == id_of(module) && range.parameter == parameter.name) {
+    if (range.module == module.id && range.parameter == parameter.name) {
       return {range.lower, range.upper};
     }
   }
@@ -61,7 +62,7 @@ void ModuleParameters::add_fixed(std::string name, const std::string& token, int
 
 /// A module as a value of the space.
 std::string ModuleParameters::word_of(const ModuleSpec& module) const {
-  return words_ == Words::Names ? std::string(id_of(module.module)) : std::to_string(module.number);
+  return words_ == Words::Names ? module.id : std::to_string(module.number);
 }
 
 Categorical ModuleParameters::choice_of(const std::vector<const ModuleSpec*>& modules) const {
@@ -96,9 +97,9 @@ std::vector<ModuleSlot> ModuleParameters::add_modules(const std::vector<const Mo
 std::string ModuleParameters::name_of(const ModuleSpec& module,
                                       const ParameterSpec& parameter) const {
   const SearchRange own{parameter.low, parameter.high};
-  if (range_of(method_, module.module, parameter) == own) return parameter.symbol;
+  if (range_of(method_, module, parameter) == own) return parameter.symbol;
   if (!is_shared(parameter)) return parameter.symbol;
-  return parameter.symbol + "_" + std::string(id_of(module.module));
+  return parameter.symbol + "_" + module.id;
 }
 
 /// Whether another condition or behaviour has a parameter of this symbol.
@@ -115,7 +116,7 @@ bool ModuleParameters::is_shared(const ParameterSpec& parameter) const {
 
 /// What is searched: the flavour's own range or the method's.
 Domain ModuleParameters::domain_of(const ModuleSpec& module, const ParameterSpec& parameter) const {
-  const SearchRange range = range_of(method_, module.module, parameter);
+  const SearchRange range = range_of(method_, module, parameter);
   if (parameter.type == ParameterSpec::Type::Real) return Real{range.lower, range.upper};
   return Integer{range.lower, range.upper};
 }

@@ -10,6 +10,7 @@
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"
 #include "sim/control/flavour.h"
+#include "sim/control/flavour_file.h"
 #include "sim/control/machine.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
@@ -21,27 +22,52 @@ std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
   std::vector<std::string> ids;
   ids.reserve(table.size());
   for (const ModuleSpec& spec : table)
-    ids.emplace_back(id_of(spec.module));
+    ids.push_back(spec.id);
   return ids;
 }
 
+/// A flavour of a file that the key names, or of a table, as stores have it; null after a
+/// complaint.
+const Flavour* read_own_flavour(TableReader& table, const std::string* word,
+                                const std::filesystem::path& folder, Method& method) {
+  const std::size_t before = table.complaints();
+  Flavour flavour;
+  if (word != nullptr) {
+    auto read = find_flavour_file(*word, folder);
+    if (!read) {
+      for (Error& error : read.error())
+        table.complain_foreign("flavour", std::move(error));
+      return nullptr;
+    }
+    flavour = std::move(*read);
+  } else if (auto own = table.table("flavour")) {
+    flavour = read_flavour_table(*own);
+  }
+  if (table.complaints() > before) return nullptr;
+  method.flavour = flavour.name;
+  method.own_flavour = kept_flavour(std::move(flavour));
+  return *flavour_of(method);
+}
+
 /// Null, after a complaint, when the flavour is unknown: then its modules cannot be checked.
-const Flavour* read_flavour(TableReader& table, Method& method) {
+const Flavour* read_flavour(TableReader& table, const std::filesystem::path& folder,
+                            Method& method) {
   const Node* said = table.has("flavour") ? table.take("flavour") : nullptr;
   const auto* word = said != nullptr ? std::get_if<std::string>(&said->value) : nullptr;
+  if (said != nullptr &&
+      (word != nullptr ? names_a_file(*word) : std::holds_alternative<Table>(said->value))) {
+    return read_own_flavour(table, word, folder, method);
+  }
   if (word != nullptr && *word == "vanilla") {
     table.complain("flavour",
                    "vanilla is a way to search, and no flavour: write `method = \"vanilla\"` and "
                    "the flavour that it searches");
     return nullptr;
   }
-  std::vector<std::string> known;
-  for (const Flavour* flavour : all_flavours())
-    known.push_back(flavour->name);
-  const auto name = table.choice("flavour", known);
+  const auto name = table.choice("flavour", flavour_names());
   if (!name && table.has("flavour")) return nullptr;
   method.flavour = name.value_or(method.flavour);
-  return *find_flavour(method.flavour);
+  return *flavour_of(method);
 }
 
 /// What Exploration's turns are measured in, the flavour's own without the key.
@@ -80,19 +106,13 @@ std::vector<std::string> read_modules(TableReader& table, std::string_view key,
   return chosen;
 }
 
-/// The flavour's entry of a module by its id, or null.
-const ModuleSpec* find_module(const Flavour& flavour, const std::string& id) {
-  const auto module = module_from_id(id);
-  return module ? flavour.find(*module) : nullptr;
-}
-
 /// One range, `{ int = [1, 100] }` or `{ real = [1, 5] }`.
 std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& module,
                                         const ParameterSpec& parameter) {
   const bool real = parameter.type == ParameterSpec::Type::Real;
   const std::string type = real ? "real" : "int";
   const std::string other = real ? "int" : "real";
-  const std::string name = std::string(id_of(module.module)) + "." + parameter.name;
+  const std::string name = module.id + "." + parameter.name;
   if (entry.has(other)) {
     entry.take(other);
     entry.complain(other, name + " is no " + other + " parameter; write { " + type + " = [...] }");
@@ -119,8 +139,7 @@ std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& mo
     entry.complain(type, name + ": the range's lower end must be below its upper end");
     return std::nullopt;
   }
-  return RangeOverride{std::string(id_of(module.module)), parameter.name, range->least,
-                       range->most};
+  return RangeOverride{module.id, parameter.name, range->least, range->most};
 }
 
 /// All ranges of one module: `exploration.tau = ...`.
@@ -143,8 +162,7 @@ void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& me
     }
   }
   for (const auto& [key, node] : table.take_all()) {
-    table.complain(key, std::string(id_of(module.module)) + " has no parameter `" + key + "`" +
-                            did_you_mean(key, known) +
+    table.complain(key, module.id + " has no parameter `" + key + "`" + did_you_mean(key, known) +
                             (known.empty() ? "" : "; it has: " + joined(known)));
   }
 }
@@ -154,7 +172,7 @@ void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   std::vector<std::string> used = method.behaviours;
   used.insert(used.end(), method.conditions.begin(), method.conditions.end());
   for (const auto& [id, node] : table.take_all()) {
-    const ModuleSpec* module = find_module(flavour, id);
+    const ModuleSpec* module = flavour.find(id);
     if (module == nullptr || std::ranges::find(used, id) == used.end()) {
       table.complain(id, "the method has no module `" + id + "`" + did_you_mean(id, used) +
                              "; it has: " + joined(used));
@@ -236,9 +254,13 @@ void follow_head(TableReader& table, const MachineHead& head, Method& method) {
   if (head.flavour.empty()) return;
   if (!table.has("flavour")) {
     method.flavour = head.flavour;
+    method.own_flavour = head.own_flavour;
   } else if (method.flavour != head.flavour) {
     table.complain("baseline", "the machine was designed for the flavour " + head.flavour +
                                    ", the method has " + method.flavour);
+  } else if (method.own_flavour != head.own_flavour) {
+    table.complain("baseline", "the machine was designed for another flavour " + head.flavour +
+                                   " than the method has: the files differ");
   }
 }
 
@@ -284,7 +306,7 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
                          "` says what a race may try, and the method's `baseline` is a machine");
     }
   }
-  const auto flavour = find_flavour(method.flavour);
+  const auto flavour = flavour_of(method);
   if (!flavour) return;  // complained about
   method.turn_clock = turn_clock.value_or((*flavour)->exploration.turn_clock);
   const auto given = parse_controller(method.baseline, **flavour);
@@ -322,6 +344,28 @@ void refuse_foreign_keys(TableReader& table, const Method& method) {
   }
 }
 
+/// Only programs have external modules, and nothing here is simulated with them.
+void refuse_external(TableReader& table, const Flavour& flavour, const Method& method) {
+  if (!method.baseline.empty() && method.baseline != kRandomMachine) {
+    const auto given = parse_controller(method.baseline, flavour);
+    const auto complaint = given ? complaint_about_running(*given, flavour) : std::nullopt;
+    if (complaint) table.complain("baseline", *complaint);
+    return;
+  }
+  if (method.architecture == Architecture::Network) return;
+  for (const auto& [key, modules] :
+       {std::pair("behaviours", &method.behaviours), std::pair("conditions", &method.conditions)}) {
+    for (const std::string& id : *modules) {
+      const ModuleSpec* spec = flavour.find(id);
+      if (spec == nullptr || !is_external(spec->module)) continue;
+      table.complain(table.has(key) ? key : "flavour",
+                     "`" + id + "` of the flavour " + flavour.name +
+                         " is external, which only programs run: leave it out of `" + key +
+                         "`, or give [simulator] with kind = \"command\"");
+    }
+  }
+}
+
 /// One [[method]]; `taken` are the names of those before it.
 Method read_method(TableReader& table, const std::vector<std::string>& taken,
                    const std::filesystem::path& folder, bool has_target) {
@@ -340,10 +384,10 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
     read_parameter_file(table, folder, method);
     return method;
   }
-  const Flavour* flavour = read_flavour(table, method);
+  const Flavour* flavour = read_flavour(table, folder, method);
   if (flavour != nullptr) {
     read_baseline(table, folder, method);
-    flavour = *find_flavour(method.flavour);
+    flavour = *flavour_of(method);
   } else {
     table.take("baseline");
   }
@@ -360,9 +404,11 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
     }
     method.architecture = given;
   }
-  method.max_states = table.integer("max_states", {1, kMaxStates}).value_or(kMaxStates);
+  const int most_states = flavour == nullptr ? kMaxStates : flavour->most_states;
+  const int most_transitions = flavour == nullptr ? kMaxTransitions : flavour->most_transitions;
+  method.max_states = table.integer("max_states", {1, most_states}).value_or(most_states);
   method.max_transitions =
-      table.integer("max_transitions", {1, kMaxTransitions}).value_or(kMaxTransitions);
+      table.integer("max_transitions", {1, most_transitions}).value_or(most_transitions);
   method.max_subtrees = table.integer("max_subtrees", {1, kMaxSubtrees}).value_or(kMaxSubtrees);
   if (flavour != nullptr) {
     if (method.baseline.empty() || table.has("turn_clock")) {
@@ -378,6 +424,7 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
     method.behaviours = read_modules(table, "behaviours", flavour->behaviours, flavour->name);
     method.conditions = read_modules(table, "conditions", flavour->conditions, flavour->name);
     if (auto ranges = table.table("parameters")) read_ranges(*ranges, *flavour, method);
+    if (!has_target) refuse_external(table, *flavour, method);
   } else {
     for (const std::string_view key : {"turn_clock", "behaviours", "conditions", "parameters"})
       table.take(key);

@@ -7,6 +7,7 @@
 #include "coordinator/campaign/internal/race_options.h"
 #include "coordinator/campaign/internal/target_sections.h"
 #include "sim/control/flavour.h"
+#include "sim/control/flavour_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 
@@ -33,6 +34,15 @@ std::vector<SectionLine> size_lines(const Method& method) {
   return lines;
 }
 
+/// All of a flavour that is not built in; `prefix` is the method's.
+std::vector<Section> own_flavour_sections(const Flavour& flavour, const std::string& prefix) {
+  const std::string header = "method.flavour";
+  std::vector<Section> sections = flavour_sections(flavour, header);
+  for (Section& section : sections)
+    section.prefix.replace(0, std::string_view("method.").size(), prefix);
+  return sections;
+}
+
 /// A method with the modules that it uses, by name.
 void add_method(const Method& method, std::vector<Section>& sections) {
   const std::string prefix = "method." + method.name + ".";
@@ -48,20 +58,22 @@ void add_method(const Method& method, std::vector<Section>& sections) {
                    {"flavour", quoted_text(method.flavour)},
                    {"turn_clock", quoted_text(name_of(method.turn_clock))}}};
   if (!method.baseline.empty()) section.lines.push_back({"baseline", quoted_text(method.baseline)});
+  if (method.own_flavour != nullptr) section.lines.erase(section.lines.begin() + 1);
   const bool is_given = !method.baseline.empty() && method.baseline != kRandomMachine;
   if (!is_given) {
     append(section.lines, search_lines(method));
     append(section.lines, size_lines(method));
   }
   sections.push_back(std::move(section));
+  if (method.own_flavour != nullptr)
+    append(sections, own_flavour_sections(*method.own_flavour, prefix));
   if (!is_given) append(sections, search_sections(method, prefix));
   if (method.ranges.empty()) return;
   Section parameters{"[method.parameters]", prefix + "parameters.", {}};
-  const auto flavour = find_flavour(method.flavour);
+  const auto flavour = flavour_of(method);
   for (const RangeOverride& range : method.ranges) {
     std::string type = "real";
-    const auto module = module_from_id(range.module);
-    for (const ParameterSpec& parameter : (*flavour)->find(*module)->parameters) {
+    for (const ParameterSpec& parameter : (*flavour)->find(range.module)->parameters) {
       if (parameter.name != range.parameter) continue;
       if (parameter.type == ParameterSpec::Type::Integer) type = "int";
     }

@@ -199,9 +199,11 @@ std::vector<Check> check_distance(const DistanceTest& test, const Subject& subje
 }
 
 double parameter_value(const ParameterSpec& parameter) {
-  if (parameter.name == "tau") return kTau;
-  SWARMSMITH_ASSERT(parameter.name == "alpha", "the assessment knows the behaviour's parameters");
-  return kAlpha;
+  if (parameter.name == "alpha") return kAlpha;
+  if (parameter.name == "tau" || parameter.name == "step") return kTau;
+  if (parameter.name == "rho") return kRho;
+  SWARMSMITH_ASSERT(parameter.name == "mu", "the assessment knows the behaviour's parameters");
+  return kMu;
 }
 
 }  // namespace
@@ -216,6 +218,8 @@ std::vector<Check> check_behaviour(const ModuleSpec& spec, const Flavour& flavou
   const Subject subject{machine, flavour, profile};
   // A behaviour promises what only a person can say: each has its case here.
   return std::visit(Overloaded{[&](const Exploration&) { return check_exploration(subject); },
+                               [&](const RandomWalk&) { return check_exploration(subject); },
+                               [&](const LevyWalk&) { return check_exploration(subject); },
                                [&](const Stop&) { return check_stop(subject); },
                                [&](const Attraction&) {
                                  return check_distance({pair_distance, true}, subject);
@@ -228,7 +232,8 @@ std::vector<Check> check_behaviour(const ModuleSpec& spec, const Flavour& flavou
                                },
                                [&](const AntiPhototaxis&) {
                                  return check_distance({light_distance, false, true}, subject);
-                               }},
+                               },
+                               [](const ExternalBehaviour&) { return std::vector<Check>(); }},
                     behaviour);
 }
 

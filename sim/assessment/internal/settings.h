@@ -16,6 +16,8 @@ namespace swarmsmith::assessment {
 
 inline constexpr int kTau = 10;
 inline constexpr double kAlpha = 3;
+inline constexpr double kRho = 0.9;
+inline constexpr double kMu = 2;
 inline constexpr int kBehaviourRuns = 5;   ///< seeds 1, 2, ...
 inline constexpr int kConditionRuns = 10;  ///< seeds 1, 2, ...
 inline constexpr int kRobots = 3;

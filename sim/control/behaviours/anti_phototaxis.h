@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/behaviours/steering.h"
@@ -11,7 +10,6 @@ namespace swarmsmith {
 /// Away from the light and from obstacles (thesis eq. 5.2).
 struct AntiPhototaxis {
   static constexpr std::string_view kId = "anti_phototaxis";
-  static constexpr std::array kNumbers = {NumberIn{"chocolate", 3}};
   static constexpr std::string_view kLabel = "Anti-\nphototaxis";
 
   template <class Self, class Visitor>

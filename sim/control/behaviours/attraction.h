@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/behaviours/steering.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// Towards the neighbours, away from obstacles (thesis eq. 5.3, 5.5).
 struct Attraction {
   static constexpr std::string_view kId = "attraction";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 2}, NumberIn{"watermelon-argos3", 2}, NumberIn{"chocolate", 4}};
   static constexpr std::string_view kLabel = "Attraction";
 
   double alpha = 1;  ///< weight of the neighbours; 1..5 in the search

@@ -36,7 +36,7 @@ struct Front {
   }
 };
 
-enum class Turn { None, Left, Right };
+using Turn = TurnAway;
 
 /// Away from the strongest reading of the front (thesis facts, section 6.2), of sensors that look
 /// into these directions, by index.
@@ -46,7 +46,8 @@ Turn turn_from(std::span<const double, N> proximity, const RingDirections& direc
   const ExplorationModel& model = flavour.exploration;
   Front front;
   const std::span<const Neighbour> neighbours = neighbours_in_the_way(senses, flavour.obstacles);
-  if (model.threshold > 0 && neighbours.empty() &&
+  const bool are_distances = flavour.obstacles.reading != ObstacleModel::Reading::AsSensed;
+  if (are_distances && model.threshold > 0 && neighbours.empty() &&
       nothing_within(proximity, flavour.obstacles.far_m)) {
     return Turn::None;
   }
@@ -81,6 +82,14 @@ Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
   return sum.y < 0 ? Turn::Left : Turn::Right;
 }
 
+/// The front says whether, the sum of all readings away from which side (e-puck facts, 5.2.1).
+Turn turn_from_front_by_sum(Senses& senses, const Flavour& flavour) {
+  if (turn_from_front(senses, flavour) == Turn::None) return Turn::None;
+  const Vector2 sum = obstacle_sum(
+      senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
+  return sum.y < 0 ? Turn::Left : Turn::Right;
+}
+
 int draw_turn_cycles(int tau, ExplorationModel::TurnLength law, Rng& rng) {
   if (law == ExplorationModel::TurnLength::ZeroToTau) {
     return static_cast<int>(rng.uniform_int(0, tau));
@@ -102,15 +111,25 @@ bool goes_on_turning(BehaviourMemory& memory, Senses& senses, TurnClock clock) {
 
 }  // namespace
 
+TurnAway turn_away(Senses& senses, const Flavour& flavour) {
+  switch (flavour.exploration.trigger) {
+    case ExplorationModel::Trigger::FrontReadings:
+      return turn_from_front(senses, flavour);
+    case ExplorationModel::Trigger::VectorSum:
+      return turn_from_sum(senses, flavour);
+    case ExplorationModel::Trigger::FrontThenSum:
+      break;
+  }
+  return turn_from_front_by_sum(senses, flavour);
+}
+
 Command Exploration::act(Senses& senses, const Flavour& flavour, BehaviourMemory& memory,
                          Rng& rng) const {
   const double speed = flavour.speed_mps;
   if (goes_on_turning(memory, senses, flavour.exploration.turn_clock)) {
     return memory.turn_left ? Command{-speed, speed} : Command{speed, -speed};
   }
-  const Turn turn = flavour.exploration.trigger == ExplorationModel::Trigger::FrontReadings
-                        ? turn_from_front(senses, flavour)
-                        : turn_from_sum(senses, flavour);
+  const Turn turn = turn_away(senses, flavour);
   if (turn != Turn::None) {
     memory.turn_left = turn == Turn::Left;
     memory.turn_cycles_left = draw_turn_cycles(tau, flavour.exploration.turn_length, rng);

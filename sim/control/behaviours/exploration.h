@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/behaviours/steering.h"
@@ -8,12 +7,16 @@
 
 namespace swarmsmith {
 
+/// To which side a robot turns away from what stands in front of it.
+enum class TurnAway { None, Left, Right };
+
+/// By the flavour's trigger of Exploration; None where nothing is in front.
+TurnAway turn_away(Senses& senses, const Flavour& flavour);
+
 /// Straight on until there is an obstacle in front, then a turn on the spot for a random number of
 /// control cycles.
 struct Exploration {
   static constexpr std::string_view kId = "exploration";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 0}, NumberIn{"watermelon-argos3", 0}, NumberIn{"chocolate", 0}};
   static constexpr std::string_view kLabel = "Exploration";
 
   int tau = 1;  ///< bound of the drawn number of turning cycles; 1..100 in the search

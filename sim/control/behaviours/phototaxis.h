@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/behaviours/steering.h"
@@ -11,7 +10,6 @@ namespace swarmsmith {
 /// Towards the light, away from obstacles (thesis eq. 5.1).
 struct Phototaxis {
   static constexpr std::string_view kId = "phototaxis";
-  static constexpr std::array kNumbers = {NumberIn{"chocolate", 2}};
   static constexpr std::string_view kLabel = "Phototaxis";
 
   template <class Self, class Visitor>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/behaviours/steering.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// Away from the neighbours and from obstacles (thesis eq. 5.4, 5.6).
 struct Repulsion {
   static constexpr std::string_view kId = "repulsion";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 3}, NumberIn{"watermelon-argos3", 3}, NumberIn{"chocolate", 5}};
   static constexpr std::string_view kLabel = "Repulsion";
 
   double alpha = 1;  ///< weight of the neighbours; 1..5 in the search

@@ -24,17 +24,17 @@ Command steer(double gain, const std::optional<Vector2>& target, double obstacle
                  gain * wanted.y - obstacle_gain * obstacles.y};
   const double square = result.x * result.x + result.y * result.y;
   if (square < model.shortest_result * model.shortest_result) result = {1, 0};
-  return command_towards(result.x, result.y, flavour.speed_mps);
+  return command_towards(result.x, result.y, flavour.speed_mps, model.least_inner);
 }
 
-Command follow_neighbours(double gain, double weight, Senses& senses, const Flavour& flavour) {
+Command follow_neighbours(double gain, double weight, double obstacle_gain, Senses& senses,
+                          const Flavour& flavour) {
   const NeighbourModel& model = flavour.neighbours;
-  const double obstacle_gain =
-      weight < 0 ? flavour.steering.obstacle_gain : flavour.steering.attraction_obstacle_gain;
   const std::span<const Neighbour> neighbours = senses.neighbours();
   Vector2 sum;
   for (const Neighbour& neighbour : neighbours) {
-    const double distance = std::max(neighbour.distance_m, model.shortest_m) * model.per_metre;
+    const double gap_m = std::max(neighbour.distance_m, model.shortest_m);
+    const double distance = gap_m * model.per_metre;
     const double length = weight / (model.offset + distance);
     sum.x += length * neighbour.direction_x;
     sum.y += length * neighbour.direction_y;
@@ -50,17 +50,17 @@ double used_alpha(double alpha, const NeighbourModel& model) {
 Command follow_light(double sign, Senses& senses, const Flavour& flavour) {
   const Vector2 light = light_vector(senses.light(), flavour.light);
   const double least = flavour.light.least_vector;
+  const double obstacle_gain = flavour.steering.obstacle_gain;
   if (light.x * light.x + light.y * light.y < least * least) {
-    return steer(1, std::nullopt, flavour.steering.obstacle_gain, senses, flavour);
+    return steer(1, std::nullopt, obstacle_gain, senses, flavour);
   }
-  return steer(1, Vector2{sign * light.x, sign * light.y}, flavour.steering.obstacle_gain, senses,
-               flavour);
+  return steer(1, Vector2{sign * light.x, sign * light.y}, obstacle_gain, senses, flavour);
 }
 
-Command command_towards(double x, double y, double speed_mps) {
+Command command_towards(double x, double y, double speed_mps, double least_inner) {
   const double length = std::sqrt(x * x + y * y);
   if (length == 0) return {0, 0};  // also a vector that is too short to square
-  const double inner = speed_mps * (x / length);
+  const double inner = speed_mps * std::max(x / length, least_inner);
   return y > 0 ? Command{inner, speed_mps} : Command{speed_mps, inner};
 }
 

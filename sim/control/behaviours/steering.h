@@ -22,7 +22,8 @@ Command steer(double gain, const std::optional<Vector2>& target, double obstacle
               Senses& senses, const Flavour& flavour);
 
 /// Towards the neighbours, away from them for a negative `weight`.
-Command follow_neighbours(double gain, double weight, Senses& senses, const Flavour& flavour);
+Command follow_neighbours(double gain, double weight, double obstacle_gain, Senses& senses,
+                          const Flavour& flavour);
 
 /// Alpha of Attraction and Repulsion as the flavour uses it.
 double used_alpha(double alpha, const NeighbourModel& model);
@@ -31,8 +32,9 @@ double used_alpha(double alpha, const NeighbourModel& model);
 Command follow_light(double sign, Senses& senses, const Flavour& flavour);
 
 /// Treads that steer towards the vector (x, y) of the robot's frame at speed `speed_mps`: the tread
-/// on the far side at full speed, the other at the cosine of the angle; only the direction counts,
-/// and the zero vector stands still (rvr-automode facts, section 4.3).
-Command command_towards(double x, double y, double speed_mps);
+/// on the far side at full speed, the other at the cosine of the angle, or at `least_inner` where
+/// that is more; only the direction counts, and the zero vector stands still (rvr-automode facts,
+/// section 4.3).
+Command command_towards(double x, double y, double speed_mps, double least_inner = -1);
 
 }  // namespace swarmsmith

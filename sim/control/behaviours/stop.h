@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/module_parts.h"
@@ -10,8 +9,6 @@ namespace swarmsmith {
 /// Stands still.
 struct Stop {
   static constexpr std::string_view kId = "stop";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 1}, NumberIn{"watermelon-argos3", 1}, NumberIn{"chocolate", 1}};
   static constexpr std::string_view kLabel = "Stop";
 
   template <class Self, class Visitor>

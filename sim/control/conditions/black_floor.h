@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/module_parts.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// The floor's grey level is low.
 struct BlackFloor {
   static constexpr std::string_view kId = "black_floor";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 0}, NumberIn{"watermelon-argos3", 0}, NumberIn{"chocolate", 0}};
   static constexpr std::string_view kLabel = "Black floor";
   using Reads = FloorReading;
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/module_parts.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// The floor's colour is perceived as the label.
 struct ColorDetection {
   static constexpr std::string_view kId = "color_detection";
-  static constexpr std::array kNumbers = {NumberIn{"watermelon", 6},
-                                          NumberIn{"watermelon-argos3", 6}};
   static constexpr std::string_view kLabel = "Color detection";
   using Reads = FloorReading;
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/module_parts.h"
@@ -10,8 +9,6 @@ namespace swarmsmith {
 /// Always.
 struct FixedProbability {
   static constexpr std::string_view kId = "fixed_probability";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 5}, NumberIn{"watermelon-argos3", 5}, NumberIn{"chocolate", 5}};
   static constexpr std::string_view kLabel = "Fixed probability";
   using Reads = NoReading;
 

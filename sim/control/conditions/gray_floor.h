@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/module_parts.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// The floor's grey level is in the middle.
 struct GrayFloor {
   static constexpr std::string_view kId = "gray_floor";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 1}, NumberIn{"watermelon-argos3", 1}, NumberIn{"chocolate", 1}};
   static constexpr std::string_view kLabel = "Gray floor";
   using Reads = FloorReading;
 

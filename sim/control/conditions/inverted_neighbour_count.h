@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/conditions/neighbour_count.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// Always, with probability 1 - z(n).
 struct InvertedNeighbourCount {
   static constexpr std::string_view kId = "inverted_neighbour_count";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 4}, NumberIn{"watermelon-argos3", 4}, NumberIn{"chocolate", 4}};
   static constexpr std::string_view kLabel = "Inverted\nneighbour count";
   using Reads = NeighbourTally;
 
@@ -24,8 +21,8 @@ struct InvertedNeighbourCount {
     visitor(xi_parameter("BI"), self.xi);
     visitor(eta_parameter("WI"), self.eta);
   }
-  double enabling(const NeighbourTally& neighbours, const Flavour& /*flavour*/) const {
-    return 1.0 - neighbour_sigmoid(eta, xi, neighbours.count);
+  double enabling(const NeighbourTally& neighbours, const Flavour& flavour) const {
+    return 1.0 - neighbour_sigmoid(eta, xi, neighbours.count, flavour.neighbours.unsigned_count);
   }
   friend bool operator==(const InvertedNeighbourCount&, const InvertedNeighbourCount&) = default;
 };

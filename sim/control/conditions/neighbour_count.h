@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "base/math.h"
@@ -8,16 +7,16 @@
 
 namespace swarmsmith {
 
-/// z(n) of the neighbour counts (thesis eq. 5.7).
-inline double neighbour_sigmoid(double eta, int xi, int neighbours) {
+/// z(n) of the neighbour counts (thesis eq. 5.7). `unsigned_count`: xi - n is huge where it would
+/// be negative.
+inline double neighbour_sigmoid(double eta, int xi, int neighbours, bool unsigned_count) {
+  if (unsigned_count && neighbours > xi && eta > 0) return 0;
   return 1.0 / (1.0 + exp(eta * (xi - neighbours)));
 }
 
 /// Always, with probability z(n) = 1 / (1 + e^(eta (xi - n))) for n neighbours (thesis eq. 5.7).
 struct NeighbourCount {
   static constexpr std::string_view kId = "neighbour_count";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 3}, NumberIn{"watermelon-argos3", 3}, NumberIn{"chocolate", 3}};
   static constexpr std::string_view kLabel = "Neighbour count";
   using Reads = NeighbourTally;
 
@@ -29,8 +28,8 @@ struct NeighbourCount {
     visitor(xi_parameter("B"), self.xi);
     visitor(eta_parameter("W"), self.eta);
   }
-  double enabling(const NeighbourTally& neighbours, const Flavour& /*flavour*/) const {
-    return neighbour_sigmoid(eta, xi, neighbours.count);
+  double enabling(const NeighbourTally& neighbours, const Flavour& flavour) const {
+    return neighbour_sigmoid(eta, xi, neighbours.count, flavour.neighbours.unsigned_count);
   }
   friend bool operator==(const NeighbourCount&, const NeighbourCount&) = default;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string_view>
 
 #include "sim/control/module_parts.h"
@@ -11,8 +10,6 @@ namespace swarmsmith {
 /// The floor's grey level is high.
 struct WhiteFloor {
   static constexpr std::string_view kId = "white_floor";
-  static constexpr std::array kNumbers = {
-      NumberIn{"watermelon", 2}, NumberIn{"watermelon-argos3", 2}, NumberIn{"chocolate", 2}};
   static constexpr std::string_view kLabel = "White floor";
   using Reads = FloorReading;
 

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -19,32 +17,46 @@ namespace swarmsmith {
 
 /// What follows from the struct of each module alone. `Modules` is Behaviour or Condition.
 
+/// How many of them have a struct of their own: all but the last alternative, the external ones.
+template <class Modules>
+inline constexpr std::size_t kKinds = std::variant_size_v<Modules> - 1;
+
 /// The enumerator of the first of them.
 template <class Modules>
 inline constexpr std::size_t kFirstModule =
-    std::is_same_v<Modules, Behaviour> ? 0 : std::variant_size_v<Behaviour>;
+    std::is_same_v<Modules, Behaviour> ? 0 : kKinds<Behaviour>;
+
+/// The alternative of external ones.
+template <class Modules>
+using External = std::variant_alternative_t<kKinds<Modules>, Modules>;
 
 template <class Modules>
 Module module_at(std::size_t index) {
   return static_cast<Module>(kFirstModule<Modules> + index);
 }
 
-/// Calls `visit(index, module)` for each of them, with all that its struct has by default.
+/// Calls `visit(index, module)` for each of them with a struct of its own, with all that its struct
+/// has by default.
 template <class Modules, class Visit>
 void for_each_module(const Visit& visit) {
   [&]<std::size_t... I>(std::index_sequence<I...> /*indices*/) {
     (visit(I, std::variant_alternative_t<I, Modules>()), ...);
   }
-  (std::make_index_sequence<std::variant_size_v<Modules>>());
+  (std::make_index_sequence<kKinds<Modules>>());
 }
 
 template <class Modules>
 std::vector<double> values_of(const Modules& module) {
+  if (const auto* external = std::get_if<External<Modules>>(&module)) return external->values;
   std::vector<double> values;
   const auto add = [&values](const ParameterSpec& /*parameter*/, const auto& value) {
     values.push_back(static_cast<double>(value));
   };
-  std::visit([&]<class Kind>(const Kind& kind) { Kind::parameters(kind, add); }, module);
+  std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        if constexpr (!std::is_same_v<Kind, External<Modules>>) Kind::parameters(kind, add);
+      },
+      module);
   return values;
 }
 
@@ -70,23 +82,19 @@ std::optional<Modules> made_of(Module wanted, std::span<const double> values) {
   return made;
 }
 
-/// Those of a flavour with their numbers and parameters, in the order of the numbers.
+/// The parameters of a kind with what a flavour takes for them unless it says otherwise; empty,
+/// too, when it is none of `Modules`.
 template <class Modules>
-std::vector<ModuleSpec> specs_of(std::string_view flavour) {
-  std::vector<ModuleSpec> specs;
+std::vector<ParameterSpec> parameters_of_kind(Module wanted) {
+  std::vector<ParameterSpec> parameters;
   for_each_module<Modules>([&]<class Kind>(std::size_t index, const Kind& kind) {
-    for (const NumberIn& place : Kind::kNumbers) {
-      if (place.flavour != flavour) continue;
-      ModuleSpec& spec = specs.emplace_back(ModuleSpec{
-          .module = module_at<Modules>(index), .number = place.number, .parameters = {}});
-      const auto add = [&spec](const ParameterSpec& parameter, const auto& /*value*/) {
-        spec.parameters.push_back(parameter);
-      };
-      Kind::parameters(kind, add);
-    }
+    if (module_at<Modules>(index) != wanted) return;
+    const auto add = [&](const ParameterSpec& parameter, const auto& /*value*/) {
+      parameters.push_back(parameter);
+    };
+    Kind::parameters(kind, add);
   });
-  std::ranges::sort(specs, {}, &ModuleSpec::number);
-  return specs;
+  return parameters;
 }
 
 }  // namespace swarmsmith

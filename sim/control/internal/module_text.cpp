@@ -48,8 +48,7 @@ Expected<const ModuleSpec*> read_module(const Field& field, const std::vector<Mo
   std::string known;
   for (const ModuleSpec& spec : table) {
     if (spec.number == *number) return &spec;
-    known += (known.empty() ? "" : ", ") + std::to_string(spec.number) + " " +
-             std::string(id_of(spec.module));
+    known += (known.empty() ? "" : ", ") + std::to_string(spec.number) + " " + spec.id;
   }
   return Unexpected(error_at(field.value, "the flavour " + flavour.name + " has no module " +
                                               std::to_string(*number) + " for " +
@@ -99,6 +98,10 @@ std::optional<std::string> complaint_about_module(Module module, const std::vect
   const ModuleSpec* spec = flavour.find(module);
   if (spec == nullptr) {
     return "the flavour " + flavour.name + " has no module " + std::string(id_of(module));
+  }
+  if (values.size() != spec->parameters.size()) {
+    return spec->id + " takes " + std::to_string(spec->parameters.size()) + " parameters, not " +
+           std::to_string(values.size());
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (auto complaint = complaint_about(spec->parameters[i], values[i])) return complaint;

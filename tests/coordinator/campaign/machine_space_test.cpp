@@ -139,7 +139,7 @@ TEST(MachineSpace, ReadsTransitionTargetsAmongTheOtherStates) {
             R"({"NumStates":2,"S0":"exploration","RWM0":20,"NumConnections0":1,"N0x0":0,)"
             R"("C0x0":"black_floor","P0x0":1,"S1":"stop","NumConnections1":1,"N1x0":0,)"
             R"("C1x0":"color_detection","P1x0":0.25,"L1x0":2})");
-  EXPECT_EQ(modules_json(machine),
+  EXPECT_EQ(modules_json(machine, watermelon()),
             R"({"exploration":1,"stop":1,"black_floor":1,"color_detection":1})");
   EXPECT_EQ(transition_count(machine), 2);
 }

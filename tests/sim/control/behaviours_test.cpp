@@ -289,7 +289,7 @@ TEST(Behaviour, AsksOnlyForTheSensorsItNeeds) {
     EXPECT_EQ(senses.time_asked, 0) << "turns are counted in cycles";
     return senses;
   };
-  for (const Flavour* flavour : all_flavours()) {
+  for (const Flavour* flavour : flavours_for(kRvrModel)) {
     SCOPED_TRACE(flavour->name);
     const bool obstacles = flavour->obstacles.neighbours_as_obstacles;
     const FakeSenses exploring = after(Exploration{5}, *flavour);

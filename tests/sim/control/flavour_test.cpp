@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace swarmsmith {
 namespace {
@@ -25,9 +27,30 @@ TEST(Flavour, AnUnknownNameListsTheKnownOnes) {
   EXPECT_EQ(flavour.error().kind, ErrorKind::NotFound);
   EXPECT_EQ(flavour.error().message,
             "there is no flavour `melon`; known are: watermelon, watermelon-argos3, chocolate, "
-            "chocolate-epuck");
+            "chocolate-epuck, maple-epuck, chocolate-epuck-2018, maple-epuck-2018");
   EXPECT_THAT(find_flavour("chocolat").error().message,
               HasSubstr("`chocolat` (did you mean \"chocolate\"?); known are: "));
+}
+
+TEST(Flavour, ThoseOfTheEPuckAreForAnotherReferenceModel) {
+  std::vector<std::string> names;
+  for (const Flavour* flavour : flavours_for("rm1.2"))
+    names.push_back(flavour->name);
+  EXPECT_EQ(names, (std::vector<std::string>{"chocolate-epuck", "maple-epuck"}));
+  EXPECT_EQ(flavours_for(kRvrModel).size(), 3U);
+}
+
+TEST(Flavour, OnesOwnIsKeptOnce) {
+  Flavour mine = watermelon();
+  EXPECT_EQ(kept_flavour(mine), nullptr) << "it is built in";
+  mine.name = "mine";
+  const Flavour* kept = kept_flavour(mine);
+  ASSERT_NE(kept, nullptr);
+  EXPECT_EQ(*kept, mine);
+  EXPECT_EQ(kept_flavour(mine), kept);
+  EXPECT_EQ(find_flavour("mine", kept).value(), kept);
+  mine.speed_mps = 0.2;
+  EXPECT_NE(kept_flavour(mine), kept);
 }
 
 std::string numbers_of(const Flavour& flavour) {
@@ -50,6 +73,9 @@ TEST(Flavour, ModulesHaveTheNumbersOfThePublishedGrammar) {
 }
 
 TEST(Flavour, ModulesOfChocolateHaveTheNumbersOfTheEPucks) {
+  for (const char* of_e_puck :
+       {"chocolate-epuck", "maple-epuck", "chocolate-epuck-2018", "maple-epuck-2018"})
+    EXPECT_EQ(numbers_of(**find_flavour(of_e_puck)), numbers_of(chocolate())) << of_e_puck;
   EXPECT_EQ(numbers_of(chocolate()),
             "0 exploration\n1 stop\n2 phototaxis\n3 anti_phototaxis\n4 attraction\n5 repulsion\n"
             "0 black_floor\n1 gray_floor\n2 white_floor\n3 neighbour_count\n"

@@ -233,10 +233,10 @@ Made any_of(const std::vector<ModuleSpec>& table,
 
 Machine any_machine(const Flavour& flavour) {
   Machine machine;
-  const int states = *rc::gen::inRange(1, kMaxStates + 1);
+  const int states = *rc::gen::inRange(1, flavour.most_states + 1);
   for (int i = 0; i < states; ++i) {
     State state{any_of(flavour.behaviours, make_behaviour), {}};
-    const int transitions = states == 1 ? 0 : *rc::gen::inRange(0, kMaxTransitions + 1);
+    const int transitions = states == 1 ? 0 : *rc::gen::inRange(0, flavour.most_transitions + 1);
     for (int j = 0; j < transitions; ++j) {
       const int other = *rc::gen::inRange(0, states - 1);
       state.transitions.push_back(

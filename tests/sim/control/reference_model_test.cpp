@@ -71,9 +71,8 @@ TEST(ReferenceModel, CommandsAreCutToTheWheelsRange) {
 }
 
 TEST(ReferenceModel, TheFlavoursSpeedsAreWithinTheWheelsRange) {
-  for (const Flavour* flavour : not_empty(all_flavours())) {
-    const bool is_rvr = flavour->obstacles.reading != ObstacleModel::Reading::Strength;
-    if (is_rvr) EXPECT_GE(flavour->speed_mps, 0.25) << "slower the motors overheat (thesis 6.1)";
+  for (const Flavour* flavour : not_empty(flavours_for(kRvrModel))) {
+    EXPECT_GE(flavour->speed_mps, 0.25) << "slower the motors overheat (thesis 6.1)";
     EXPECT_LE(flavour->speed_mps, kMaxWheelSpeed_mps);
   }
 }

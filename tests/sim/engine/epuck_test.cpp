@@ -120,7 +120,7 @@ TEST(Epuck, ReadsTheLightAsTheOriginalDoes) {
     Stand stand(mission, poses);
     expect_readings(row, "light", stand.senses.light(), 1e-6);
     hidden += number_in(row, "light_value") == 0 ? 1 : 0;
-    const Flavour flavour = chocolate_epuck();
+    const Flavour flavour = **find_flavour("chocolate-epuck");
     LightModel model = flavour.light;
     model.directions = labels_of(mission.robot);
     const Vector2 light = light_vector(stand.senses.light(), model);
@@ -238,7 +238,7 @@ double farthest_off(const std::string& mission_name, const std::string& file, in
       Sensors(Sensor::Proximity) | Sensor::LightRing | Sensor::GroundColor);
   const Controller idle = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
   simulate({.controller = idle,
-            .flavour = chocolate_epuck(),
+            .flavour = **find_flavour("chocolate-epuck"),
             .profile = ideal(),
             .mission = mission,
             .instance = instance},

@@ -93,8 +93,12 @@ TEST(RobotFile, AMissionOfTheRvrSaysItsOutlineAlone) {
 TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
   const Robot epuck = built_in("epuck");
   EXPECT_THAT(misfit(chocolate(), epuck), Optional(HasSubstr("takes distances")));
-  EXPECT_THAT(misfit(chocolate_epuck(), rvr()), Optional(HasSubstr("takes strengths")));
-  EXPECT_EQ(misfit(chocolate_epuck(), epuck), std::nullopt);
+  EXPECT_THAT(misfit(**find_flavour("chocolate-epuck"), rvr()),
+              Optional(HasSubstr("takes strengths")));
+  EXPECT_EQ(misfit(**find_flavour("chocolate-epuck"), epuck), std::nullopt);
+  EXPECT_EQ(misfit(**find_flavour("chocolate-epuck-2018"), epuck),
+            "the flavour `chocolate-epuck-2018` needs the reference model rm1-2018, and the robot "
+            "`epuck` is simulated with rm1.1 and rm1.2");
   EXPECT_THAT(misfit(built_in_profile("rvr").value(), epuck), Optional(HasSubstr("`proximity`")));
   EXPECT_THAT(misfit(built_in_profile("epuck").value(), rvr()),
               Optional(HasSubstr("`proximity.half_width`")));

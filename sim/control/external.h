@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "base/assert.h"
+#include "sim/control/module_parts.h"
+
+namespace swarmsmith {
+
+/// Modules that only other programs have: a flavour names them, with number, tokens and ranges, and
+/// texts of them are read, counted, drawn and raced with programs. They are never simulated; what
+/// runs control software refuses it before (`complaint_about_running`, controller.h).
+
+struct ExternalBehaviour {
+  static constexpr std::string_view kId = "external";
+
+  int number = 0;              ///< in the flavour's texts
+  std::vector<double> values;  ///< of the parameters, in the flavour's order
+
+  static UsedSenses uses(const Flavour& /*flavour*/) { return {}; }
+  static Command act(Senses& /*senses*/, const Flavour& /*flavour*/, BehaviourMemory& /*memory*/,
+                     Rng& /*rng*/) {
+    SWARMSMITH_ASSERT(false, "an external behaviour is refused before it acts");
+    return {};
+  }
+  friend bool operator==(const ExternalBehaviour&, const ExternalBehaviour&) = default;
+};
+
+struct ExternalCondition {
+  static constexpr std::string_view kId = "external";
+  using Reads = NoReading;
+
+  int number = 0;
+  std::vector<double> values;
+
+  static double enabling(const NoReading& /*none*/, const Flavour& /*flavour*/) {
+    SWARMSMITH_ASSERT(false, "an external condition is refused before it is asked");
+    return 0;
+  }
+  friend bool operator==(const ExternalCondition&, const ExternalCondition&) = default;
+};
+
+}  // namespace swarmsmith

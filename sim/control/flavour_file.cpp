@@ -1,0 +1,670 @@
+#include "sim/control/flavour_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "base/assert.h"
+#include "base/suggestion.h"
+#include "base/text/document.h"
+#include "base/text/whole_file.h"
+#include "embedded/kChocolateEpuck2018Flavour.h"
+#include "embedded/kChocolateEpuckFlavour.h"
+#include "embedded/kChocolateFlavour.h"
+#include "embedded/kMapleEpuck2018Flavour.h"
+#include "embedded/kMapleEpuckFlavour.h"
+#include "embedded/kWatermelonArgos3Flavour.h"
+#include "embedded/kWatermelonFlavour.h"
+#include "sim/control/internal/flavour_fields.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kFiles = {
+    {{"watermelon", kWatermelonFlavour},
+     {"watermelon-argos3", kWatermelonArgos3Flavour},
+     {"chocolate", kChocolateFlavour},
+     {"chocolate-epuck", kChocolateEpuckFlavour},
+     {"maple-epuck", kMapleEpuckFlavour},
+     {"chocolate-epuck-2018", kChocolateEpuck2018Flavour},
+     {"maple-epuck-2018", kMapleEpuck2018Flavour}}};
+
+/// Numbers of modules and labels in texts.
+constexpr Limits<std::int64_t> kNumbers{0, 1000};
+constexpr int kMostDigits = 15;  ///< of a real in the search, as in [race]
+constexpr double kGrayThousandths = 1000;
+
+template <class Value, std::size_t Count>
+std::vector<std::string> words_of(const FlavourChoices<Value, Count>& choices) {
+  std::vector<std::string> words;
+  for (const auto& [word, meaning] : choices)
+    words.emplace_back(word);
+  return words;
+}
+
+std::optional<ColorLabel> label_named(std::string_view name) {
+  for (const ColorLabel label :
+       {ColorLabel::Green, ColorLabel::Blue, ColorLabel::Red, ColorLabel::Yellow}) {
+    if (name_of(label) == name) return label;
+  }
+  return std::nullopt;
+}
+
+/// The visitor that takes the constants out of a flavour's table and the tables in it. One that is
+/// not there keeps its value.
+class ConstantReader {
+ public:
+  explicit ConstantReader(TableReader& root) : root_(&root) {}
+
+  void table(std::string_view name) {
+    finish();
+    in_table_ = true;
+    if (auto table = root_->table(name)) table_ = std::make_unique<TableReader>(*table);
+  }
+  /// To be called after the visit, too: the last table has no next one.
+  void finish() {
+    if (table_) table_->finish();
+    table_.reset();
+  }
+
+  void number(std::string_view key, double& value, FlavourLimits limits) {
+    if (TableReader* table = current())
+      value = table->number(key, {limits.least, limits.most}).value_or(value);
+  }
+  void integer(std::string_view key, int& value, FlavourLimits limits) {
+    TableReader* table = current();
+    if (table == nullptr) return;
+    const Limits<std::int64_t> whole{static_cast<std::int64_t>(limits.least),
+                                     static_cast<std::int64_t>(limits.most)};
+    value = static_cast<int>(table->integer(key, whole).value_or(value));
+  }
+  void flag(std::string_view key, bool& value) {
+    if (TableReader* table = current()) value = table->boolean(key).value_or(value);
+  }
+  template <class Value, std::size_t Count>
+  void choice(std::string_view key, Value& value, const FlavourChoices<Value, Count>& choices) {
+    TableReader* table = current();
+    if (table == nullptr) return;
+    const auto found = table->choice(key, words_of(choices));
+    for (const auto& [word, meaning] : choices) {
+      if (found == word) value = meaning;
+    }
+  }
+  void grays(std::string_view key, GrayRange& range) {
+    TableReader* table = current();
+    const auto pair =
+        table == nullptr
+            ? std::nullopt
+            : table->interval(key, "a range of two grey levels from 0 to 255, such as [0, 25.5]");
+    if (!pair) return;
+    if (!(0 <= pair->least && pair->least <= pair->most && pair->most <= 255)) {
+      table->complain(key, "`" + std::string(key) + "` is from [" + number_text(pair->least) +
+                               ", " + number_text(pair->most) +
+                               "]; the lower end comes first, and both are from 0 to 255");
+      return;
+    }
+    range = {static_cast<int>(std::lround(pair->least * kGrayThousandths)),
+             static_cast<int>(std::lround(pair->most * kGrayThousandths))};
+  }
+  void labels(std::string_view key, std::vector<LabelSpec>& labels) {
+    TableReader* table = current();
+    if (table == nullptr || !table->has(key)) return;
+    labels.clear();
+    static const std::vector<std::string> kNames = {"green", "blue", "red", "yellow"};
+    for (TableReader& item : table->tables(key)) {
+      const auto name = item.choice("name", kNames);
+      if (!item.has("name")) item.complain("name", "a label needs a `name`");
+      const auto number = item.integer("number", kNumbers);
+      if (!item.has("number")) item.complain("number", "a label needs a `number`");
+      const double hue = item.number("hue_deg", {0, 360}).value_or(0);
+      const double saturation = item.number("saturation", {0, 1}).value_or(1);
+      item.finish();
+      if (!name || !number) continue;
+      const LabelSpec label{*label_named(*name), static_cast<int>(*number), hue, saturation};
+      for (const LabelSpec& other : labels) {
+        if (other.label == label.label)
+          item.complain("name", "there are two labels `" + *name + "`");
+        if (other.number == label.number)
+          item.complain("number", "two labels have the number " + std::to_string(label.number));
+      }
+      labels.push_back(label);
+    }
+  }
+
+ private:
+  TableReader* current() { return in_table_ ? table_.get() : root_; }
+
+  TableReader* root_;
+  bool in_table_ = false;
+  std::unique_ptr<TableReader> table_;
+};
+
+/// The range of a parameter: both ends within what a machine may hold, the lower one first.
+void read_range(TableReader& table, std::string_view key, ParameterSpec& parameter) {
+  const auto range = table.interval(key);
+  if (!range) return;
+  for (const double bound : {range->least, range->most}) {
+    if (const auto complaint = complaint_about(parameter, bound)) {
+      table.complain(key, "the range of " + parameter.name + ": " + *complaint + ", this is " +
+                              number_text(bound));
+      return;
+    }
+  }
+  if (range->least > range->most) {
+    table.complain(key, "the range of " + parameter.name + " is [" + number_text(range->least) +
+                            ", " + number_text(range->most) + "]: its ends are exchanged");
+    return;
+  }
+  if (range->least == range->most) {
+    table.complain(key, "the range of " + parameter.name +
+                            " has one value alone, and the search chooses among several");
+    return;
+  }
+  parameter.low = range->least;
+  parameter.high = range->most;
+}
+
+bool is_word(std::string_view text) {
+  const auto is_letter = [](char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z'); };
+  return !text.empty() && text.size() <= 20 && std::ranges::all_of(text, is_letter);
+}
+
+/// The name of a switch or of a parameter of the search: letters alone, as numbers follow them.
+void read_word(TableReader& table, std::string_view key, std::string& word) {
+  auto text = table.text(key);
+  if (!text) return;
+  if (is_word(*text)) {
+    word = std::move(*text);
+  } else {
+    table.complain(key, "`" + std::string(key) + "` is 1 to 20 letters, such as \"att\"");
+  }
+}
+
+/// token, symbol, range and digits.
+void read_details(TableReader& table, ParameterSpec& parameter) {
+  read_word(table, "token", parameter.token);
+  read_word(table, "symbol", parameter.symbol);
+  read_range(table, "range", parameter);
+  if (parameter.type == ParameterSpec::Type::Real) {
+    parameter.digits =
+        static_cast<int>(table.integer("digits", {0, kMostDigits}).value_or(parameter.digits));
+  }
+}
+
+/// One parameter of a module: its range, or a table with range, token, symbol and digits.
+void read_parameter(TableReader& module, ParameterSpec& parameter) {
+  const Node* node = module.take(parameter.name);
+  if (node == nullptr) return;
+  if (parameter.type == ParameterSpec::Type::Label) {
+    module.complain(parameter.name, "a label is any one of the flavour's; it has no range");
+    return;
+  }
+  if (!std::holds_alternative<Table>(node->value)) {
+    read_range(module, parameter.name, parameter);
+    return;
+  }
+  if (auto table = module.table(parameter.name)) {
+    read_details(*table, parameter);
+    table->finish();
+  }
+}
+
+/// Switches that a state, a transition or a subtree has besides those of its module.
+constexpr std::array<std::string_view, 5> kOwnSwitches = {"s", "n", "c", "a", "nchild"};
+/// The same as parameters of the search.
+constexpr std::array<std::string_view, 13> kOwnSymbols = {
+    "S",           "N",        "C",        "A",      "NumStates", "NumConnections",
+    "NumSubtrees", "Selector", "Children", "Action", "Condition", "Success",
+    "Root"};
+
+void check_tokens(TableReader& table, const std::string& id, const ModuleSpec& spec) {
+  std::set<std::string> tokens;
+  for (const ParameterSpec& parameter : spec.parameters) {
+    if (std::ranges::count(kOwnSwitches, parameter.token) > 0) {
+      table.complain(id, "`" + id + "`: texts have --" + parameter.token +
+                             " for something else; give " + parameter.name + " another token");
+    }
+    if (std::ranges::count(kOwnSymbols, parameter.symbol) > 0) {
+      table.complain(id, "`" + id + "`: the search has a parameter " + parameter.symbol +
+                             " of its own; give " + parameter.name + " another symbol");
+    }
+    if (!tokens.insert(parameter.token).second) {
+      table.complain(id, "`" + id + "` has the token `" + parameter.token + "` twice");
+    }
+  }
+}
+
+/// A module's or a parameter's name: a word of stores, tables and campaign files.
+bool is_id(std::string_view text) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
+  return !text.empty() && text.size() <= 60 && 'a' <= text.front() && text.front() <= 'z' &&
+         text.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
+/// What machines of external modules may hold: the program that runs them says what it takes.
+constexpr double kMostOfExternal = 1e9;
+
+/// One parameter of an external module: name, token, type and range.
+ParameterSpec read_external_parameter(TableReader& table) {
+  static const std::vector<std::string> kTypes = {"real", "int"};
+  ParameterSpec parameter{.least = -kMostOfExternal, .most = kMostOfExternal};
+  for (const char* key : {"name", "token", "type", "range"}) {
+    if (!table.has(key)) {
+      table.complain(key, "a parameter of an external module needs `" + std::string(key) + "`");
+    }
+  }
+  parameter.name = table.text("name").value_or("");
+  if (table.has("name") && !is_id(parameter.name))
+    table.complain("name", "a parameter's name consists of small letters, digits and `_`");
+  if (table.choice("type", kTypes) == kTypes[1]) {
+    parameter.type = ParameterSpec::Type::Integer;
+  } else {
+    parameter.digits = 2;
+  }
+  // Before the details: the usual symbol is the token in capitals.
+  read_word(table, "token", parameter.token);
+  parameter.symbol = parameter.token;
+  for (char& letter : parameter.symbol) {
+    if ('a' <= letter && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+  }
+  read_word(table, "symbol", parameter.symbol);
+  read_range(table, "range", parameter);
+  if (parameter.type == ParameterSpec::Type::Real) {
+    parameter.digits =
+        static_cast<int>(table.integer("digits", {0, kMostDigits}).value_or(parameter.digits));
+  }
+  table.finish();
+  return parameter;
+}
+
+/// A module that only other programs have.
+void read_external(TableReader& table, bool behaviour, ModuleSpec& spec) {
+  spec.module = behaviour ? external_behaviour(spec.number) : external_condition(spec.number);
+  for (TableReader& item : table.tables("parameters")) {
+    ParameterSpec parameter = read_external_parameter(item);
+    if (std::ranges::count(spec.parameters, parameter.name, &ParameterSpec::name) > 0)
+      item.complain("name", "`" + spec.id + "` has the parameter `" + parameter.name + "` twice");
+    spec.parameters.push_back(std::move(parameter));
+  }
+}
+
+const std::vector<std::string> kExternalKind = {"external"};
+
+/// One line of [behaviours] or [conditions].
+std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id, bool behaviour) {
+  auto table = tables.table(id);
+  if (!table) return std::nullopt;
+  const auto kind = table->choice("kind", kExternalKind);
+  if (table->has("kind") && !kind) {
+    table->take_all();
+    return std::nullopt;
+  }
+  const auto module = module_from_id(id);
+  if (kind && !is_id(id))
+    tables.complain(id, "a module's name consists of small letters, digits and `_`");
+  if (kind && module) {
+    tables.complain(id, "`" + id +
+                            "` is a kind that this program has: leave `kind` out, or give "
+                            "the external module another name");
+  }
+  if (!kind && (!module || is_behaviour(*module) != behaviour)) {
+    std::vector<std::string> known;
+    for (const Module one : all_modules()) {
+      if (is_behaviour(one) == behaviour) known.emplace_back(id_of(one));
+    }
+    tables.complain(id, "there is no kind of " +
+                            std::string(behaviour ? "behaviour" : "condition") + " `" + id + "`" +
+                            did_you_mean(id, known) + "; kinds are: " + joined(known) +
+                            "; one that only another program has is `" + id +
+                            " = { kind = \"external\", ... }`");
+    table->take_all();
+    return std::nullopt;
+  }
+  ModuleSpec spec{.module = module.value_or(Module::Stop), .id = id, .number = 0, .parameters = {}};
+  const auto number = table->integer("number", kNumbers);
+  if (!table->has("number")) table->complain("number", "`" + id + "` needs its `number` in texts");
+  spec.number = static_cast<int>(number.value_or(0));
+  if (kind) {
+    read_external(*table, behaviour, spec);
+  } else {
+    spec.parameters = parameters_of_kind(spec.module);
+    for (ParameterSpec& parameter : spec.parameters)
+      read_parameter(*table, parameter);
+  }
+  table->finish();
+  check_tokens(tables, id, spec);
+  return spec;
+}
+
+/// The table [behaviours] or [conditions], which replaces that of the base.
+void read_modules(TableReader& root, const std::string& key, std::vector<ModuleSpec>& modules) {
+  auto tables = root.table(key);
+  if (!tables) return;
+  modules.clear();
+  for (const auto& [id, node] : tables->take_all()) {
+    auto spec = read_module(*tables, id, key == "behaviours");
+    if (!spec) continue;
+    for (const ModuleSpec& other : modules) {
+      if (other.number == spec->number) {
+        tables->complain(id, "`" + other.id + "` and `" + id + "` have the same number " +
+                                 std::to_string(spec->number));
+      }
+    }
+    modules.push_back(std::move(*spec));
+  }
+  std::ranges::stable_sort(modules, {}, &ModuleSpec::number);
+}
+
+/// The search has one parameter a symbol, so that modules with the same must mean the same.
+void check_symbols(TableReader& root, const std::string& key,
+                   const std::vector<ModuleSpec>& modules) {
+  std::map<std::string, std::pair<const ModuleSpec*, const ParameterSpec*>> known;
+  for (const ModuleSpec& module : modules) {
+    for (const ParameterSpec& parameter : module.parameters) {
+      const auto [at, is_new] = known.try_emplace(parameter.symbol, &module, &parameter);
+      const ParameterSpec& first = *at->second.second;
+      const bool same = first.type == parameter.type && first.token == parameter.token &&
+                        first.low == parameter.low && first.high == parameter.high &&
+                        first.digits == parameter.digits;
+      if (is_new || same) continue;
+      root.complain(key, at->second.first->id + " and " + module.id +
+                             " have parameters of the symbol " + parameter.symbol +
+                             " that differ; give one { symbol = \"...\" }");
+    }
+  }
+}
+
+/// What one key of a flavour wants of others.
+void check_whole(TableReader& root, const Flavour& flavour) {
+  for (const auto& [key, modules] : {std::pair("behaviours", &flavour.behaviours),
+                                     std::pair("conditions", &flavour.conditions)}) {
+    if (modules->empty()) {
+      root.complain(key, "a flavour needs a table [" + std::string(key) + "] with one at least");
+    }
+    check_symbols(root, key, *modules);
+  }
+  for (const ModuleSpec& condition : flavour.conditions) {
+    if (std::ranges::count(flavour.behaviours, condition.id, &ModuleSpec::id) > 0)
+      root.complain("conditions", "`" + condition.id + "` is a behaviour, too");
+  }
+  if (flavour.find(Module::ColorDetection) != nullptr && flavour.floor.labels.size() != 4) {
+    root.complain("floor", "color_detection looks for four labels, which [floor] must have");
+  }
+  if (flavour.obstacles.near_m >= flavour.obstacles.far_m ||
+      flavour.obstacles.neighbour_near_m >= flavour.obstacles.neighbour_far_m) {
+    root.complain("obstacles", "what is near must be nearer than what is far");
+  }
+}
+
+/// The fields of a table, over those of the flavour that `base` names.
+void read_fields(TableReader& table, Flavour& flavour) {
+  const std::vector<std::string> names = flavour_names();
+  if (const auto base = table.choice("base", names)) {
+    std::string name = std::move(flavour.name);
+    flavour = *find_flavour(*base).value();
+    flavour.name = std::move(name);
+  }
+  if (auto reference = table.text("reference")) {
+    flavour.reference = std::move(*reference);
+    if (!is_name(flavour.reference))
+      table.complain("reference", "`reference` is the name of a reference model, such as \"rvr\"");
+  }
+  ConstantReader reader(table);
+  visit_flavour_fields(flavour, reader);
+  reader.finish();
+  read_modules(table, "behaviours", flavour.behaviours);
+  read_modules(table, "conditions", flavour.conditions);
+  check_whole(table, flavour);
+}
+
+/// The visitor that writes the constants as lines.
+class ConstantWriter {
+ public:
+  ConstantWriter(std::vector<Section>& sections, std::string header)
+      : sections_(&sections), prefix_(header.empty() ? "" : header + ".") {
+    sections_->push_back({header.empty() ? "" : "[" + header + "]", prefix_, {}});
+  }
+
+  void table(std::string_view name) {
+    const std::string path = prefix_ + std::string(name);
+    sections_->push_back({"[" + path + "]", path + ".", {}});
+  }
+  void number(std::string_view key, double value, FlavourLimits) { add(key, number_text(value)); }
+  void integer(std::string_view key, int value, FlavourLimits) { add(key, std::to_string(value)); }
+  void flag(std::string_view key, bool value) { add(key, flag_text(value)); }
+  template <class Value, std::size_t Count>
+  void choice(std::string_view key, Value value, const FlavourChoices<Value, Count>& choices) {
+    for (const auto& [word, meaning] : choices) {
+      if (meaning == value) add(key, quoted_text(word));
+    }
+  }
+  void grays(std::string_view key, const GrayRange& range) {
+    add(key, "[" + number_text(range.low / kGrayThousandths) + ", " +
+                 number_text(range.high / kGrayThousandths) + "]");
+  }
+  void labels(std::string_view key, const std::vector<LabelSpec>& labels) {
+    add(key, "[" + list_of(labels, [](const LabelSpec& label) {
+               return "{ name = " + quoted_text(name_of(label.label)) +
+                      ", number = " + std::to_string(label.number) +
+                      ", hue_deg = " + number_text(label.hue_deg) +
+                      ", saturation = " + number_text(label.saturation) + " }";
+             }) + "]");
+  }
+  void add(std::string_view key, std::string value) {
+    sections_->back().lines.push_back({std::string(key), std::move(value)});
+  }
+
+ private:
+  std::vector<Section>* sections_;
+  std::string prefix_;
+};
+
+std::string range_text(const ParameterSpec& parameter) {
+  return "[" + number_text(parameter.low) + ", " + number_text(parameter.high) + "]";
+}
+
+/// A parameter, its range alone where the rest is that of its kind.
+std::string parameter_text(const ParameterSpec& parameter, ParameterSpec kind) {
+  kind.low = parameter.low;
+  kind.high = parameter.high;
+  if (parameter == kind) return range_text(parameter);
+  std::string text = "{ range = " + range_text(parameter) +
+                     ", token = " + quoted_text(parameter.token) +
+                     ", symbol = " + quoted_text(parameter.symbol);
+  if (parameter.type == ParameterSpec::Type::Real)
+    text += ", digits = " + std::to_string(parameter.digits);
+  return text + " }";
+}
+
+std::string external_parameter_text(const ParameterSpec& parameter) {
+  const bool is_real = parameter.type == ParameterSpec::Type::Real;
+  return "{ name = " + quoted_text(parameter.name) + ", token = " + quoted_text(parameter.token) +
+         ", symbol = " + quoted_text(parameter.symbol) +
+         ", type = " + (is_real ? "\"real\"" : "\"int\"") + ", range = " + range_text(parameter) +
+         (is_real ? ", digits = " + std::to_string(parameter.digits) : "") + " }";
+}
+
+std::string module_text(const ModuleSpec& spec) {
+  std::string text = "{ number = " + std::to_string(spec.number);
+  if (is_external(spec.module)) {
+    text += ", kind = \"external\"";
+    if (spec.parameters.empty()) return text + " }";
+    return text + ", parameters = [" + list_of(spec.parameters, external_parameter_text) + "] }";
+  }
+  const std::vector<ParameterSpec> kind = parameters_of_kind(spec.module);
+  for (std::size_t i = 0; i < spec.parameters.size(); ++i) {
+    const ParameterSpec& parameter = spec.parameters[i];
+    if (parameter.type == ParameterSpec::Type::Label) continue;
+    text += ", " + parameter.name + " = " + parameter_text(parameter, kind[i]);
+  }
+  return text + " }";
+}
+
+/// What one's own flavour must not be called: a stored "chocolate" must mean ours.
+bool takes_a_name_of_ours(const Flavour& flavour) {
+  return built_in_flavour_text(flavour.name) != "" && !is_built_in(flavour);
+}
+
+FlavourOrErrors read_flavour_file(const std::filesystem::path& file) {
+  const auto text = read_file(file, "flavour");
+  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
+  auto flavour = parse_flavour(*text, file);
+  if (flavour && takes_a_name_of_ours(*flavour)) {
+    const std::string why = "a flavour has its file's name, and `" + flavour->name +
+                            "` is built in with other values; give the file another name";
+    return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, file.string()}});
+  }
+  return flavour;
+}
+
+/// Those that the program carries, in the order of their files, none of which has a base.
+const std::vector<Flavour>& built_in_flavours() {
+  static const std::vector<Flavour> kFlavours = [] {
+    std::vector<Flavour> flavours;
+    for (const auto& [name, text] : kFiles) {
+      auto flavour = parse_flavour(text, std::string(name) + ".toml");
+      SWARMSMITH_ASSERT(flavour.has_value(), "the flavours that the program carries can be read");
+      flavours.push_back(std::move(*flavour));
+    }
+    return flavours;
+  }();
+  return kFlavours;
+}
+
+}  // namespace
+
+std::vector<std::string> flavour_names() {
+  std::vector<std::string> names;
+  names.reserve(kFiles.size());
+  for (const auto& [name, text] : kFiles)
+    names.emplace_back(name);
+  return names;
+}
+
+std::string_view built_in_flavour_text(std::string_view name) {
+  for (const auto& [known, text] : kFiles) {
+    if (known == name) return text;
+  }
+  return {};
+}
+
+bool is_built_in(const Flavour& flavour) {
+  const auto ours = find_flavour(flavour.name);
+  return ours && **ours == flavour;
+}
+
+FlavourOrErrors parse_flavour(std::string_view text, const std::filesystem::path& file) {
+  const auto document = parse_document(text, file.string());
+  if (!document) return tl::unexpected(std::vector<Error>{document.error()});
+  Complaints complaints(file.string());
+  TableReader root(*document, "", complaints);
+  Flavour flavour;
+  flavour.name = file.stem().string();
+  read_format(root);
+  if (!is_name(flavour.name)) {
+    root.complain("name",
+                  "a flavour has its file's name, so that the file's must consist of letters, "
+                  "digits, `_`, `-` and `.`; this is \"" +
+                      flavour.name + "\"");
+  }
+  read_fields(root, flavour);
+  root.finish();
+  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  return flavour;
+}
+
+FlavourOrErrors find_flavour_file(const std::string& word, const std::filesystem::path& folder) {
+  if (names_a_file(word)) return read_flavour_file(folder / word);
+  const auto flavour = find_flavour(word);
+  if (flavour) return **flavour;
+  Error error = flavour.error();
+  error.message += "; a file of your own ends in .toml";
+  return tl::unexpected(std::vector<Error>{std::move(error)});
+}
+
+Flavour read_flavour_table(TableReader& table) {
+  Flavour flavour;
+  flavour.name = table.text("name").value_or("");
+  check_name(table, flavour.name, {});
+  read_fields(table, flavour);
+  table.finish();
+  return flavour;
+}
+
+std::vector<Section> flavour_sections(const Flavour& flavour, const std::string& header) {
+  std::vector<Section> sections;
+  ConstantWriter writer(sections, header);
+  writer.add("name", quoted_text(flavour.name));
+  writer.add("reference", quoted_text(flavour.reference));
+  visit_flavour_fields(flavour, writer);
+  for (const auto& [key, modules] : {std::pair("behaviours", &flavour.behaviours),
+                                     std::pair("conditions", &flavour.conditions)}) {
+    writer.table(key);
+    for (const ModuleSpec& spec : *modules)
+      writer.add(spec.id, module_text(spec));
+  }
+  return sections;
+}
+
+std::string flavour_text(const Flavour& flavour) {
+  std::vector<Section> sections = flavour_sections(flavour, "");
+  sections.front().lines.front() = {"format", "1"};  // in place of the name, which is the file's
+  return text_of(sections);
+}
+
+std::vector<const Flavour*> own_flavours_in(std::string_view campaign) {
+  std::vector<const Flavour*> flavours;
+  if (campaign.find("[method.flavour]") == std::string_view::npos) return flavours;
+  const auto document = parse_document(campaign, "campaign");
+  if (!document) return flavours;
+  Complaints complaints("campaign");
+  TableReader root(*document, "", complaints);
+  for (TableReader& method : root.tables("method")) {
+    const Node* node = method.take("flavour");
+    if (node == nullptr || !std::holds_alternative<Table>(node->value)) continue;
+    auto table = method.table("flavour");
+    Flavour flavour = read_flavour_table(*table);
+    if (!complaints.empty()) return flavours;
+    if (const Flavour* own = kept_flavour(std::move(flavour))) flavours.push_back(own);
+  }
+  return flavours;
+}
+
+std::string own_flavour_text(const Flavour& flavour) {
+  const auto ours = find_flavour(flavour.name, flavour.exploration.turn_clock);
+  return ours && *ours == flavour ? "" : flavour_text(flavour);
+}
+
+const Flavour& watermelon() {
+  return built_in_flavours()[0];
+}
+
+const Flavour& watermelon_argos3() {
+  return built_in_flavours()[1];
+}
+
+const Flavour& chocolate() {
+  return built_in_flavours()[2];
+}
+
+std::span<const Flavour* const> all_flavours() {
+  static const std::vector<const Flavour*> kAll = [] {
+    std::vector<const Flavour*> all;
+    for (const Flavour& flavour : built_in_flavours())
+      all.push_back(&flavour);
+    return all;
+  }();
+  return kAll;
+}
+
+}  // namespace swarmsmith
