@@ -1,8 +1,9 @@
-# swarmsmith_kinds(NAME KIND...): the kinds of something, of which a variant is made. Each KIND is a header NAME/KIND.h in
-# this folder, and a source NAME/KIND.cpp if there is one, with a struct of the same name in camel case. Sets the lists
+# swarmsmith_kinds(NAME FOLDER KIND...): the kinds of something, of which a variant is made. Each KIND is a header
+# FOLDER/KIND.h, and a source FOLDER/KIND.cpp if there is one, with a struct of the same name in camel case. Sets the lists
 # NAME_headers and NAME_sources, and the texts NAME_includes and NAME_names (of the structs) for made headers.
-function(swarmsmith_kinds name)
-  file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+function(swarmsmith_kinds name folder)
+  file(REAL_PATH ${folder} there BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+  file(RELATIVE_PATH from_root ${PROJECT_SOURCE_DIR} ${there})
   foreach(kind ${ARGN})
     string(REPLACE "_" ";" words ${kind})
     set(struct)
@@ -13,10 +14,10 @@ function(swarmsmith_kinds name)
       string(APPEND struct "${first}${rest}")
     endforeach()
     list(APPEND names ${struct})
-    string(APPEND includes "#include \"${room}/${name}/${kind}.h\"\n")
-    list(APPEND headers ${name}/${kind}.h)
-    if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/${kind}.cpp)
-      list(APPEND sources ${name}/${kind}.cpp)
+    string(APPEND includes "#include \"${from_root}/${kind}.h\"\n")
+    list(APPEND headers ${folder}/${kind}.h)
+    if(EXISTS ${there}/${kind}.cpp)
+      list(APPEND sources ${folder}/${kind}.cpp)
     endif()
   endforeach()
   list(JOIN names ", " names)

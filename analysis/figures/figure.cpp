@@ -84,7 +84,7 @@ const FigureKind* find_figure_kind(std::string_view name) {
 }
 
 std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions& options) {
-  const std::array<std::pair<std::string_view, bool>, 10> given = {{
+  const std::array<std::pair<std::string_view, bool>, 11> given = {{
       {"mission", !options.filter.mission.empty()},
       {"method", !options.filter.method.empty()},
       {"design", options.filter.design.has_value()},
@@ -95,6 +95,7 @@ std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions&
       {"candidate", options.candidate.has_value()},
       {"iteration", options.iteration.has_value()},
       {"parameter", !options.parameter.empty()},
+      {"seed", !options.seeds.empty()},
   }};
   for (const auto& [name, is_given] : given) {
     if (!is_given || has_word(kind.options, name)) continue;

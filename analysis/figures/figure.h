@@ -41,7 +41,8 @@ struct FigureOptions {
   ScoreChoice choice;    ///< which scores, and what a value is
   std::optional<CandidateId> candidate;
   std::optional<std::int64_t> iteration;
-  std::string parameter;  ///< names, with commas between; empty: the most telling ones
+  std::string parameter;              ///< names, with commas between; empty: the most telling ones
+  std::vector<std::int64_t> seeds{};  ///< of runs that are simulated again
 };
 
 /// Draws from a store. Errors: BadInput (an option that makes no sense here), NotFound (the store

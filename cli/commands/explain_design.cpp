@@ -42,9 +42,10 @@ struct Story {
 Expected<Story> read_story(StoreReader& store, DesignRecord design, const StoredStages& stages) {
   const std::string name = to_string(design.design);
   const SearchOptions* search = stages.search(name);
-  Story story{.design = std::move(design),
-              .search = std::string(name_of(search != nullptr ? search->kind : SearchKind::Irace)),
-              .shows_costs = is_of_programs(store)};
+  Story story{
+      .design = std::move(design),
+      .search = std::string(name_of(search != nullptr ? kind_of(*search) : SearchKind::Irace)),
+      .shows_costs = is_of_programs(store)};
   if (story.design.budget == 0 && story.design.used == 0) story.search = "none";
   const DesignId id = story.design.design;
   const auto best = elites(store, {.design = id});
@@ -121,7 +122,7 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
              << "\n"
              << "search      " << story.search << "\n"
              << "state       "
-             << (is_searching ? std::string(words_of(search->kind).at_work) : design.state);
+             << (is_searching ? std::string(words_of(*search).at_work) : design.state);
   if (story.search != "none")
     output.out << ", " << design.used << " of " << design.budget << " experiments used";
   output.out << "\n";

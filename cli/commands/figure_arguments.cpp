@@ -6,7 +6,7 @@
 #include "analysis/drawing/svg.h"
 #include "cli/arguments/score_words.h"
 #include "cli/arguments/thing_id.h"
-#include "cli/commands/trajectories_figure.h"
+#include "cli/commands/simulated_figures.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -17,6 +17,24 @@ Expected<std::int64_t> number_of(const std::string& text, char letter, const cha
   if (id && id->letter == letter) return std::stoll(id->digits);
   const std::string example = letter == 'd' ? "d3" : "c812";
   return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
+}
+
+/// Seeds of runs that are simulated again.
+Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments) {
+  constexpr std::size_t kMostRuns = 12;
+  constexpr std::int64_t kLargest = 2'147'483'647;
+  std::vector<std::int64_t> seeds;
+  if (arguments.seeds.size() > kMostRuns)
+    return bad_input("at most " + std::to_string(kMostRuns) + " runs are drawn", "--seed");
+  for (const std::string& text : arguments.seeds) {
+    std::int64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    const bool is_whole = error == std::errc() && end == text.data() + text.size();
+    if (!is_whole || seed < 1 || seed > kLargest)
+      return bad_input("wants a number from 1 to 2147483647, not \"" + text + "\"", "--seed");
+    seeds.push_back(seed);
+  }
+  return seeds;
 }
 
 }  // namespace
@@ -50,9 +68,8 @@ void FigureArguments::declare(Options& words) {
 
 std::vector<FigureKind> all_figure_kinds() {
   std::vector<FigureKind> kinds(figure_kinds().begin(), figure_kinds().end());
-  kinds.push_back({.name = kTrajectories,
-                   .summary = "Runs of a machine from above, simulated again, side by side",
-                   .options = "design candidate seed"});
+  const auto simulated = simulated_figures();
+  kinds.insert(kinds.end(), simulated.begin(), simulated.end());
   return kinds;
 }
 
@@ -69,31 +86,15 @@ Expected<FigureOptions> read_options(const FigureArguments& arguments) {
     if (!candidate) return Unexpected(candidate.error());
     options.candidate = CandidateId{*candidate};
   }
+  auto seeds = read_seeds(arguments);
+  if (!seeds) return Unexpected(seeds.error());
+  options.seeds = std::move(*seeds);
   if (arguments.width.empty()) return options;
   options.width_mm = millimetres_from_text(arguments.width);
   if (options.width_mm >= kLeastFigureWidth_mm && options.width_mm <= kMostFigureWidth_mm)
     return options;
   return bad_input("a figure is 60mm to 1000mm wide (also cm, in), not \"" + arguments.width + "\"",
                    "--width");
-}
-
-Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments) {
-  constexpr std::int64_t kLargest = 2'147'483'647;
-  std::vector<std::int64_t> seeds;
-  if (!arguments.seeds.empty() && arguments.kind != kTrajectories)
-    return bad_input("has no effect on the figure `" + arguments.kind + "`", "--seed");
-  if (arguments.seeds.size() > kMostTrajectories) {
-    return bad_input("at most " + std::to_string(kMostTrajectories) + " runs are drawn", "--seed");
-  }
-  for (const std::string& text : arguments.seeds) {
-    std::int64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    const bool is_whole = error == std::errc() && end == text.data() + text.size();
-    if (!is_whole || seed < 1 || seed > kLargest)
-      return bad_input("wants a number from 1 to 2147483647, not \"" + text + "\"", "--seed");
-    seeds.push_back(seed);
-  }
-  return seeds;
 }
 
 }  // namespace swarmsmith::cli

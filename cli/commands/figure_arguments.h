@@ -29,15 +29,10 @@ struct FigureArguments {
   void declare(Options& words);
 };
 
-/// The one kind that simulates; views alone do not have it.
-inline constexpr std::string_view kTrajectories = "trajectories";
-
-/// Those that are drawn from views, then `kTrajectories`, which has no maker.
+/// Those that are drawn from views, then those that simulate.
 std::vector<FigureKind> all_figure_kinds();
 
 /// What the words mean, before any store is opened. Errors: BadInput, with the option.
 Expected<FigureOptions> read_options(const FigureArguments& arguments);
-/// Seeds of runs that are simulated again.
-Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments);
 
 }  // namespace swarmsmith::cli

@@ -8,7 +8,6 @@
 #include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/figure_arguments.h"
-#include "cli/commands/trajectories_figure.h"
 #include "console/pdf.h"
 #include "console/terminal.h"
 
@@ -114,8 +113,6 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (!options) return fail(output, ExitCode::Usage, options.error());
   if (const auto refused = refused_option(kind, *options))
     return fail(output, ExitCode::Usage, *refused);
-  const auto seeds = read_seeds(arguments);
-  if (!seeds) return fail(output, ExitCode::Usage, seeds.error());
   const auto ending = figure_ending(arguments, output);
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
   // What a paper leaves out, numbers never had: a script may name all its files with --paper.
@@ -127,8 +124,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if (const auto missing = missing_in(**store, *options))
     return fail(output, figure_exit_code(*missing), *missing);
-  auto figure = kind.make != nullptr ? kind.make(**store, *options)
-                                     : trajectories_figure(std::move(*store), *options, *seeds);
+  auto figure = kind.make(**store, *options);
   if (!figure) return fail(output, figure_exit_code(figure.error()), figure.error());
   if (!arguments.font.empty()) {
     auto dressed = with_font(std::move(figure->svg), arguments.font);

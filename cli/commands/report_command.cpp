@@ -7,7 +7,7 @@
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/trajectories_figure.h"
+#include "cli/commands/runs_from_above.h"
 #include "console/counter.h"
 #include "console/terminal.h"
 

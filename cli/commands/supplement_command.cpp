@@ -14,7 +14,7 @@
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/trajectories_figure.h"
+#include "cli/commands/runs_from_above.h"
 #include "cli/dashboard/snapshot.h"
 #include "cli/replay/machine_filer.h"
 #include "cli/replay/stored_instances.h"

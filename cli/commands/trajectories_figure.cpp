@@ -1,9 +1,12 @@
-#include "cli/commands/trajectories_figure.h"
-
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/arena/arena_panels.h"
 #include "analysis/records/names.h"
+#include "cli/commands/runs_from_above.h"
+#include "cli/commands/simulated_figures.h"
 #include "cli/output/progress_text.h"
 #include "cli/output/query_output.h"
 #include "cli/replay/stored_runs.h"
@@ -13,6 +16,7 @@
 namespace swarmsmith::cli {
 namespace {
 
+constexpr std::int64_t kTests = 4;
 constexpr std::int64_t kTestsOfReport = 2;
 
 /// The candidate that is meant: itself, or the best of a design.
@@ -82,21 +86,23 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
   return {};
 }
 
-}  // namespace
-
-Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
-                                     const FigureOptions& options,
-                                     const std::vector<std::int64_t>& seeds,
-                                     std::int64_t most_tests) {
-  const auto candidate = candidate_of(*store, options);
+/// Runs of one machine from above, side by side, with a row a robot and instant in the table. They
+/// are simulated again: of the candidate, else of the winner of the design; on the seeds, else on
+/// the first of the stored tests.
+///
+/// Errors: BadInput (no machine is named, a run cannot be simulated), NotFound (no such tests),
+/// Conflict when a run is stored and does not come out again with the same bits.
+Expected<Figure> film_all(StoreReader& store, const FigureOptions& options,
+                          std::int64_t most_tests) {
+  const auto candidate = candidate_of(store, options);
   if (!candidate) return Unexpected(candidate.error());
-  auto wanted = seeds;
-  if (seeds.empty()) {
-    auto stored = seeds_of_tests(*store, *candidate, most_tests);
+  auto wanted = options.seeds;
+  if (wanted.empty()) {
+    auto stored = seeds_of_tests(store, *candidate, most_tests);
     if (!stored) return Unexpected(stored.error());
     wanted = std::move(*stored);
   }
-  auto runs = StoredRuns::open(std::move(store));
+  auto runs = StoredRuns::open(store);
   if (!runs) return Unexpected(runs.error());
   const ThingId id{.letter = 'c', .digits = std::to_string(candidate->value), .purpose = {}};
   ArenaPanels panels{.title = {},
@@ -120,11 +126,20 @@ Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
   return figure;
 }
 
+}  // namespace
+
+FigureKind trajectories_figure() {
+  return {.name = "trajectories",
+          .summary = "Runs of a machine from above, simulated again, side by side",
+          .make = [](StoreReader& store,
+                     const FigureOptions& options) { return film_all(store, options, kTests); },
+          .options = "design candidate seed"};
+}
+
 Expected<std::string> runs_from_above(const StoreArgument& argument, DesignId design) {
   auto store = argument.open();
   if (!store) return Unexpected(store.error());
-  auto figure =
-      trajectories_figure(std::move(*store), {.filter = {.design = design}}, {}, kTestsOfReport);
+  auto figure = film_all(**store, {.filter = {.design = design}}, kTestsOfReport);
   if (!figure) return Unexpected(figure.error());
   return std::move(figure->svg);
 }

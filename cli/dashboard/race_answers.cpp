@@ -107,7 +107,7 @@ Expected<RoundTexts> round_of(const Question& question, std::int64_t iteration) 
   if (search == nullptr) return RoundTexts{.title = fmt::format("Race {}", iteration)};
   RoundTexts texts{.title = stages->round(design, std::to_string(iteration))};
   texts.title.front() = static_cast<char>(std::toupper(texts.title.front()));
-  const SearchWords& words = words_of(search->kind);
+  const SearchWords& words = words_of(*search);
   if (!words.has_tests)
     texts.note =
         fmt::format("This is no race: {} compares means, and no statistical test drops candidates.",

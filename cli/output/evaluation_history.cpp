@@ -9,7 +9,7 @@ namespace swarmsmith::cli {
 
 bool EvaluationHistory::is_race() const {
   const SearchOptions* search = stages.search(design);
-  return search == nullptr || words_of(search->kind).has_tests;
+  return search == nullptr || words_of(*search).has_tests;
 }
 
 std::string cell_text(const Rows& rows, const std::string& column) {

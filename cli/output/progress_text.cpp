@@ -162,7 +162,7 @@ std::string race_line(const RaceStepRow& step, const std::string& mean_best, dou
 }
 
 bool has_tests(const DesignProgress& progress) {
-  return !progress.options || words_of(progress.options->kind).has_tests;
+  return !progress.options || words_of(*progress.options).has_tests;
 }
 
 std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress) {

@@ -54,7 +54,7 @@ Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool 
     const auto command = paused.find(design.id);
     design.paused = command != paused.end() && command->second && !is_over(design.state);
     if (const SearchOptions* search = stages->search(cells[0].text); search != nullptr) {
-      design.search = name_of(search->kind);
+      design.search = words_of(*search).name;
       design.stage = stages->stage(cells[0].text, cells[8].text);
     }
     if (const auto place = places.find(cells[1].text); place != places.end())

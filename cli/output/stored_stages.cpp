@@ -31,7 +31,7 @@ Expected<MethodSearches> method_searches(StoreReader& store) {
     const auto campaign = parse_campaign(cells[1].text, "the store's campaign file");
     if (!campaign) continue;
     for (const Method& method : campaign->methods) {
-      if (method.search.kind != SearchKind::Irace && method.baseline.empty())
+      if (kind_of(method.search) != SearchKind::Irace && method.baseline.empty())
         searches.emplace(std::pair(cells[0].text, method.name), method.search);
     }
   }
@@ -155,9 +155,9 @@ void StoredStages::tell(Rows& rows) const {
     cells[*iteration] = {StoreReader::Cell::Type::Text, stage(id, cells[*iteration].text)};
     const SearchOptions* known = search(id);
     if (known != nullptr && state && cells[*state].text == "racing")
-      cells[*state].text = words_of(known->kind).at_work;
+      cells[*state].text = words_of(*known).at_work;
     // What ends one race is not a limit that the user set.
-    if (known != nullptr && known->kind == SearchKind::FRace && reason &&
+    if (known != nullptr && kind_of(*known) == SearchKind::FRace && reason &&
         cells[*reason].text == "limit of iterations") {
       cells[*reason].text = find(id)->now.alive == 1 ? "one configuration is left"
                                                      : "the next task does not fit into the budget";

@@ -188,14 +188,20 @@ std::string other_engine(int stored_version, int version) {
 }
 
 Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {
-  auto worlds = DesignWorlds::read(*store);
+  auto runs = open(*store);
+  if (runs) runs->owned_ = std::move(store);
+  return runs;
+}
+
+Expected<StoredRuns> StoredRuns::open(StoreReader& store) {
+  auto worlds = DesignWorlds::read(store);
   if (!worlds) return Unexpected(worlds.error());
   if (worlds->designs().empty()) {
     return unexpected(ErrorKind::NotFound,
                       "the store has no designs: there is nothing to simulate");
   }
   const auto first = worlds->of(worlds->designs().front().id);
-  if (first) return StoredRuns(std::move(store), std::move(*worlds));
+  if (first) return StoredRuns(store, std::move(*worlds));
   Error error = first.error();
   const std::string older = other_engine(worlds->first_engine_version());
   error.message += "; this version cannot replay the store";

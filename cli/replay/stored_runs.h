@@ -52,6 +52,8 @@ class StoredRuns {
  public:
   /// Fails when the campaign file that the store keeps cannot be read by this version.
   static Expected<StoredRuns> open(std::unique_ptr<StoreReader> store);
+  /// The same of a store that outlives it.
+  static Expected<StoredRuns> open(StoreReader& store);
 
   /// NotFound when the store has no such evaluation; BadInput when it cannot be simulated: it was
   /// filmed or imported, its pair is gone, or its profile is none of this program.
@@ -77,8 +79,8 @@ class StoredRuns {
   bool has_machines() const;
 
  private:
-  StoredRuns(std::unique_ptr<StoreReader> store, DesignWorlds worlds)
-      : store_(std::move(store)), worlds_(std::move(worlds)) {}
+  StoredRuns(StoreReader& store, DesignWorlds worlds)
+      : store_(&store), worlds_(std::move(worlds)) {}
 
   /// The design's world, or why there is none.
   Expected<DesignWorld> world_of(DesignId design);
@@ -88,7 +90,8 @@ class StoredRuns {
   /// SQL that is true of evaluations of campaigns that simulate; empty when none does.
   std::string of_campaigns() const;
 
-  std::unique_ptr<StoreReader> store_;
+  StoreReader* store_;
+  std::unique_ptr<StoreReader> owned_;  ///< the store, or nothing
   DesignWorlds worlds_;
   std::optional<DesignWorld> world_;  ///< the last one
 };

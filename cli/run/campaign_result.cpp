@@ -75,7 +75,7 @@ std::string shown(const std::string& text, bool as_cost = false) {
 /// The part of the search that the winner's mean is from.
 std::string place_of_mean(const StoredStages& stages, const std::string& design) {
   const SearchOptions* search = stages.search(design);
-  if (search == nullptr || words_of(search->kind).has_tests) return "the race";
+  if (search == nullptr || words_of(*search).has_tests) return "the race";
   const std::string stage = stages.round(design);
   return stage == "final stage" ? "the final stage" : stage;
 }

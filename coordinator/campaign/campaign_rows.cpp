@@ -23,8 +23,7 @@ std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
 std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
                            const Method& method) {
   if (!method.baseline.empty()) return 0;
-  const bool races =
-      method.search.kind == SearchKind::Irace || method.search.kind == SearchKind::FRace;
+  const bool races = words_of(method.search).has_tests;
   if (!campaign.race.min_experiments || !races) return campaign.race.max_experiments;
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
   if (!space) return campaign.race.max_experiments;
@@ -90,7 +89,7 @@ Searches searches_of(const Campaign& campaign) {
   Searches searches;
   for (const DesignRow& row : design_rows(campaign)) {
     const auto method = std::ranges::find(campaign.methods, row.method, &Method::name);
-    const bool is_raced = method->search.kind == SearchKind::Irace || !method->baseline.empty();
+    const bool is_raced = kind_of(method->search) == SearchKind::Irace || !method->baseline.empty();
     if (!is_raced) searches.emplace(row.id, method->search);
   }
   return searches;

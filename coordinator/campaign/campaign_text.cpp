@@ -34,10 +34,10 @@ Deciding deciding(const Campaign& campaign) {
   // Other searches only where a method uses them: campaigns without keep their digests.
   for (const SearchKind kind : all_searches()) {
     const bool is_used = std::ranges::any_of(
-        campaign.methods, [kind](const Method& method) { return method.search.kind == kind; });
+        campaign.methods, [kind](const Method& method) { return kind_of(method.search) == kind; });
     if (kind == SearchKind::Irace || !is_used) continue;
     entries.emplace_back("search." + std::string(name_of(kind)) + ".version",
-                         std::to_string(version_of(kind)));
+                         std::to_string(words_of(kind).version));
   }
   return entries;
 }

@@ -24,7 +24,7 @@ Expected<void> check_command(const DesignPlan& plan, std::span<const CommandRow>
     if (before.kind == CommandKind::Cancel) return bad_input("it was cancelled before", name);
   }
   if (command.kind == CommandKind::Cancel) return {};
-  if (const std::string_view why = words_of(plan.search.kind).no_extension; !why.empty())
+  if (const std::string_view why = words_of(plan.search).no_extension; !why.empty())
     return bad_input(std::string(why), name);
   if (plan.scenario.max_time > 0) {
     return bad_input("its budget is time (max_time), but an extension is a number of experiments",

@@ -124,9 +124,10 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
     if (!least) return Unexpected(least.error());
     if (command.budget < *least) {
       return bad_input(
-          fmt::format("{} more experiments are too few {}; at least {} are needed", command.budget,
-                      plan_.search.kind == SearchKind::Irace ? "for another iteration" : "to go on",
-                      *least),
+          fmt::format(
+              "{} more experiments are too few {}; at least {} are needed", command.budget,
+              kind_of(plan_.search) == SearchKind::Irace ? "for another iteration" : "to go on",
+              *least),
           name);
     }
   }

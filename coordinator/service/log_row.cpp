@@ -100,7 +100,7 @@ const SearchWords& RowLog::words_of_design(std::optional<std::size_t> campaign,
   const std::size_t index = campaign.value_or(0);
   if (index >= searches_.size()) return words_of(SearchKind::Irace);
   const auto search = searches_[index].find(design);
-  return words_of(search == searches_[index].end() ? SearchKind::Irace : search->second.kind);
+  return words_of(search == searches_[index].end() ? SearchKind::Irace : kind_of(search->second));
 }
 
 void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, const Row& row) {

@@ -56,7 +56,7 @@ std::string stage_of(const DesignProgress& progress) {
 
 std::string_view shown_state(const DesignProgress& progress, DesignState state) {
   if (!progress.options || state != DesignState::Racing) return word_of(state);
-  return words_of(progress.options->kind).at_work;
+  return words_of(*progress.options).at_work;
 }
 
 ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs,
@@ -72,7 +72,7 @@ ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs,
   }
   for (const auto& [id, options] : searches) {
     designs_.at(id).options = options;
-    designs_.at(id).search = name_of(options.kind);
+    designs_.at(id).search = words_of(options).name;
   }
 }
 

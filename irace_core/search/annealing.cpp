@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "base/plain_text.h"
+#include "base/text/toml_text.h"
 #include "irace_core/internal/sampling.h"
-#include "irace_core/search/random_search.h"
+#include "irace_core/search/random.h"
 
 namespace swarmsmith::search {
 namespace {
@@ -120,7 +123,7 @@ class Annealing final : public Strategy {
   enum class Phase { Scale, Walking, Final, Over };
 
   static Error no_extension() {
-    return {ErrorKind::BadInput, std::string(words_of(SearchKind::Annealing).no_extension), ""};
+    return {ErrorKind::BadInput, std::string(AnnealingOptions::kWords.no_extension), ""};
   }
 
   std::int64_t scale_runs() const { return scale_runs_of(options_); }
@@ -337,14 +340,85 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
   return {std::move(start), perturb};
 }
 
-Expected<std::unique_ptr<Strategy>> make_annealing(const ParameterSpace& space,
-                                                   const Scenario& scenario,
-                                                   const AnnealingOptions& options,
-                                                   Neighbourhood neighbourhood) {
-  auto annealing = std::make_unique<Annealing>(space, scenario, options, std::move(neighbourhood));
-  if (scenario.max_experiments < annealing->least_budget())
-    return Unexpected(too_small(scenario.max_experiments, annealing->least_budget()));
+}  // namespace swarmsmith::search
+
+namespace swarmsmith {
+namespace {
+
+/// Iterations that are over; the first steps are those of the scale.
+std::int64_t walked(const AnnealingOptions& options, const SearchPoint& point) {
+  return std::max<std::int64_t>(0, point.step - options.window);
+}
+
+}  // namespace
+
+std::vector<SearchFault> AnnealingOptions::faults() const {
+  std::vector<SearchFault> faults;
+  if (moved > window)
+    faults.push_back({{"moved"}, "`moved` is at most `window`: a window moves on by parts of it"});
+  // The published schedule has temperatures of its own. The usual values may stand there, as they
+  // do in the text that stores have.
+  const AnnealingOptions usual;
+  const auto refuse = [&](std::string_view key, double value, double usually) {
+    if (cooling != Cooling::Published || value == usually) return;
+    faults.push_back({{key},
+                      "`" + std::string(key) +
+                          "` is of geometric cooling; the published one begins at 125 score "
+                          "units, and again whenever it is below 0.00125"});
+  };
+  refuse("start_temperature", start_temperature, usual.start_temperature);
+  refuse("end_temperature", end_temperature, usual.end_temperature);
+  if (start_temperature > 0 && end_temperature > start_temperature) {
+    faults.push_back({{"end_temperature", "start_temperature"},
+                      "`end_temperature` (" + number_text(end_temperature) +
+                          ") is at most `start_temperature` (" + number_text(start_temperature) +
+                          "): annealing cools"});
+  }
+  return faults;
+}
+
+Expected<std::unique_ptr<search::Strategy>> AnnealingOptions::start(search::Start from) const {
+  if (!from.neighbourhood) {
+    Rng rng = Rng(from.scenario.seed).split("start");
+    auto first = from.initial.empty() ? search::draw_uniform(from.space, {}, rng)
+                                      : Expected<Configuration>(from.initial.front());
+    if (!first) return Unexpected(first.error());
+    from.neighbourhood = search::one_parameter_neighbourhood(from.space, std::move(*first));
+  }
+  auto annealing = std::make_unique<search::Annealing>(from.space, from.scenario, *this,
+                                                       std::move(*from.neighbourhood));
+  if (from.scenario.max_experiments < annealing->least_budget()) {
+    return Unexpected(search::too_small(from.scenario.max_experiments, annealing->least_budget()));
+  }
   return annealing;
 }
 
-}  // namespace swarmsmith::search
+SearchPoint AnnealingOptions::planned(SearchPoint point) const {
+  point.is_final = point.iteration > 1 && !search::walks_on(*this, point.budget, point.used);
+  return point;
+}
+
+StageTexts AnnealingOptions::texts(const SearchPoint& point) const {
+  if (point.iteration <= 1) {
+    StageTexts texts = usual_texts(kWords, point, "scale of the scores");
+    const std::string there = stage::members(kWords, point);
+    texts.line = texts.name + ": " + counted(point.configurations, kWords.candidate) + ", " +
+                 stage::each(point);
+    texts.stage = texts.name + (there.empty() ? "" : ": " + there);
+    return texts;
+  }
+  const std::int64_t before = (point.iteration - 2) * search::kAnnealingBlock;
+  const std::int64_t last = std::min(walked(*this, point), before + search::kAnnealingBlock);
+  const std::string name = stage::range("iteration", before + 1, last);
+  const std::int64_t number = walked(*this, point) + 1;
+  char temperature[32];
+  std::snprintf(temperature, sizeof temperature, "%.3g",
+                search::told_temperature(*this, point.budget, point.used, number));
+  // A continued campaign does not know its step before the next one.
+  const std::string where =
+      point.step > 0 ? "iteration " + std::to_string(number) : "an iteration of " + name;
+  // A walk does not know how many runs its iterations take: the line is the name.
+  return {.name = name, .line = name, .stage = where + ", temperature " + temperature};
+}
+
+}  // namespace swarmsmith

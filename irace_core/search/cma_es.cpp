@@ -275,21 +275,27 @@ class CmaEsBreeder final : public Breeder {
 
 }  // namespace
 
-Expected<std::unique_ptr<Strategy>> make_cma_es(const ParameterSpace& space,
-                                                const Scenario& scenario,
-                                                const CmaEsOptions& options,
-                                                const std::vector<Configuration>& initial) {
-  auto box = RealBox::of(space, name_of(SearchKind::CmaEs));
+}  // namespace swarmsmith::search
+
+namespace swarmsmith {
+
+Expected<std::unique_ptr<search::Strategy>> CmaEsOptions::start(search::Start from) const {
+  auto box = search::RealBox::of(from.space, kWords.name);
   if (!box) return Unexpected(box.error());
-  const auto plan = plan_generations(scenario.max_experiments, options.population, options.runs,
-                                     options.final_runs);
+  const auto plan =
+      search::plan_generations(from.scenario.max_experiments, population, runs, final_runs);
   if (!plan) return Unexpected(plan.error());
   std::vector<double> mean(box->dimensions(), 0);
-  if (!initial.empty()) mean = box->to_point(initial.front());
-  CmaEs distribution(std::move(mean), options.step, options.population);
-  return std::make_unique<Generations>(
-      *plan,
-      std::make_unique<CmaEsBreeder>(std::move(*box), Rng(scenario.seed), std::move(distribution)));
+  if (!from.initial.empty()) mean = box->to_point(from.initial.front());
+  search::CmaEs distribution(std::move(mean), step, population);
+  return std::make_unique<search::Generations>(
+      *plan, std::make_unique<search::CmaEsBreeder>(std::move(*box), Rng(from.scenario.seed),
+                                                    std::move(distribution)));
 }
 
-}  // namespace swarmsmith::search
+SearchPoint CmaEsOptions::planned(SearchPoint point) const {
+  return search::planned_by(search::plan_generations(point.budget, population, runs, final_runs),
+                            point);
+}
+
+}  // namespace swarmsmith

@@ -8,10 +8,43 @@
 #include "base/rng.h"
 #include "irace_core/parameter_space.h"
 #include "irace_core/scenario.h"
-#include "irace_core/search/options.h"
+#include "irace_core/search/search_parts.h"
 #include "irace_core/search/strategy.h"
 
-namespace swarmsmith::search {
+namespace swarmsmith {
+
+/// CMA-ES on a RealBox from its middle, in generations as evolution has them; the final stage has
+/// the best of the last generation and the distribution's mean. Points outside of the box are drawn
+/// again, up to a hundred times; then the nearest point inside is run, and the distribution follows
+/// the one that was drawn. Normal numbers of generation g come from the stream "cma-es" with index
+/// g.
+struct CmaEsOptions {
+  static constexpr SearchWords kWords{.name = "cma-es",
+                                      .round = "generation",
+                                      .at_work = "searching",
+                                      .where = "final stage",
+                                      .candidate = "member",
+                                      .wants_reals = true};
+
+  std::int64_t population = 100;
+  std::int64_t runs = 10;
+  double step = 2;              ///< first standard deviation, in tenths of a range
+  std::int64_t final_runs = 0;  ///< as those of evolution
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visitor) {
+    visitor(SearchField{"population", 4, kMostRuns}, self.population);
+    visitor(SearchField{"runs", 1, kMostRuns}, self.runs);
+    visitor(SearchField{"step", 1e-6, 10}, self.step);
+    visitor(SearchField{"final_runs", 0, kMostRuns}, self.final_runs);
+  }
+  /// Errors as those of evolution.
+  Expected<std::unique_ptr<search::Strategy>> start(search::Start from) const;
+  SearchPoint planned(SearchPoint point) const;
+  friend bool operator==(const CmaEsOptions&, const CmaEsOptions&) = default;
+};
+
+namespace search {
 
 /// The distribution of CMA-ES: a normal one whose mean, step size and covariance matrix follow the
 /// best half of each generation. Hansen, "The CMA Evolution Strategy: A Tutorial",
@@ -63,14 +96,5 @@ class CmaEs {
 std::vector<double> eigenvalues(std::vector<double> matrix, std::size_t n,
                                 std::vector<double>& vectors);
 
-/// CMA-ES on a RealBox from its middle, in generations as evolution has them; the final stage has
-/// the best of the last generation and the distribution's mean. Points outside of the box are drawn
-/// again, up to a hundred times; then the nearest point inside is run, and the distribution follows
-/// the one that was drawn. Normal numbers of generation g come from the stream "cma-es" with index
-/// g. Errors as those of evolution.
-Expected<std::unique_ptr<Strategy>> make_cma_es(const ParameterSpace& space,
-                                                const Scenario& scenario,
-                                                const CmaEsOptions& options,
-                                                const std::vector<Configuration>& initial);
-
-}  // namespace swarmsmith::search
+}  // namespace search
+}  // namespace swarmsmith

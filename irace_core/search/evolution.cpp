@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/text/toml_text.h"
 #include "irace_core/search/generations.h"
 #include "irace_core/search/real_box.h"
 
@@ -139,18 +140,31 @@ void mutate(std::vector<double>& weights, Mutation mutation, double step, Rng& r
     weight = std::clamp(weight, -RealBox::kHalfWidth, RealBox::kHalfWidth);
 }
 
-Expected<std::unique_ptr<Strategy>> make_evolution(const ParameterSpace& space,
-                                                   const Scenario& scenario,
-                                                   const EvolutionOptions& options,
-                                                   std::vector<Configuration> initial) {
-  auto box = RealBox::of(space, name_of(SearchKind::Evolution));
-  if (!box) return Unexpected(box.error());
-  const auto plan = plan_generations(scenario.max_experiments, options.population, options.runs,
-                                     options.final_runs);
-  if (!plan) return Unexpected(plan.error());
-  return std::make_unique<Generations>(
-      *plan, std::make_unique<EvolutionBreeder>(std::move(*box), Rng(scenario.seed), options,
-                                                std::move(initial)));
+}  // namespace swarmsmith::search
+
+namespace swarmsmith {
+
+std::vector<SearchFault> EvolutionOptions::faults() const {
+  if (elites <= parents) return {};
+  return {{{"elites", "parents"},
+           "`elites` (" + number_text(elites) + ") is at most `parents` (" + number_text(parents) +
+               "): who goes on unchanged has children, too"}};
 }
 
-}  // namespace swarmsmith::search
+Expected<std::unique_ptr<search::Strategy>> EvolutionOptions::start(search::Start from) const {
+  auto box = search::RealBox::of(from.space, kWords.name);
+  if (!box) return Unexpected(box.error());
+  const auto plan =
+      search::plan_generations(from.scenario.max_experiments, population, runs, final_runs);
+  if (!plan) return Unexpected(plan.error());
+  return std::make_unique<search::Generations>(
+      *plan, std::make_unique<search::EvolutionBreeder>(std::move(*box), Rng(from.scenario.seed),
+                                                        *this, std::move(from.initial)));
+}
+
+SearchPoint EvolutionOptions::planned(SearchPoint point) const {
+  return search::planned_by(search::plan_generations(point.budget, population, runs, final_runs),
+                            point);
+}
+
+}  // namespace swarmsmith

@@ -112,4 +112,11 @@ void Generations::add_to(Digest& digest) const {
   breeder_->add_to(digest);
 }
 
+SearchPoint planned_by(const Expected<GenerationPlan>& plan, SearchPoint point) {
+  if (!plan) return point;
+  point.iterations = plan->generations + 1;
+  point.is_final = point.iteration > plan->generations;
+  return point;
+}
+
 }  // namespace swarmsmith::search

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "irace_core/search/search_parts.h"
 #include "irace_core/search/strategy.h"
 
 namespace swarmsmith::search {
@@ -80,5 +81,8 @@ class Generations final : public Strategy {
 /// 200,000 (ARGoS3-NEAT, params/; docs/methods.md). The rest goes to the final stage.
 Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t population,
                                           std::int64_t runs, std::int64_t final_runs);
+
+/// The point as the plan has it; as it is when there is none.
+SearchPoint planned_by(const Expected<GenerationPlan>& plan, SearchPoint point);
 
 }  // namespace swarmsmith::search

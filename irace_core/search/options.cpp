@@ -1,32 +1,25 @@
 #include "irace_core/search/options.h"
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <utility>
 
 #include "base/assert.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr std::array kWords = {
-    SearchWords{SearchKind::Irace, "irace", "iteration", "racing", "race", "configuration", true},
-    SearchWords{SearchKind::Random, "random", "part", "searching", "final stage", "configuration"},
-    SearchWords{
-        SearchKind::FRace, "f-race", "race", "racing", "race", "configuration", true,
-        "f-race cannot be extended: its configurations are drawn once, and how many follows "
-        "from the whole budget. Run the campaign with the larger budget into a new store"},
-    SearchWords{SearchKind::Evolution, "evolution", "generation", "searching", "final stage",
-                "member"},
-    SearchWords{SearchKind::CmaEs, "cma-es", "generation", "searching", "final stage", "member"},
-    SearchWords{SearchKind::Annealing, "annealing", "part", "searching", "final stage",
-                "configuration", false,
-                "annealing cannot be extended: its temperatures follow from the whole budget. Run "
-                "the campaign with the larger budget into a new store"},
-};
+constexpr std::size_t kCount = std::variant_size_v<SearchOptions>;
+
+template <std::size_t... I>
+std::array<SearchOptions, kCount> all_options(std::index_sequence<I...> /*kinds*/) {
+  return {SearchOptions(std::in_place_index<I>)...};
+}
 
 constexpr auto kAll = [] {
-  std::array<SearchKind, kWords.size()> kinds{};
-  std::ranges::transform(kWords, kinds.begin(), &SearchWords::kind);
+  std::array<SearchKind, kCount> kinds{};
+  for (std::size_t i = 0; i < kCount; ++i)
+    kinds[i] = static_cast<SearchKind>(i);
   return kinds;
 }();
 
@@ -36,14 +29,29 @@ std::span<const SearchKind> all_searches() {
   return kAll;
 }
 
-const SearchWords& words_of(SearchKind kind) {
-  const auto* found = std::ranges::find(kWords, kind, &SearchWords::kind);
-  SWARMSMITH_ASSERT(found != kWords.end(), "each kind has its words");
-  return *found;
+SearchOptions search_of(SearchKind kind) {
+  static const auto kOptions = all_options(std::make_index_sequence<kCount>());
+  const auto index = static_cast<std::size_t>(kind);
+  SWARMSMITH_ASSERT(index < kCount, "a search is one of the list");
+  return kOptions[index];
 }
 
-int version_of(SearchKind) {
-  return 1;
+SearchKind kind_of(const SearchOptions& options) {
+  return static_cast<SearchKind>(options.index());
+}
+
+const SearchWords& words_of(SearchKind kind) {
+  return std::visit([](const auto& options) -> const SearchWords& { return options.kWords; },
+                    search_of(kind));
+}
+
+std::vector<SearchFault> faults_of(const SearchOptions& options) {
+  return std::visit(
+      [](const auto& kind) -> std::vector<SearchFault> {
+        if constexpr (requires { kind.faults(); }) return kind.faults();
+        return {};
+      },
+      options);
 }
 
 }  // namespace swarmsmith

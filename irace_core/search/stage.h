@@ -1,27 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "irace_core/search/options.h"
 
 namespace swarmsmith {
-
-/// How far a search is, as its events say it; 0 where it is unknown.
-struct SearchPoint {
-  std::int64_t iteration = 0;   ///< as IterationStarted numbers them; 0 before the first
-  std::int64_t iterations = 0;  ///< planned when it began
-  std::int64_t finals = 0;      ///< final stages before it: of a search that was extended
-  bool is_final = false;
-  std::int64_t configurations = 0;  ///< of the iteration
-  std::int64_t alive = 0;
-  std::int64_t runs_wanted = 0;  ///< by the iteration
-  std::int64_t runs = 0;         ///< of them, those that are there
-  std::int64_t step = 0;         ///< the last one, through all iterations
-  std::int64_t used = 0;         ///< by the design
-  std::int64_t budget = 0;       ///< of the design
-};
 
 /// The part that the search is in: "generation 41", "final stage", "one race".
 std::string round_name(const SearchOptions& options, const SearchPoint& known);

@@ -4,9 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "irace_core/iterated_race.h"
 #include "irace_core/search.h"
-#include "irace_core/search/annealing.h"
 #include "irace_core/search/options.h"
 
 namespace swarmsmith {
@@ -24,9 +22,5 @@ Expected<std::unique_ptr<Search>> start_search(
     ParameterSpace space, const Scenario& scenario, const SearchOptions& options,
     std::vector<Configuration> initial = {}, Repair repair = {},
     std::optional<search::Neighbourhood> neighbourhood = {});
-
-/// The options of a race that make it one F-race of so many configurations (Birattari et al., GECCO
-/// 2002; docs/methods.md).
-Scenario f_race_scenario(Scenario scenario, const FRaceOptions& options);
 
 }  // namespace swarmsmith

@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "storage/internal/candidate_code.h"
+#include "storage/internal/columns.h"
 #include "storage/renumber.h"
 #include "storage/stored_enums.h"
 
@@ -40,11 +41,6 @@ EvaluationKey key_at(const Statement& row, int column) {
   return {candidate_at(row, column), purpose_at(row, column + 1), row.integer(column + 2)};
 }
 
-/// A store of schema 1, which has none of the columns that targets brought: read as it is.
-bool is_first_schema(const sqlite::Connection& connection) {
-  return schema_of(connection) == 1;
-}
-
 /// Conditions on a column that names a design, or a candidate.
 std::string designs_of(const Part& part, const char* column) {
   if (!part.designs) return "1";
@@ -73,38 +69,35 @@ void each(const sqlite::Connection& connection, const Part& part, const std::str
 }
 
 std::string design_states_of(const Part& part) {
-  return "SELECT id, state, used, iteration, best, best_mean, reason FROM design WHERE " +
-         designs_of(part, "id") + " ORDER BY id";
+  return "SELECT " + kDesignStateColumns.names() + " FROM design WHERE " + designs_of(part, "id") +
+         " ORDER BY id";
 }
 
 DesignStateRow design_state(const Statement& row) {
-  return {.design = design_at(row, 0),
-          .state = known(state_of(row.integer(1)), "the state", row.integer(1)),
-          .used = row.integer(2),
-          .iteration = row.integer(3),
-          .best = candidate_at(row, 4),
-          .best_mean = row.real(5),
-          .reason = row.text(6)};
+  return {.design = design_at(row, kDesignStateColumns.at("id")),
+          .state = known(state_of(row.integer(kDesignStateColumns.at("state"))), "the state",
+                         row.integer(kDesignStateColumns.at("state"))),
+          .used = row.integer(kDesignStateColumns.at("used")),
+          .iteration = row.integer(kDesignStateColumns.at("iteration")),
+          .best = candidate_at(row, kDesignStateColumns.at("best")),
+          .best_mean = row.real(kDesignStateColumns.at("best_mean")),
+          .reason = row.text(kDesignStateColumns.at("reason"))};
 }
 
 IterationRow iteration(const Statement& row) {
-  return {.design = design_at(row, 0),
-          .number = row.integer(1),
-          .of = row.integer(2),
-          .budget = row.integer(3),
-          .configurations = row.integer(4),
-          .elites = row.integer(5),
-          .soft_restart = row.integer(6) != 0,
-          .postselection = row.integer(8) != 0,
-          .model_digest = row.bits(7)};
+  return {.design = design_at(row, kIterationColumns.at("design")),
+          .number = row.integer(kIterationColumns.at("number")),
+          .of = row.integer(kIterationColumns.at("planned")),
+          .budget = row.integer(kIterationColumns.at("budget")),
+          .configurations = row.integer(kIterationColumns.at("configurations")),
+          .elites = row.integer(kIterationColumns.at("elites")),
+          .soft_restart = row.integer(kIterationColumns.at("soft_restart")) != 0,
+          .postselection = row.integer(kIterationColumns.at("postselection")) != 0,
+          .model_digest = row.bits(kIterationColumns.at("model_digest"))};
 }
 
 std::optional<std::string> optional_text(const Statement& row, int column) {
   return row.is_null(column) ? std::nullopt : std::optional(row.text(column));
-}
-
-std::string codes_in(const sqlite::Connection& connection) {
-  return schema_of(connection) < 4 ? "NULL, NULL" : "code, module_code";
 }
 
 /// Calls `take(candidate, whole)` with every candidate by id; `whole` is false when the store lacks
@@ -113,106 +106,109 @@ template <class Take>
 void each_candidate(const sqlite::Connection& connection, const Part& part, Take take) {
   PhraseBook phrases;
   if (schema_of(connection) >= 4) phrases.load(connection);
-  Statement row(
-      connection,
-      "SELECT id, iteration, parent, states, transitions, machine, parameters, modules, " +
-          codes_in(connection) + " FROM candidate WHERE " + candidates_of(part, "id") +
-          " ORDER BY id");
+  constexpr auto& kAll = kCandidateColumns;
+  Statement row(connection, "SELECT " + kAll.names(schema_of(connection)) +
+                                " FROM candidate WHERE " + candidates_of(part, "id") +
+                                " ORDER BY id");
   const Shift shift = shift_of(part);
   while (row.step()) {
-    CandidateRow candidate{.id = candidate_at(row, 0),
-                           .iteration = row.integer(1),
-                           .parent = candidate_at(row, 2),
+    CandidateRow candidate{.id = candidate_at(row, kAll.at("id")),
+                           .iteration = row.integer(kAll.at("iteration")),
+                           .parent = candidate_at(row, kAll.at("parent")),
                            .parameters = {},
                            .machine = {},
                            .modules = {},
-                           .states = row.integer(3),
-                           .transitions = row.integer(4)};
-    const StoredTexts texts{.machine = row.text(5),
-                            .parameters = row.text(6),
-                            .modules = row.text(7),
-                            .code = optional_text(row, 8),
-                            .module_code = optional_text(row, 9)};
+                           .states = row.integer(kAll.at("states")),
+                           .transitions = row.integer(kAll.at("transitions"))};
+    const StoredTexts texts{.machine = row.text(kAll.at("machine")),
+                            .parameters = row.text(kAll.at("parameters")),
+                            .modules = row.text(kAll.at("modules")),
+                            .code = optional_text(row, kAll.at("code")),
+                            .module_code = optional_text(row, kAll.at("module_code"))};
     const bool whole = phrases.decode(texts, candidate);
     take(std::get<CandidateRow>(shifted(std::move(candidate), shift)), whole);
   }
 }
 
 PairRow pair(const Statement& row) {
-  return {.design = design_at(row, 0),
-          .purpose = purpose_at(row, 1),
-          .number = row.integer(2),
-          .instance = row.integer(3),
-          .seed = row.integer(4)};
+  return {.design = design_at(row, kPairColumns.at("design")),
+          .purpose = purpose_at(row, kPairColumns.at("purpose")),
+          .number = row.integer(kPairColumns.at("number")),
+          .instance = row.integer(kPairColumns.at("instance")),
+          .seed = row.integer(kPairColumns.at("seed"))};
 }
 
+/// Behind the table's columns: its iteration, and the name of its source.
 EvaluationRow evaluation(const Statement& row) {
-  return {.key = key_at(row, 0),
-          .iteration = row.integer(3),
-          .status = status_at(row, 4),
-          .score = row.real(5),
-          .state_digest = row.bits(6),
-          .time = row.real(11),
-          .bound = row.real(12),
-          .source = row.text(7),
-          .wall_us = row.integer(8),
-          .worker = row.integer(9),
-          .attempt = row.integer(10)};
+  constexpr auto& kAll = kEvaluationColumns;
+  return {.key = key_at(row, kAll.at("candidate")),
+          .iteration = row.integer(kAll.size()),
+          .status = status_at(row, kAll.at("status")),
+          .score = row.real(kAll.at("score")),
+          .state_digest = row.bits(kAll.at("state_digest")),
+          .time = row.real(kAll.at("time")),
+          .bound = row.real(kAll.at("bound")),
+          .source = row.text(kAll.size() + 1),
+          .wall_us = row.integer(kAll.at("wall_us")),
+          .worker = row.integer(kAll.at("worker")),
+          .attempt = row.integer(kAll.at("attempt"))};
 }
 
 RaceStepRow race_step(const Statement& row) {
-  const std::string marker = row.text(4);
-  return {.design = design_at(row, 0),
-          .step = row.integer(1),
-          .iteration = row.integer(2),
-          .pair = row.integer(3),
+  const std::string marker = row.text(kRaceStepColumns.at("marker"));
+  return {.design = design_at(row, kRaceStepColumns.at("design")),
+          .step = row.integer(kRaceStepColumns.at("step")),
+          .iteration = row.integer(kRaceStepColumns.at("iteration")),
+          .pair = row.integer(kRaceStepColumns.at("pair")),
           .marker = marker.empty() ? 'x' : marker.front(),
-          .evaluated = row.integer(5),
-          .alive_before = row.integer(6),
-          .alive_after = row.integer(7),
-          .best = candidate_at(row, 8),
-          .mean_best = row.real(9),
-          .used = row.integer(10),
-          .statistic = row.optional_real(11),
-          .p_value = row.optional_real(12),
-          .kendall_w = row.optional_real(13),
-          .spearman_rho = row.optional_real(14),
-          .qvar = row.optional_real(15),
-          .bound = row.optional_real(17),
-          .digest = row.bits(16)};
+          .evaluated = row.integer(kRaceStepColumns.at("evaluated")),
+          .alive_before = row.integer(kRaceStepColumns.at("alive_before")),
+          .alive_after = row.integer(kRaceStepColumns.at("alive_after")),
+          .best = candidate_at(row, kRaceStepColumns.at("best")),
+          .mean_best = row.real(kRaceStepColumns.at("mean_best")),
+          .used = row.integer(kRaceStepColumns.at("used")),
+          .statistic = row.optional_real(kRaceStepColumns.at("statistic")),
+          .p_value = row.optional_real(kRaceStepColumns.at("p_value")),
+          .kendall_w = row.optional_real(kRaceStepColumns.at("kendall_w")),
+          .spearman_rho = row.optional_real(kRaceStepColumns.at("spearman_rho")),
+          .qvar = row.optional_real(kRaceStepColumns.at("qvar")),
+          .bound = row.optional_real(kRaceStepColumns.at("bound")),
+          .digest = row.bits(kRaceStepColumns.at("digest"))};
 }
 
 EliminationRow elimination(const Statement& row) {
-  return {.candidate = candidate_at(row, 0),
-          .iteration = row.integer(1),
-          .step = row.integer(2),
-          .rank_sum = row.real(3),
-          .reason = row.text(4)};
+  return {.candidate = candidate_at(row, kEliminationColumns.at("candidate")),
+          .iteration = row.integer(kEliminationColumns.at("iteration")),
+          .step = row.integer(kEliminationColumns.at("step")),
+          .rank_sum = row.real(kEliminationColumns.at("rank_sum")),
+          .reason = row.text(kEliminationColumns.at("reason"))};
 }
 
 EliteRow elite(const Statement& row) {
-  return {.design = design_at(row, 0),
-          .iteration = row.integer(1),
-          .rank = row.integer(2),
-          .candidate = candidate_at(row, 3),
-          .mean = row.real(4),
-          .runs = row.integer(5)};
+  return {.design = design_at(row, kEliteColumns.at("design")),
+          .iteration = row.integer(kEliteColumns.at("iteration")),
+          .rank = row.integer(kEliteColumns.at("rank")),
+          .candidate = candidate_at(row, kEliteColumns.at("candidate")),
+          .mean = row.real(kEliteColumns.at("mean")),
+          .runs = row.integer(kEliteColumns.at("runs"))};
 }
 
 CandidateTotalsRow totals(const Statement& row) {
-  return {.candidate = candidate_at(row, 0),
-          .runs = row.integer(1),
-          .score_sum = row.real(2),
-          .score_squares = row.real(3)};
+  return {.candidate = candidate_at(row, kTotalsColumns.at("candidate")),
+          .runs = row.integer(kTotalsColumns.at("runs")),
+          .score_sum = row.real(kTotalsColumns.at("score_sum")),
+          .score_squares = row.real(kTotalsColumns.at("score_squares"))};
 }
 
 CommandRow command(const Statement& row) {
-  return {.number = row.integer(0),
-          .kind = command_kind_of(row.text(1)),
-          .design = design_at(row, 2),
-          .step = row.is_null(3) ? std::nullopt : std::optional(row.integer(3)),
-          .budget = row.integer(4),
-          .who = row.text(5)};
+  return {.number = row.integer(kCommandColumns.at("number")),
+          .kind = command_kind_of(row.text(kCommandColumns.at("kind"))),
+          .design = design_at(row, kCommandColumns.at("design")),
+          .step = row.is_null(kCommandColumns.at("step"))
+                      ? std::nullopt
+                      : std::optional(row.integer(kCommandColumns.at("step"))),
+          .budget = row.integer(kCommandColumns.at("budget")),
+          .who = row.text(kCommandColumns.at("who"))};
 }
 
 }  // namespace
@@ -262,22 +258,22 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const 
 }
 
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part) {
+  constexpr auto& kAll = kEvaluationColumns;
   std::vector<StoredScore> scores;
-  const std::string times = is_first_schema(connection) ? "NULL, NULL" : "time, bound";
-  Statement row(connection, "SELECT candidate, purpose, pair, status, score, state_digest, " +
-                                times + ", iteration, worker FROM evaluation WHERE " +
+  Statement row(connection, "SELECT " + kAll.names(schema_of(connection)) +
+                                ", iteration FROM evaluation WHERE " +
                                 candidates_of(part, "candidate") +
                                 " ORDER BY candidate, purpose, pair");
   const Shift shift = shift_of(part);
   while (row.step()) {
-    scores.push_back({.key = shifted(key_at(row, 0), shift),
-                      .status = status_at(row, 3),
-                      .score = row.real(4),
-                      .state_digest = row.bits(5),
-                      .time = row.real(6),
-                      .bound = row.real(7),
-                      .iteration = row.integer(8),
-                      .worker = row.integer(9)});
+    scores.push_back({.key = shifted(key_at(row, kAll.at("candidate")), shift),
+                      .status = status_at(row, kAll.at("status")),
+                      .score = row.real(kAll.at("score")),
+                      .state_digest = row.bits(kAll.at("state_digest")),
+                      .time = row.real(kAll.at("time")),
+                      .bound = row.real(kAll.at("bound")),
+                      .iteration = row.integer(kAll.size()),
+                      .worker = row.integer(kAll.at("worker"))});
   }
   return scores;
 }
@@ -299,9 +295,8 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection, const P
 
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection) {
   std::vector<DesignStateRow> states;
-  Statement row(connection,
-                "SELECT id, state, used, iteration, best, best_mean, reason FROM design"
-                " WHERE campaign = 1 ORDER BY id");
+  Statement row(connection, "SELECT " + kDesignStateColumns.names() +
+                                " FROM design WHERE campaign = 1 ORDER BY id");
   while (row.step())
     states.push_back(design_state(row));
   return states;
@@ -325,8 +320,8 @@ std::vector<CommandRow> read_commands(const sqlite::Connection& connection, cons
   if (schema_of(connection) < 3) return commands;
   each(
       connection, part,
-      "SELECT number, kind, design, step, budget, who FROM command WHERE " +
-          designs_of(part, "design") + " ORDER BY number",
+      "SELECT " + kCommandColumns.names() + " FROM command WHERE " + designs_of(part, "design") +
+          " ORDER BY number",
       [&](const Row& row) { commands.push_back(std::get<CommandRow>(row)); }, command);
   return commands;
 }
@@ -419,9 +414,9 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
   const std::string designs = designs_of(part, "design");
   const std::string candidates = candidates_of(part, "candidate");
   each(connection, part, design_states_of(part), on_row, design_state);
-  const bool first = is_first_schema(connection);
+  const std::int64_t schema = schema_of(connection);
   each(connection, part,
-       std::string("SELECT *") + (first ? ", 0" : "") + " FROM iteration WHERE " + designs +
+       "SELECT " + kIterationColumns.names(schema) + " FROM iteration WHERE " + designs +
            " ORDER BY design, number",
        on_row, iteration);
   read_candidates(connection, part, on_row);
@@ -429,36 +424,40 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
   const std::string race = fmt::format("purpose = {}", static_cast<int>(Purpose::Race));
   // A pair that only look-ahead has touched so far is not part of the answer.
   each(connection, part,
-       "SELECT * FROM pair WHERE " + designs + " AND (" + always + " OR " + race +
+       "SELECT " + kPairColumns.names() + " FROM pair WHERE " + designs + " AND (" + always +
+           " OR " + race +
            " AND (design, number) IN (SELECT design, pair FROM race_step))"
            " ORDER BY design, purpose, number",
        on_row, pair);
   each(connection, part,
-       std::string("SELECT candidate, purpose, pair, iteration, status, score, state_digest,"
-                   " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker,"
-                   " attempt, ") +
-           (first ? "NULL, NULL" : "time, bound") + " FROM evaluation WHERE " + candidates +
-           " AND (" + always + " OR " + race +
+       "SELECT " + kEvaluationColumns.names(schema) +
+           ", iteration, (SELECT name FROM source WHERE id = evaluation.source)"
+           " FROM evaluation WHERE " +
+           candidates + " AND (" + always + " OR " + race +
            " AND iteration IS NOT NULL)"
            " ORDER BY candidate, purpose, pair",
        on_row, evaluation);
   each(connection, part,
-       std::string("SELECT *") + (first ? ", NULL" : "") + " FROM race_step WHERE " + designs +
+       "SELECT " + kRaceStepColumns.names(schema) + " FROM race_step WHERE " + designs +
            " ORDER BY design, step",
        on_row, race_step);
   each(connection, part,
-       "SELECT * FROM elimination WHERE " + candidates + " ORDER BY candidate, iteration", on_row,
-       elimination);
+       "SELECT " + kEliminationColumns.names() + " FROM elimination WHERE " + candidates +
+           " ORDER BY candidate, iteration",
+       on_row, elimination);
   each(connection, part,
-       "SELECT * FROM elite WHERE " + designs + " ORDER BY design, iteration, rank", on_row, elite);
+       "SELECT " + kEliteColumns.names() + " FROM elite WHERE " + designs +
+           " ORDER BY design, iteration, rank",
+       on_row, elite);
   each(connection, part,
-       "SELECT * FROM candidate_totals WHERE " + candidates + " ORDER BY candidate", on_row,
-       totals);
-  if (schema_of(connection) < 3) return;
+       "SELECT " + kTotalsColumns.names() + " FROM candidate_totals WHERE " + candidates +
+           " ORDER BY candidate",
+       on_row, totals);
+  if (schema < 3) return;
   each(connection, part,
-       "SELECT number, kind, design, step, budget, who FROM command"
-       " WHERE kind IN ('cancel', 'extend') AND step IS NOT NULL AND " +
-           designs + " ORDER BY design, step, number",
+       "SELECT " + kCommandColumns.names() +
+           " FROM command WHERE kind IN ('cancel', 'extend') AND step IS NOT NULL AND " + designs +
+           " ORDER BY design, step, number",
        on_row, command);
 }
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/columns.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -15,38 +17,39 @@ constexpr std::string_view kKey = "row_sums";
 constexpr std::size_t kAlwaysSummed = 14;  ///< tables, by the first version that had sums
 
 struct Summed {
-  const char* table;
-  const char* cells;
-  const char* rest = "";
+  std::string_view table;
+  std::string cells;
+  std::string_view rest = "";
 };
 
+template <std::size_t N>
+Summed all_of(const TableColumns<N>& columns) {
+  return {columns.table, columns.names()};
+}
+
 /// In the order of RowSums::Table. The columns of a row that is written once are all of it.
-constexpr std::array<Summed, RowSums::kTables> kSummed{{
-    {"candidate",
-     "id, iteration, parent, states, transitions, modules, machine, parameters, code, module_code"},
-    {"phrase", "id, machine, parameters, modules"},
-    {"source", "id, name"},
-    {"pair", "design, purpose, number, instance, seed"},
-    {"evaluation",
-     "candidate, purpose, pair, status, score, state_digest, source, wall_us, worker, attempt,"
-     " time, bound"},
-    {"evaluation", "candidate, purpose, pair, iteration", " WHERE iteration IS NOT NULL"},
-    {"iteration",
-     "design, number, planned, budget, configurations, elites, soft_restart, model_digest,"
-     " postselection"},
-    {"race_step",
-     "design, step, iteration, pair, marker, evaluated, alive_before, alive_after, best, mean_best,"
-     " used, statistic, p_value, kendall_w, spearman_rho, qvar, digest, bound"},
-    {"elimination", "candidate, iteration, step, rank_sum, reason"},
-    {"elite", "design, iteration, rank, candidate, mean, runs"},
-    {"candidate_totals", "candidate, runs, score_sum, score_squares"},
-    {"design", "id, state, used, iteration, best, best_mean, reason"},
-    {"campaign", "id, state"},
-    {"command", "number, kind, design, step, budget, who"},
-    {"real_run", "*"},
-    {"real_score", "*"},
-    {"real_override", "*"},
-}};
+const Summed& summed(std::size_t table) {
+  static const std::array<Summed, RowSums::kTables> kSummed{{
+      all_of(kCandidateColumns),
+      {"phrase", "id, machine, parameters, modules"},
+      {"source", "id, name"},
+      all_of(kPairColumns),
+      all_of(kEvaluationColumns),
+      {"evaluation", "candidate, purpose, pair, iteration", " WHERE iteration IS NOT NULL"},
+      all_of(kIterationColumns),
+      all_of(kRaceStepColumns),
+      all_of(kEliminationColumns),
+      all_of(kEliteColumns),
+      all_of(kTotalsColumns),
+      all_of(kDesignStateColumns),
+      {"campaign", "id, state"},
+      all_of(kCommandColumns),
+      {"real_run", "*"},
+      {"real_score", "*"},
+      {"real_override", "*"},
+  }};
+  return kSummed[table];
+}
 
 /// Of the first columns.
 std::uint64_t hash_of(const Statement& row, int columns) {
@@ -85,8 +88,8 @@ RowHash& RowHash::add(std::string_view text) {
 }
 
 std::string cells_of_rows(RowSums::Table table) {
-  const Summed& summed = kSummed[static_cast<std::size_t>(table)];
-  return fmt::format("SELECT {} FROM {}{}", summed.cells, summed.table, summed.rest);
+  const Summed& all = summed(static_cast<std::size_t>(table));
+  return fmt::format("SELECT {} FROM {}{}", all.cells, all.table, all.rest);
 }
 
 std::uint64_t hash_of(const Statement& row) {
@@ -142,7 +145,7 @@ std::string RowSums::differences(const RowSums& found) const {
     if (sums_[i] == found.sums_[i]) continue;
     if (i == static_cast<std::size_t>(Table::Used) && text.find("evaluation") != std::string::npos)
       continue;
-    text += fmt::format("{}{} (", text.empty() ? "" : ", ", kSummed[i].table);
+    text += fmt::format("{}{} (", text.empty() ? "" : ", ", summed(i).table);
     text += sums_[i].rows == found.sums_[i].rows
                 ? "other values)"
                 : fmt::format("{} rows for {})", found.sums_[i].rows, sums_[i].rows);
@@ -158,12 +161,12 @@ bool RowSums::has_other_values(Table table, const RowSums& found) const {
 std::int64_t remove_changed_evaluations(sqlite::Connection& connection) {
   using Key = std::array<std::int64_t, 3>;
   std::vector<Key> changed;
-  Statement row(
-      connection,
-      fmt::format("SELECT (candidate - 1) % {}, purpose, pair, status, score, state_digest,"
-                  " wall_us, attempt, time, bound, row_check, candidate FROM evaluation"
-                  " WHERE row_check IS NOT NULL",
-                  kCandidatesPerDesign));
+  std::string checked = fmt::format("(candidate - 1) % {}", kCandidatesPerDesign);
+  for (const Column& column : kEvaluationColumns.columns)
+    if (column.is_checked && column.name != "candidate") checked += ", " + std::string(column.name);
+  Statement row(connection, "SELECT " + checked +
+                                ", row_check, candidate FROM evaluation"
+                                " WHERE row_check IS NOT NULL");
   while (row.step()) {
     const int last = sqlite3_column_count(row.handle()) - 1;
     if (half(hash_of(row, last - 1)) != row.integer(last - 1))

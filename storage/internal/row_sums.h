@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "storage/internal/columns.h"
 #include "storage/internal/sqlite.h"
 #include "storage/rows.h"
 
@@ -127,11 +128,16 @@ inline std::int64_t half(std::uint64_t hash) {
   return static_cast<std::int64_t>(hash >> 32U);
 }
 
-/// An evaluation's column `row_check`: half of a hash of what was scored, with which result. Not of
-/// the numbers that merging changes.
+/// An evaluation's column `row_check`: half of a hash of its cells, which are those of
+/// kEvaluationColumns: what was scored, with which result.
 template <class... Cells>
 std::int64_t row_check(std::int64_t candidate, const Cells&... cells) {
-  return half(RowHash::of((candidate - 1) % kCandidatesPerDesign, cells...));
+  static_assert(sizeof...(cells) + 1 == kEvaluationColumns.size());
+  RowHash hash;
+  hash.add((candidate - 1) % kCandidatesPerDesign);
+  std::size_t column = 1;
+  ((kEvaluationColumns.columns[column++].is_checked ? void(hash.add(cells)) : void()), ...);
+  return half(hash.value());
 }
 /// Removes evaluations that are not those that were written. Returns how many.
 std::int64_t remove_changed_evaluations(sqlite::Connection& connection);

@@ -2,40 +2,34 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "base/assert.h"
 #include "base/overloaded.h"
 #include "storage/answer.h"
+#include "storage/internal/columns.h"
 #include "storage/internal/row_reader.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr char kCandidate[] = "INSERT INTO candidate VALUES (?,?,?,?,?,?,?,?,?,?)";
 constexpr const char* kOfEvaluation = " WHERE candidate = ? AND purpose = ? AND pair = ?";
 /// So many candidates race at a time that their totals' hashes are known without reading them.
 constexpr std::size_t kMostTotals = 100'000;
-constexpr char kPair[] = "INSERT OR IGNORE INTO pair VALUES (?,?,?,?,?)";
+constexpr const char* kOnceOnly = " ON CONFLICT DO NOTHING";
+constexpr const char* kNewTotals =
+    " ON CONFLICT DO UPDATE SET runs = excluded.runs, score_sum = excluded.score_sum,"
+    " score_squares = excluded.score_squares";
+constexpr const char* kNewStep = " ON CONFLICT DO UPDATE SET step = excluded.step";
 // The first result stays, whatever comes later. Only a race that asks for what was computed ahead
 // may still write its iteration, if the bits agree.
-constexpr char kEvaluation[] =
-    "INSERT INTO evaluation (candidate, purpose, pair, status, score, state_digest,"
-    " source, wall_us, worker, attempt, time, bound, iteration, row_check)"
-    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO NOTHING";
 constexpr char kUsed[] =
     "UPDATE evaluation SET iteration = ?4 WHERE candidate = ?1 AND purpose = ?2 AND pair = ?3"
     " AND iteration IS NULL AND status = ?5 AND score IS ?6 AND state_digest = ?7 AND time IS ?8";
 constexpr char kUnused[] =
     "UPDATE evaluation SET iteration = NULL WHERE candidate = ? AND purpose = ? AND pair = ?";
-constexpr char kIteration[] = "INSERT OR IGNORE INTO iteration VALUES (?,?,?,?,?,?,?,?,?)";
-constexpr char kRaceStep[] =
-    "INSERT OR IGNORE INTO race_step VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
-constexpr char kElimination[] = "INSERT OR IGNORE INTO elimination VALUES (?,?,?,?,?)";
-constexpr char kElite[] = "INSERT OR IGNORE INTO elite VALUES (?,?,?,?,?,?)";
-constexpr char kTotals[] =
-    "INSERT INTO candidate_totals VALUES (?,?,?,?) ON CONFLICT DO UPDATE SET runs = excluded.runs,"
-    " score_sum = excluded.score_sum, score_squares = excluded.score_squares";
 constexpr char kDesignState[] =
     "UPDATE design SET state = ?2, used = ?3, iteration = ?4, best = ?5, best_mean = ?6,"
     " reason = ?7 WHERE id = ?1";
@@ -61,9 +55,6 @@ constexpr char kFailure[] =
 constexpr char kAttempt[] =
     "INSERT INTO attempt (candidate, purpose, pair, attempt, worker, held_ms, outcome)"
     " VALUES (?,?,?,?,?,?,?)";
-constexpr char kCommand[] =
-    "INSERT INTO command (number, kind, design, step, budget, who) VALUES (?,?,?,?,?,?)"
-    " ON CONFLICT DO UPDATE SET step = excluded.step";
 constexpr char kForgiven[] =
     "UPDATE worker SET state = 'left' WHERE principal = ? AND state = 'quarantined'";
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
@@ -89,18 +80,18 @@ void require(bool finite, const Row& row) {
 
 RowWriter::RowWriter(sqlite::Connection& connection)
     : connection_(connection),
-      candidate_(connection, kCandidate),
+      candidate_(connection, kCandidateColumns.insert()),
       known_candidate_(connection, "SELECT 1 FROM candidate WHERE id = ?"),
       phrase_(connection, "INSERT INTO phrase VALUES (?,?,?,?)"),
-      pair_(connection, kPair),
-      evaluation_(connection, kEvaluation),
+      pair_(connection, kPairColumns.insert() + kOnceOnly),
+      evaluation_(connection, kEvaluationColumns.insert({"iteration", "row_check"}) + kOnceOnly),
       used_(connection, kUsed),
       unused_(connection, kUnused),
-      iteration_(connection, kIteration),
-      race_step_(connection, kRaceStep),
-      elimination_(connection, kElimination),
-      elite_(connection, kElite),
-      totals_(connection, kTotals),
+      iteration_(connection, kIterationColumns.insert() + kOnceOnly),
+      race_step_(connection, kRaceStepColumns.insert() + kOnceOnly),
+      elimination_(connection, kEliminationColumns.insert() + kOnceOnly),
+      elite_(connection, kEliteColumns.insert() + kOnceOnly),
+      totals_(connection, kTotalsColumns.insert() + kNewTotals),
       design_state_(connection, kDesignState),
       campaign_state_(connection, kCampaignState),
       worker_(connection, kWorker),
@@ -108,7 +99,7 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       failure_(connection, kFailure),
       event_(connection, kEvent),
       attempt_(connection, kAttempt),
-      command_(connection, kCommand),
+      command_(connection, kCommandColumns.insert() + kNewStep),
       forgiven_(connection, kForgiven),
       new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
       find_source_(connection, "SELECT id FROM source WHERE name = ?"),
@@ -158,41 +149,40 @@ void RowWriter::put(const CandidateRow& row) {
   const StoredTexts texts = phrases_.encode(row, [this](std::int64_t number, const Phrase& phrase) {
     insert(Table::Phrase, phrase_, number, phrase.machine, phrase.parameters, phrase.modules);
   });
-  insert(Table::Candidate, candidate_, row.id.value, row.iteration, unless_zero(row.parent.value),
-         row.states, row.transitions, texts.modules, texts.machine, texts.parameters, texts.code,
-         texts.module_code);
+  insert(Table::Candidate, candidate_, kCandidateColumns, row.id.value, row.iteration,
+         unless_zero(row.parent.value), row.states, row.transitions, texts.modules, texts.machine,
+         texts.parameters, texts.code, texts.module_code);
 }
 
 void RowWriter::put(const PairRow& row) {
-  insert(Table::Pair, pair_, row.design.value, number(row.purpose), row.number, row.instance,
-         row.seed);
+  insert(Table::Pair, pair_, kPairColumns, row.design.value, number(row.purpose), row.number,
+         row.instance, row.seed);
 }
 
 void RowWriter::put(const EvaluationRow& row) {
   const std::int64_t candidate = row.key.candidate.value;
   const std::int64_t purpose = number(row.key.purpose);
   const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
-  const std::int64_t source = source_id(row.source);
   const auto iteration = unless_zero(row.iteration);
-  evaluation_.run(
-      candidate, purpose, row.key.pair, number(row.status), score, row.state_digest, source,
-      row.wall_us, row.worker, row.attempt, unless_zero(row.time), unless_zero(row.bound),
-      iteration,
-      row_check(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
-                row.wall_us, row.attempt, unless_zero(row.time), unless_zero(row.bound)));
-  const bool is_new = connection_.changes() > 0;
+  const bool is_new = std::apply(
+      [&](const auto&... cells) {
+        static_assert(sizeof...(cells) == kEvaluationColumns.size());
+        evaluation_.run(cells..., iteration, row_check(cells...));
+        if (connection_.changes() == 0) return false;
+        if (sums_) sums_->add(Table::Evaluation, RowHash::of(cells...));
+        return true;
+      },
+      std::tuple(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
+                 source_id(row.source), row.wall_us, row.worker, row.attempt, unless_zero(row.time),
+                 unless_zero(row.bound)));
+  bool is_used = is_new;
   if (!is_new && iteration) {
     used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score,
               row.state_digest, unless_zero(row.time));
+    is_used = connection_.changes() > 0;
   }
-  if (!sums_ || connection_.changes() == 0) return;
-  if (iteration)
+  if (sums_ && iteration && is_used)
     sums_->add(Table::Used, RowHash::of(candidate, purpose, row.key.pair, row.iteration));
-  if (!is_new) return;
-  sums_->add(Table::Evaluation,
-             RowHash::of(candidate, purpose, row.key.pair, number(row.status), score,
-                         row.state_digest, source, row.wall_us, row.worker, row.attempt,
-                         unless_zero(row.time), unless_zero(row.bound)));
 }
 
 void RowWriter::put(const UnusedRow& row) {
@@ -202,25 +192,26 @@ void RowWriter::put(const UnusedRow& row) {
 }
 
 void RowWriter::put(const IterationRow& row) {
-  insert(Table::Iteration, iteration_, row.design.value, row.number, row.of, row.budget,
-         row.configurations, row.elites, row.soft_restart, row.model_digest, row.postselection);
+  insert(Table::Iteration, iteration_, kIterationColumns, row.design.value, row.number, row.of,
+         row.budget, row.configurations, row.elites, row.soft_restart, row.model_digest,
+         row.postselection);
 }
 
 void RowWriter::put(const RaceStepRow& row) {
-  insert(Table::RaceStep, race_step_, row.design.value, row.step, row.iteration, row.pair,
-         std::string_view(&row.marker, 1), row.evaluated, row.alive_before, row.alive_after,
-         unless_zero(row.best.value), row.mean_best, row.used, row.statistic, row.p_value,
-         row.kendall_w, row.spearman_rho, row.qvar, row.digest, row.bound);
+  insert(Table::RaceStep, race_step_, kRaceStepColumns, row.design.value, row.step, row.iteration,
+         row.pair, std::string_view(&row.marker, 1), row.evaluated, row.alive_before,
+         row.alive_after, unless_zero(row.best.value), row.mean_best, row.used, row.statistic,
+         row.p_value, row.kendall_w, row.spearman_rho, row.qvar, row.digest, row.bound);
 }
 
 void RowWriter::put(const EliminationRow& row) {
-  insert(Table::Elimination, elimination_, row.candidate.value, row.iteration, row.step,
-         row.rank_sum, row.reason);
+  insert(Table::Elimination, elimination_, kEliminationColumns, row.candidate.value, row.iteration,
+         row.step, row.rank_sum, row.reason);
 }
 
 void RowWriter::put(const EliteRow& row) {
-  insert(Table::Elite, elite_, row.design.value, row.iteration, row.rank, row.candidate.value,
-         row.mean, row.runs);
+  insert(Table::Elite, elite_, kEliteColumns, row.design.value, row.iteration, row.rank,
+         row.candidate.value, row.mean, row.runs);
 }
 
 void RowWriter::put(const CandidateTotalsRow& row) {

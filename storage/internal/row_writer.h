@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "storage/internal/candidate_code.h"
+#include "storage/internal/columns.h"
 #include "storage/internal/row_sums.h"
 #include "storage/internal/sqlite.h"
 #include "storage/rows.h"
@@ -42,6 +43,12 @@ class RowWriter {
   void insert(Table table, sqlite::Statement& statement, const Cells&... cells) {
     statement.run(cells...);
     if (sums_ && connection_.changes() > 0) sums_->add(table, RowHash::of(cells...));
+  }
+  template <std::size_t N, class... Cells>
+  void insert(Table table, sqlite::Statement& statement, const TableColumns<N>& /*columns*/,
+              const Cells&... cells) {
+    static_assert(sizeof...(Cells) == N, "a cell for each column");
+    insert(table, statement, cells...);
   }
   /// Takes the row of a key from the sum, before it is replaced.
   template <class... Key>

@@ -1,6 +1,7 @@
 #include "storage/internal/schema.h"
 
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string>
@@ -12,18 +13,10 @@
 
 #include "storage/internal/row_sums.h"
 
-#include "embedded/kAuthoritySchema.h"
-#include "embedded/kClusterSchema.h"
-#include "embedded/kInitialSchema.h"
 #include "embedded/kLentViews.h"
-#include "embedded/kResultsSchema.h"
-#include "embedded/kRobotLogsSchema.h"
-#include "embedded/kRowChecksSchema.h"
-#include "embedded/kTargetsSchema.h"
-#include "embedded/kTrackingSchema.h"
-#include "embedded/kViewIndexesSchema.h"
 #include "sim/control/flavour_file.h"
 #include "storage/internal/machine_parts.h"
+#include "storage/internal/schema_files.h"
 #include "storage/internal/view_text.h"
 
 namespace swarmsmith {
@@ -89,23 +82,20 @@ void know_flavours(sqlite::Connection& connection) {
 
 }  // namespace
 
+static_assert(kSchemaFiles.front().version == 1 && kSchemaFiles.back().version <= kSchemaVersion);
+
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 13> kMigrations = {
-      Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
-      Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
-      Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
-      Migration{5, [](sqlite::Connection& connection) { connection.execute(kTrackingSchema); }},
-      Migration{6, [](sqlite::Connection& connection) { connection.execute(kAuthoritySchema); }},
-      Migration{7, [](sqlite::Connection&) {}},  // views alone
-      Migration{8, [](sqlite::Connection&) {}},  // the same: tests under further profiles
-      Migration{9, [](sqlite::Connection&) {}},  // the same: modules of trees
-      Migration{10, [](sqlite::Connection& connection) { connection.execute(kRobotLogsSchema); }},
-      Migration{11,
-                [](sqlite::Connection&) {}},  // views alone: ids of tests under further profiles
-      Migration{12, [](sqlite::Connection& connection) { connection.execute(kViewIndexesSchema); }},
-      Migration{13, [](sqlite::Connection& connection) { connection.execute(kRowChecksSchema); }},
-      Migration{14, [](sqlite::Connection&) {}},  // views alone: budgets with extensions
-  };
+  static const std::vector<Migration> kMigrations = [] {
+    std::vector<Migration> steps;
+    for (std::int64_t version = 2; version <= kSchemaVersion; ++version) {
+      const auto file = std::ranges::find(kSchemaFiles, version, &SchemaFile::version);
+      // Versions without a file have other views alone.
+      const std::string sql(file == kSchemaFiles.end() ? "" : file->sql);
+      steps.push_back(
+          {version, [sql](sqlite::Connection& connection) { connection.execute(sql); }});
+    }
+    return steps;
+  }();
   return kMigrations;
 }
 
@@ -143,7 +133,7 @@ void lend_views(sqlite::Connection& connection) {
 }
 
 void create_tables(sqlite::Connection& connection, std::int64_t schema) {
-  connection.execute(kInitialSchema);
+  connection.execute(std::string(kSchemaFiles.front().sql));
   for (const Migration& step : migrations()) {
     if (step.to <= schema) step.apply(connection);
   }

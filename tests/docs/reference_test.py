@@ -17,6 +17,17 @@ PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 STRANGER = "zzzzzzzz9"
 ROUND = "shape = 'circle', diameter = 1"
 
+#: The searches that have a table of their own, from their list.
+SEARCHES = [name.replace("_", "-") for name in re.search(
+    r"set\(searches\s+([^)]*)\)", (SOURCE / "irace_core/search/CMakeLists.txt").read_text())[1].split() if name != "irace"]
+#: Evolution and CMA-ES search networks alone.
+OF_SEARCHES = "".join(f'''[[method]]
+name = "by-{name}"
+architecture = "network"
+search = "{name}"
+{name} = {{ ? }}
+''' for name in SEARCHES)
+
 #: Files that lead the reader into each of its branches; a stranger goes into every table.
 FILES = {
     "simulator": """
@@ -70,26 +81,7 @@ parameters = { exploration = { tau = { ? } } }
 name = "networks"
 architecture = "network"
 network = { ? }
-[[method]]
-name = "a"
-search = "random"
-random = { ? }
-[[method]]
-name = "b"
-search = "f-race"
-f-race = { ? }
-[[method]]
-name = "c"
-method = "evostick"
-evolution = { ? }
-[[method]]
-name = "d"
-method = "cma-es"
-cma-es = { ? }
-[[method]]
-name = "e"
-search = "annealing"
-annealing = { ? }
+@SEARCHES@
 [race]
 ?
 [simulator]
@@ -140,7 +132,7 @@ def known_keys():
     known = collections.defaultdict(set)
     with tempfile.TemporaryDirectory(prefix="swarmsmith-reference-") as folder:
         for name, text in FILES.items():
-            text = text.replace("? [campaign]", f"{STRANGER} = 1\n[campaign]\n?")
+            text = text.replace("? [campaign]", f"{STRANGER} = 1\n[campaign]\n?").replace("@SEARCHES@\n", OF_SEARCHES)
             asked = text.count("?") + text.count(f"{STRANGER} = 1")
             file = pathlib.Path(folder) / f"{name}.toml"
             file.write_text("format = 1\n" + text.replace("?", f"{STRANGER} = 1"))
@@ -219,7 +211,7 @@ class CampaignFile(unittest.TestCase):
         self.assert_same("mission.instances.test", keys["mission.instances.test"])
         self.assert_same("mission.instances.training", keys["mission.instances.training"])
         self.assert_same("method", keys["method"], "parameters", "parameters_text", "configurations", "configurations_text",
-                         "network", "random", "f-race", "evolution", "cma-es", "annealing")
+                         "network", *SEARCHES)
         self.assert_same("simulator", keys["simulator"])
         self.assert_same("tests", keys["tests"])
         self.assert_same("workers", keys["workers"])
@@ -251,7 +243,7 @@ class CampaignFile(unittest.TestCase):
 
     def test_of_searches(self):
         keys = Page("methods.md").keys
-        for search in ("random", "f-race", "evolution", "cma-es", "annealing"):
+        for search in SEARCHES:
             self.assert_same(f"method.{search}", keys[f"method.{search}"])
         network = re.search(r"\[method\.network\]\n((?:\w+ +=.*\n)+)", (SOURCE / "docs/methods.md").read_text())[1]
         self.assert_same("method.network", set(re.findall(r"^\w+", network, re.M)))

@@ -18,7 +18,7 @@ class MethodsPage(unittest.TestCase):
 
     def test_changes_places_that_there_are(self):
         edits = edits_of(PAGE)
-        self.assertEqual(len({path for path, _, _ in edits}), 5)
+        self.assertEqual({path for path, _, _ in edits}, {"irace_core/search/CMakeLists.txt"})
         for path, old, new in edits:
             with self.subTest(path, old=old):
                 self.assertEqual((SOURCE / path).read_text().count(old), 1)

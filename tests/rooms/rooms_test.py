@@ -70,9 +70,9 @@ def libraries(texts):
             known[1].update(linked)
         # Kinds belong to the folder's library: a header each, and a source where there is one.
         for kinds in re.findall(r"swarmsmith_kinds\(([^)]*)\)", text):
-            name, *words = re.sub(r"\$\{(\w+)\}", lambda found: " ".join(variables.get(found[1], [])), kinds).split()
+            _, place, *words = re.sub(r"\$\{(\w+)\}", lambda found: " ".join(variables.get(found[1], [])), kinds).split()
             owner = "swarmsmith_" + re.search(r"swarmsmith_component\((\w+)", text)[1]
-            found[owner][0].update((folder / name / (kind + ending)).as_posix()
+            found[owner][0].update((folder / place / (kind + ending)).as_posix()
                                    for kind in words for ending in (".h", ".cpp"))
         for name, arguments in re.findall(r"target_link_libraries\(([\w-]+)([^)]*)\)", text):
             if name in found:
@@ -228,10 +228,10 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(libraries(lists)["swarmsmith_a"][0], {"a/a.cpp", "a/b.cpp", "a/c.cpp"})
 
     def test_of_kinds(self):
-        lists = {pathlib.PurePosixPath("a"): "set(ones x y)\nswarmsmith_kinds(ones ${ones})\n"
+        lists = {pathlib.PurePosixPath("a"): "set(ones x y)\nswarmsmith_kinds(ones each ${ones})\n"
                                              "swarmsmith_component(a\n  SOURCES ${ones_sources} a.cpp)"}
         self.assertEqual(libraries(lists)["swarmsmith_a"][0],
-                         {"a/a.cpp", "a/ones/x.h", "a/ones/x.cpp", "a/ones/y.h", "a/ones/y.cpp"})
+                         {"a/a.cpp", "a/each/x.h", "a/each/x.cpp", "a/each/y.h", "a/each/y.cpp"})
 
     def test_of_includes(self):
         texts = {"a.h": "#include <vector>\n#include <cstdint>\nstd::vector<std::uint8_t> bytes;  // no std::map\n",

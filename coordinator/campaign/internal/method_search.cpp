@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
+#include <type_traits>
 #include <utility>
-#include <variant>
 
 namespace swarmsmith {
 namespace {
@@ -29,61 +30,6 @@ constexpr std::array kPresets = {
 constexpr std::array kArchitectures = {Architecture::Machine, Architecture::Tree,
                                        Architecture::Network};
 
-/// A number of a search's table: an integer or a real of the options.
-struct Number {
-  SearchKind search;
-  std::string_view key;
-  std::variant<std::int64_t& (*)(SearchOptions&), double& (*)(SearchOptions&)> of;
-  double least;
-  double most;
-};
-
-constexpr double kMost = 1'000'000;
-
-const std::array kNumbers = {
-    Number{SearchKind::Random, "runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.random.runs; }, 1, kMost},
-    Number{SearchKind::Random, "finalists",
-           +[](SearchOptions& o) -> std::int64_t& { return o.random.finalists; }, 0, kMost},
-    Number{SearchKind::Random, "final_runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.random.final_runs; }, 1, kMost},
-    Number{SearchKind::FRace, "configurations",
-           +[](SearchOptions& o) -> std::int64_t& { return o.f_race.configurations; }, 0, kMost},
-    Number{SearchKind::Evolution, "population",
-           +[](SearchOptions& o) -> std::int64_t& { return o.evolution.population; }, 2, kMost},
-    Number{SearchKind::Evolution, "runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.evolution.runs; }, 1, kMost},
-    Number{SearchKind::Evolution, "parents",
-           +[](SearchOptions& o) -> double& { return o.evolution.parents; }, 0, 1},
-    Number{SearchKind::Evolution, "elites",
-           +[](SearchOptions& o) -> double& { return o.evolution.elites; }, 0, 1},
-    Number{SearchKind::Evolution, "step",
-           +[](SearchOptions& o) -> double& { return o.evolution.step; }, 0, 10},
-    Number{SearchKind::Evolution, "final_runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.evolution.final_runs; }, 0, kMost},
-    Number{SearchKind::CmaEs, "population",
-           +[](SearchOptions& o) -> std::int64_t& { return o.cma_es.population; }, 4, kMost},
-    Number{SearchKind::CmaEs, "runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.cma_es.runs; }, 1, kMost},
-    Number{SearchKind::CmaEs, "step", +[](SearchOptions& o) -> double& { return o.cma_es.step; },
-           1e-6, 10},
-    Number{SearchKind::CmaEs, "final_runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.cma_es.final_runs; }, 0, kMost},
-    Number{SearchKind::Annealing, "window",
-           +[](SearchOptions& o) -> std::int64_t& { return o.annealing.window; }, 1, kMost},
-    Number{SearchKind::Annealing, "moved",
-           +[](SearchOptions& o) -> std::int64_t& { return o.annealing.moved; }, 1, kMost},
-    Number{SearchKind::Annealing, "start_temperature",
-           +[](SearchOptions& o) -> double& { return o.annealing.start_temperature; }, 0, 1e6},
-    Number{SearchKind::Annealing, "end_temperature",
-           +[](SearchOptions& o) -> double& { return o.annealing.end_temperature; }, 0, 1e6},
-    Number{SearchKind::Annealing, "final_runs",
-           +[](SearchOptions& o) -> std::int64_t& { return o.annealing.final_runs; }, 1, kMost},
-};
-
-const std::vector<std::string> kMutations = {"neat", "normal"};
-const std::vector<std::string> kCoolings = {"geometric", "published"};
-
 std::vector<std::string> search_names() {
   std::vector<std::string> names;
   for (const SearchKind kind : all_searches())
@@ -104,13 +50,14 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
   if (const auto name = table.choice("method", presets)) {
     const auto* preset = std::ranges::find(kPresets, *name, &Preset::name);
     method.architecture = preset->architecture;
-    method.search.kind = preset->search;
+    method.search = search_of(preset->search);
     for (const std::string_view key : {"architecture", "search"}) {
       table.take(key);
       if (!table.has(key)) continue;
       table.complain(key, "`method = \"" + *name + "\"` says architecture and search already: " +
                               std::string(name_of(method.architecture)) + " and " +
-                              std::string(name_of(method.search.kind)) + "; leave one of them out");
+                              std::string(name_of(kind_of(method.search))) +
+                              "; leave one of them out");
     }
   } else {
     if (const auto said = table.choice("architecture", architectures)) {
@@ -118,15 +65,13 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
           std::ranges::find(architectures, *said) - architectures.begin()));
     }
     if (const auto said = table.choice("search", search_names())) {
-      method.search.kind =
-          *std::ranges::find(all_searches(), *said, [](SearchKind kind) { return name_of(kind); });
+      method.search = search_of(
+          *std::ranges::find(all_searches(), *said, [](SearchKind kind) { return name_of(kind); }));
     }
   }
-  const bool wants_reals =
-      method.search.kind == SearchKind::Evolution || method.search.kind == SearchKind::CmaEs;
-  if (wants_reals && !is_file && method.baseline.empty() &&
+  if (words_of(method.search).wants_reals && !is_file && method.baseline.empty() &&
       method.architecture != Architecture::Network) {
-    table.complain("search", "the search " + std::string(name_of(method.search.kind)) +
+    table.complain("search", "the search " + std::string(name_of(kind_of(method.search))) +
                                  " needs reals without conditions, such as the weights of "
                                  "networks (`architecture = \"network\"`), and a " +
                                  std::string(name_of(method.architecture)) +
@@ -140,24 +85,59 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
   }
 }
 
-/// The published schedule has temperatures of its own. The usual values may stand there, as they do
-/// in the text that stores have.
-void refuse_temperatures_of_others(TableReader& options, const AnnealingOptions& read) {
-  if (read.cooling != Cooling::Published) return;
-  const AnnealingOptions usual;
-  for (const auto& [key, member] :
-       {std::pair{"start_temperature", &AnnealingOptions::start_temperature},
-        std::pair{"end_temperature", &AnnealingOptions::end_temperature}}) {
-    if (!options.has(key) || read.*member == usual.*member) continue;
-    options.complain(key, "`" + std::string(key) +
-                              "` is of geometric cooling; the published one begins at 125 score "
-                              "units, and again whenever it is below 0.00125");
+/// Reads each key of a search's table.
+class OptionReader {
+ public:
+  explicit OptionReader(TableReader& table) : table_(table) {}
+
+  void operator()(const SearchField& field, std::int64_t& value) {
+    const auto read = table_.integer(
+        field.key, {static_cast<std::int64_t>(field.least), static_cast<std::int64_t>(field.most)});
+    value = read.value_or(value);
   }
-}
+  void operator()(const SearchField& field, double& value) {
+    value = table_.number(field.key, {field.least, field.most}).value_or(value);
+  }
+  void operator()(const SearchField& field, bool& value) {
+    value = table_.boolean(field.key).value_or(value);
+  }
+  template <class Value>
+  requires std::is_enum_v<Value>
+  void operator()(const SearchField& field, Value& value) {
+    const std::vector<std::string> choices(field.choices.begin(), field.choices.end());
+    if (const auto read = table_.choice(field.key, choices))
+      value = static_cast<Value>(std::ranges::find(choices, *read) - choices.begin());
+  }
+
+ private:
+  TableReader& table_;
+};
+
+/// The same keys as lines.
+class OptionLines {
+ public:
+  std::vector<SectionLine> lines;
+
+  void operator()(const SearchField& field, std::int64_t value) {
+    add(field, std::to_string(value));
+  }
+  void operator()(const SearchField& field, double value) { add(field, number_text(value)); }
+  void operator()(const SearchField& field, bool value) { add(field, value ? "true" : "false"); }
+  template <class Value>
+  requires std::is_enum_v<Value>
+  void operator()(const SearchField& field, const Value& value) {
+    add(field, quoted_text(field.choices[static_cast<std::size_t>(value)]));
+  }
+
+ private:
+  void add(const SearchField& field, std::string value) {
+    lines.push_back({std::string(field.key), std::move(value)});
+  }
+};
 
 /// [method.evolution] and so on: only that of the method's own search.
 void read_numbers(TableReader& table, Method& method) {
-  const SearchKind own = method.search.kind;
+  const SearchKind own = kind_of(method.search);
   for (const SearchKind kind : all_searches()) {
     const std::string name(name_of(kind));
     if (kind == SearchKind::Irace) {
@@ -176,47 +156,12 @@ void read_numbers(TableReader& table, Method& method) {
     }
     auto options = table.table(name);
     if (!options) continue;
-    for (const Number& number : kNumbers) {
-      if (number.search != kind) continue;
-      if (const auto* whole = std::get_if<0>(&number.of)) {
-        const auto value = options->integer(number.key, {static_cast<std::int64_t>(number.least),
-                                                         static_cast<std::int64_t>(number.most)});
-        if (value) (*whole)(method.search) = *value;
-      } else if (const auto value = options->number(number.key, {number.least, number.most})) {
-        std::get<1>(number.of)(method.search) = *value;
-      }
-    }
-    if (kind == SearchKind::FRace && method.search.f_race.configurations == 1) {
-      options->complain("configurations",
-                        "`configurations` must be 0 (automatic) or at least 2, this is 1");
-    }
-    if (kind == SearchKind::Evolution) {
-      if (const auto mutation = options->choice("mutation", kMutations))
-        method.search.evolution.mutation = *mutation == "neat" ? Mutation::Neat : Mutation::Normal;
-      const EvolutionOptions& read = method.search.evolution;
-      if (read.elites > read.parents) {
-        options->complain(options->has("elites") ? "elites" : "parents",
-                          "`elites` (" + number_text(read.elites) + ") is at most `parents` (" +
-                              number_text(read.parents) +
-                              "): who goes on unchanged has children, too");
-      }
-    }
-    if (kind == SearchKind::Annealing) {
-      if (const auto cooling = options->choice("cooling", kCoolings))
-        method.search.annealing.cooling =
-            *cooling == "geometric" ? Cooling::Geometric : Cooling::Published;
-      if (const auto random = options->boolean("start_at_random"))
-        method.search.annealing.start_at_random = *random;
-      if (method.search.annealing.moved > method.search.annealing.window)
-        options->complain("moved", "`moved` is at most `window`: a window moves on by parts of it");
-      const AnnealingOptions& read = method.search.annealing;
-      refuse_temperatures_of_others(*options, read);
-      if (read.start_temperature > 0 && read.end_temperature > read.start_temperature) {
-        options->complain(options->has("end_temperature") ? "end_temperature" : "start_temperature",
-                          "`end_temperature` (" + number_text(read.end_temperature) +
-                              ") is at most `start_temperature` (" +
-                              number_text(read.start_temperature) + "): annealing cools");
-      }
+    OptionReader reader(*options);
+    visit_search_fields(method.search, reader);
+    for (const SearchFault& fault : faults_of(method.search)) {
+      const auto said =
+          std::ranges::find_if(fault.keys, [&](std::string_view key) { return options->has(key); });
+      options->complain(said != fault.keys.end() ? *said : fault.keys.back(), fault.message);
     }
     options->finish();
   }
@@ -264,8 +209,8 @@ std::vector<SectionLine> search_lines(const Method& method) {
   std::vector<SectionLine> lines;
   if (method.architecture != Architecture::Machine)
     lines.push_back({"architecture", quoted_text(name_of(method.architecture))});
-  if (method.search.kind != SearchKind::Irace)
-    lines.push_back({"search", quoted_text(name_of(method.search.kind))});
+  if (kind_of(method.search) != SearchKind::Irace)
+    lines.push_back({"search", quoted_text(name_of(kind_of(method.search)))});
   return lines;
 }
 
@@ -277,28 +222,13 @@ std::vector<Section> search_sections(const Method& method, const std::string& pr
                         {{"inputs", quoted_text(name_of(method.inputs))},
                          {"most_weight", number_text(method.most_weight)}}});
   }
-  const SearchKind kind = method.search.kind;
+  const SearchKind kind = kind_of(method.search);
   if (kind == SearchKind::Irace) return sections;
   const std::string name(name_of(kind));
   Section section{"[method." + name + "]", prefix + name + ".", {}};
-  SearchOptions options = method.search;
-  for (const Number& number : kNumbers) {
-    if (number.search != kind) continue;
-    const auto* whole = std::get_if<0>(&number.of);
-    section.lines.push_back(
-        {std::string(number.key), whole != nullptr ? std::to_string((*whole)(options))
-                                                   : number_text(std::get<1>(number.of)(options))});
-  }
-  if (kind == SearchKind::Evolution) {
-    const bool is_neat = options.evolution.mutation == Mutation::Neat;
-    section.lines.push_back({"mutation", quoted_text(kMutations[is_neat ? 0 : 1])});
-  }
-  if (kind == SearchKind::Annealing) {
-    const bool is_geometric = options.annealing.cooling == Cooling::Geometric;
-    section.lines.push_back({"cooling", quoted_text(kCoolings[is_geometric ? 0 : 1])});
-    section.lines.push_back(
-        {"start_at_random", options.annealing.start_at_random ? "true" : "false"});
-  }
+  OptionLines options;
+  visit_search_fields(method.search, options);
+  section.lines = std::move(options.lines);
   sections.push_back(std::move(section));
   return sections;
 }

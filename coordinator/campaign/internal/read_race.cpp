@@ -106,14 +106,16 @@ void refuse_options_of_irace(TableReader& race, const Scenario& read) {
 
 bool uses(const Campaign& campaign, SearchKind kind) {
   return campaign.methods.empty() ||
-         std::ranges::count(campaign.methods, kind, [](const Method& m) { return m.search.kind; }) >
-             0;
+         std::ranges::count(campaign.methods, kind,
+                            [](const Method& m) { return kind_of(m.search); }) > 0;
 }
 
 }  // namespace
 
 bool has_races(const Campaign& campaign) {
-  return uses(campaign, SearchKind::Irace) || uses(campaign, SearchKind::FRace);
+  return campaign.methods.empty() || std::ranges::any_of(campaign.methods, [](const Method& m) {
+           return words_of(m.search).has_tests;
+         });
 }
 
 void read_race(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {

@@ -59,7 +59,7 @@ TEST_P(Presets, AreTheSameCampaignAsTheirPair) {
   const PresetCase& preset = GetParam();
   const Campaign named = campaign_of("method = \"" + preset.preset + "\"\n");
   EXPECT_EQ(named.methods[0].architecture, preset.architecture);
-  EXPECT_EQ(named.methods[0].search.kind, preset.search);
+  EXPECT_EQ(kind_of(named.methods[0].search), preset.search);
   const Campaign explicitly =
       campaign_of("architecture = \"" + std::string(name_of(preset.architecture)) +
                   "\"\nsearch = \"" + std::string(name_of(preset.search)) + "\"\n");
@@ -105,7 +105,7 @@ TEST_P(Presets, MakeControlSoftwareThatReadsBack) {
 
 TEST(Methods, WithoutKeysAreIteratedRacesOfMachinesAndKeepTheirDigest) {
   const Campaign plain = campaign_of("");
-  EXPECT_EQ(plain.methods[0].search.kind, SearchKind::Irace);
+  EXPECT_EQ(kind_of(plain.methods[0].search), SearchKind::Irace);
   EXPECT_EQ(campaign_digest(plain),
             campaign_digest(campaign_of("architecture = \"machine\"\nsearch = \"irace\"\n")));
   for (const auto& [key, value] : deciding(plain)) {

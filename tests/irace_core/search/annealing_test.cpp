@@ -12,7 +12,7 @@ namespace {
 
 SearchOptions annealing(double temperature = 1) {
   SearchOptions options = options_of(SearchKind::Annealing);
-  options.annealing.start_temperature = temperature;
+  std::get<AnnealingOptions>(options).start_temperature = temperature;
   return options;
 }
 
@@ -79,7 +79,7 @@ TEST(Annealing, AtZeroAcceptsWhatIsEqual) {
 
 TEST(Annealing, WarmAcceptsWhatIsWorseAndColdDoesNot) {
   SearchOptions options = annealing(1e6);
-  options.annealing.end_temperature = 1e6;
+  std::get<AnnealingOptions>(options).end_temperature = 1e6;
   const auto cost = [](const Configuration& c, const Experiment&) { return c[0]; };
   const Played warm = play(*started(weights_space(1), options, 4000), cost);
   // A random walk: the parent of nearly every candidate is the one before it.

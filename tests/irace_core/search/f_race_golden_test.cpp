@@ -26,7 +26,7 @@ std::unique_ptr<Search> search_of(const nlohmann::json& json) {
   scenario.confidence = json["confidence"];
   scenario.test_type = json["test_type"] == "t-test" ? TestType::TTest : TestType::FTest;
   SearchOptions options = options_of(SearchKind::FRace);
-  options.f_race.configurations = 200;
+  std::get<FRaceOptions>(options).configurations = 200;
   return start_search(weights_space(2), scenario, options).value();
 }
 

@@ -96,9 +96,7 @@ std::vector<Event> only(const std::vector<RaceEvent>& events) {
 }
 
 inline SearchOptions options_of(SearchKind kind) {
-  SearchOptions options;
-  options.kind = kind;
-  return options;
+  return search_of(kind);
 }
 
 }  // namespace swarmsmith

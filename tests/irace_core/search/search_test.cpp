@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -44,21 +46,29 @@ TEST_P(EverySearch, GivesTheSameAnswerTwiceAndAnotherForAnotherSeed) {
   EXPECT_NE(digests(once), digests(other));
 }
 
+/// Small numbers of runs and members, and any shares.
+struct DrawnOptions {
+  Rng& rng;
+
+  void operator()(const SearchField& field, std::int64_t& value) const {
+    const auto least = static_cast<std::int64_t>(field.least);
+    value = rng.uniform_int(least, least + rng.uniform_int(1, 30));
+  }
+  void operator()(const SearchField& field, double& value) const {
+    value = rng.uniform(field.least, std::min(field.most, 10.0));
+  }
+  template <class Choice>
+  void operator()(const SearchField&, Choice&) const {}
+};
+
 TEST_P(EverySearch, CountsEachRunAndNeverExceedsItsBudget) {
   Rng rng(11);
+  const DrawnOptions draw{rng};
   for (int i = 0; i < 200; ++i) {
     SearchOptions options = options_of(GetParam());
-    options.random.runs = rng.uniform_int(1, 12);
-    options.random.finalists = rng.uniform_int(0, 9);
-    options.random.final_runs = rng.uniform_int(1, 40);
-    options.evolution.population = options.cma_es.population = rng.uniform_int(2, 40);
-    options.evolution.runs = options.cma_es.runs = rng.uniform_int(1, 12);
-    options.evolution.final_runs = options.cma_es.final_runs = rng.uniform_int(0, 30);
-    options.evolution.parents = rng.uniform();
-    options.evolution.elites = rng.uniform();
-    options.annealing.window = rng.uniform_int(1, 12);
-    options.annealing.moved = rng.uniform_int(1, options.annealing.window);
-    options.annealing.final_runs = rng.uniform_int(1, 40);
+    do {
+      visit_search_fields(options, draw);
+    } while (!faults_of(options).empty());
     Scenario scenario;
     scenario.max_experiments = rng.uniform_int(1, 4000);
     scenario.seed = static_cast<std::uint64_t>(i) + 1;
@@ -87,7 +97,7 @@ TEST_P(EverySearch, CountsEachRunAndNeverExceedsItsBudget) {
 
 TEST_P(EverySearch, AsksInCanonicalOrderAndNeverTwiceForOneRun) {
   // Races ask for their tasks in turn, and elitist ones for new pairs first.
-  const bool is_race = GetParam() == SearchKind::Irace || GetParam() == SearchKind::FRace;
+  const bool is_race = words_of(GetParam()).has_tests;
   auto search = started(weights_space(3), options_of(GetParam()), 3000);
   std::set<std::pair<std::int64_t, std::int64_t>> seen;
   while (!search->finished()) {
@@ -177,7 +187,7 @@ TEST_P(EverySearch, GoesOnAfterAnExtensionOrSaysWhyNot) {
     return;
   }
   // What is too little for an iteration gives a race a further post-selection.
-  const bool is_race = GetParam() == SearchKind::Irace || GetParam() == SearchKind::FRace;
+  const bool is_race = words_of(GetParam()).has_tests;
   EXPECT_TRUE(is_race || !search->extend(*least - 1));
   const std::int64_t before = search->budget();
   ASSERT_TRUE(search->extend(*least + 5));
@@ -228,7 +238,7 @@ TEST(Search, OfOneRaceHasNeitherTimesNorElitesThatBoundThem) {
 
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
   for (const SearchKind kind : not_empty(all_searches())) {
-    if (kind == SearchKind::Irace || kind == SearchKind::FRace) continue;
+    if (words_of(kind).has_tests) continue;
     Scenario scenario;
     scenario.max_experiments = 5000;
     scenario.deterministic = true;
@@ -242,7 +252,8 @@ TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
 TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
   Scenario scenario;
   scenario.max_experiments = 5000;
-  for (const SearchKind kind : {SearchKind::Evolution, SearchKind::CmaEs}) {
+  for (const SearchKind kind : not_empty(all_searches())) {
+    if (!words_of(kind).wants_reals) continue;
     const auto search = start_search(mixed_space(), scenario, options_of(kind));
     ASSERT_FALSE(search);
     EXPECT_EQ(search.error().where, "mode");
@@ -269,7 +280,7 @@ TEST_P(EverySearch, KeepsToWhatIsNotForbiddenOrSaysThatItCannot) {
   given.set(0, -1);
   given.set(1, 1);
   auto search = start_search(space_with_forbidden(), scenario, options_of(GetParam()), {given});
-  if (GetParam() == SearchKind::Evolution || GetParam() == SearchKind::CmaEs) {
+  if (words_of(GetParam()).wants_reals) {
     ASSERT_FALSE(search);
     EXPECT_THAT(to_string(search.error()), HasSubstr("would not keep to forbidden combinations"));
     return;

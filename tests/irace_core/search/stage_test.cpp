@@ -10,16 +10,16 @@ namespace {
 
 constexpr std::int64_t kBudget = 2400;
 
-SearchOptions small(SearchKind kind) {
-  SearchOptions options = options_of(kind);
-  options.evolution.population = 20;
-  options.evolution.runs = 5;
-  options.evolution.final_runs = 10;
+SearchOptions small() {
+  EvolutionOptions options;
+  options.population = 20;
+  options.runs = 5;
+  options.final_runs = 10;
   return options;
 }
 
 TEST(Stage, GenerationsAreCountedWithoutTheFinalStage) {
-  const SearchOptions options = small(SearchKind::Evolution);
+  const SearchOptions options = small();
   SearchPoint point{.iteration = 4,
                     .iterations = 23,
                     .configurations = 20,
@@ -33,7 +33,7 @@ TEST(Stage, GenerationsAreCountedWithoutTheFinalStage) {
 }
 
 TEST(Stage, TheFinalStageIsNamed) {
-  const SearchOptions options = small(SearchKind::Evolution);
+  const SearchOptions options = small();
   const SearchPoint point{.iteration = 23,
                           .iterations = 23,
                           .is_final = true,
@@ -47,11 +47,11 @@ TEST(Stage, TheFinalStageIsNamed) {
 
 TEST(Stage, GenerationsGoOnAfterAnExtension) {
   const SearchPoint point{.iteration = 24, .iterations = 26, .finals = 1, .configurations = 20};
-  EXPECT_EQ(stage_text(small(SearchKind::Evolution), point), "generation 23 of 24");
+  EXPECT_EQ(stage_text(small(), point), "generation 23 of 24");
 }
 
 TEST(Stage, WhatNoEventHasSaidFollowsFromTheBudget) {
-  const SearchOptions options = small(SearchKind::Evolution);
+  const SearchOptions options = small();
   EXPECT_EQ(stage_text(options, {.iteration = 5, .budget = kBudget}), "generation 5 of 22");
   EXPECT_EQ(stage_text(options, {.iteration = 23, .budget = kBudget}), "final stage");
   EXPECT_EQ(stage_text(options, {.budget = kBudget}), "");

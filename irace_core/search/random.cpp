@@ -1,8 +1,11 @@
-#include "irace_core/search/random_search.h"
+#include "irace_core/search/random.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "irace_core/internal/sampling.h"
 #include "irace_core/search/generations.h"
 
@@ -106,16 +109,51 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
   return plan;
 }
 
-Expected<std::unique_ptr<Strategy>> make_random_search(const ParameterSpace& space,
-                                                       const Scenario& scenario,
-                                                       const RandomOptions& options,
-                                                       std::vector<Configuration> initial,
-                                                       Repair repair) {
-  const auto plan = plan_random_search(scenario.max_experiments, options);
-  if (!plan) return Unexpected(plan.error());
-  return std::make_unique<Generations>(
-      *plan, std::make_unique<RandomBreeder>(space, Rng(scenario.seed), plan->finalists,
-                                             std::move(initial), std::move(repair)));
+}  // namespace swarmsmith::search
+
+namespace swarmsmith {
+namespace {
+
+/// One that was extended has another plan.
+std::optional<search::GenerationPlan> draws(const RandomOptions& options,
+                                            const SearchPoint& point) {
+  if (point.finals > 0) return std::nullopt;
+  const auto plan = search::plan_random_search(point.budget, options);
+  return plan ? std::optional(*plan) : std::nullopt;
 }
 
-}  // namespace swarmsmith::search
+}  // namespace
+
+Expected<std::unique_ptr<search::Strategy>> RandomOptions::start(search::Start from) const {
+  const auto plan = search::plan_random_search(from.scenario.max_experiments, *this);
+  if (!plan) return Unexpected(plan.error());
+  return std::make_unique<search::Generations>(
+      *plan,
+      std::make_unique<search::RandomBreeder>(from.space, Rng(from.scenario.seed), plan->finalists,
+                                              std::move(from.initial), std::move(from.repair)));
+}
+
+SearchPoint RandomOptions::planned(SearchPoint point) const {
+  return search::planned_by(search::plan_random_search(point.budget, *this), point);
+}
+
+/// Parts are chunks of draws; people count the draws.
+StageTexts RandomOptions::texts(const SearchPoint& point) const {
+  const auto plan = draws(*this, point);
+  if (!plan) {
+    StageTexts texts = usual_texts(kWords, point, "further configurations");
+    texts.line = texts.name + ": " + counted(point.configurations, kWords.candidate) + ", " +
+                 stage::each(point);
+    texts.stage = texts.name;
+    return texts;
+  }
+  const std::int64_t before = (point.iteration - 1) * plan->population;
+  const std::string name = stage::range(kWords.candidate, before + 1,
+                                        std::min(before + plan->population, plan->configurations));
+  return {.name = name,
+          .line = name + stage::of(plan->configurations) + ": " + stage::each(point),
+          .stage = "configuration " + std::to_string(before + stage::ready(point)) +
+                   stage::of(plan->configurations)};
+}
+
+}  // namespace swarmsmith

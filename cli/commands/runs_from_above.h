@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "base/expected.h"
+#include "cli/arguments/store_argument.h"
+#include "storage/rows.h"
+
+namespace swarmsmith::cli {
+
+/// The picture of the tests of a design's winner, for a report (trajectories_figure.cpp).
+Expected<std::string> runs_from_above(const StoreArgument& argument, DesignId design);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "storage/internal/schema.h"
+
+namespace swarmsmith {
+
+/// The columns of the tables of the answer, one list a table: rows are written, read, summed and
+/// checked by these. tests/storage/columns_test.cpp compares them with the tables of each schema.
+
+struct Column {
+  std::string_view name;
+  std::int64_t since = 1;  ///< the schema that brought it: NULL in stores of earlier ones
+  /// Of an evaluation: what was scored, with which result (`row_check`); not the numbers that
+  /// merging changes.
+  bool is_checked = false;
+};
+
+template <std::size_t N>
+struct TableColumns {
+  std::string_view table;
+  std::array<Column, N> columns;
+
+  static constexpr std::size_t size() { return N; }
+
+  /// The place of a column among these; a name that is not there does not compile.
+  consteval int at(std::string_view name) const {
+    for (std::size_t i = 0; i < N; ++i)
+      if (columns[i].name == name) return static_cast<int>(i);
+    throw "no such column";
+  }
+
+  /// "candidate, purpose, NULL": for a SELECT from a store of the schema.
+  std::string names(std::int64_t schema = kSchemaVersion) const {
+    std::string text;
+    for (const Column& column : columns) {
+      if (!text.empty()) text += ", ";
+      text += column.since <= schema ? column.name : "NULL";
+    }
+    return text;
+  }
+
+  /// "INSERT INTO pair (design, number) VALUES (?,?)", with further columns of the table.
+  std::string insert(std::initializer_list<std::string_view> further = {}) const {
+    std::string all = names();
+    std::string marks = "?";
+    for (std::size_t i = 1; i < N + further.size(); ++i)
+      marks += ",?";
+    for (const std::string_view column : further)
+      all += ", " + std::string(column);
+    return "INSERT INTO " + std::string(table) + " (" + all + ") VALUES (" + marks + ")";
+  }
+};
+
+inline constexpr TableColumns kCandidateColumns{"candidate",
+                                                std::to_array<Column>({{"id"},
+                                                                       {"iteration"},
+                                                                       {"parent"},
+                                                                       {"states"},
+                                                                       {"transitions"},
+                                                                       {"modules"},
+                                                                       {"machine"},
+                                                                       {"parameters"},
+                                                                       {"code", 4},
+                                                                       {"module_code", 4}})};
+
+inline constexpr TableColumns kPairColumns{
+    "pair", std::to_array<Column>({{"design"}, {"purpose"}, {"number"}, {"instance"}, {"seed"}})};
+
+/// Without `iteration`, which comes and goes, and `row_check`.
+inline constexpr TableColumns kEvaluationColumns{
+    "evaluation", std::to_array<Column>({{.name = "candidate", .is_checked = true},
+                                         {.name = "purpose", .is_checked = true},
+                                         {.name = "pair", .is_checked = true},
+                                         {.name = "status", .is_checked = true},
+                                         {.name = "score", .is_checked = true},
+                                         {.name = "state_digest", .is_checked = true},
+                                         {.name = "source"},
+                                         {.name = "wall_us", .is_checked = true},
+                                         {.name = "worker"},
+                                         {.name = "attempt", .is_checked = true},
+                                         {.name = "time", .since = 2, .is_checked = true},
+                                         {.name = "bound", .since = 2, .is_checked = true}})};
+
+inline constexpr TableColumns kIterationColumns{"iteration",
+                                                std::to_array<Column>({{"design"},
+                                                                       {"number"},
+                                                                       {"planned"},
+                                                                       {"budget"},
+                                                                       {"configurations"},
+                                                                       {"elites"},
+                                                                       {"soft_restart"},
+                                                                       {"model_digest"},
+                                                                       {"postselection", 2}})};
+
+inline constexpr TableColumns kRaceStepColumns{"race_step", std::to_array<Column>({{"design"},
+                                                                                   {"step"},
+                                                                                   {"iteration"},
+                                                                                   {"pair"},
+                                                                                   {"marker"},
+                                                                                   {"evaluated"},
+                                                                                   {"alive_before"},
+                                                                                   {"alive_after"},
+                                                                                   {"best"},
+                                                                                   {"mean_best"},
+                                                                                   {"used"},
+                                                                                   {"statistic"},
+                                                                                   {"p_value"},
+                                                                                   {"kendall_w"},
+                                                                                   {"spearman_rho"},
+                                                                                   {"qvar"},
+                                                                                   {"digest"},
+                                                                                   {"bound", 2}})};
+
+inline constexpr TableColumns kEliminationColumns{
+    "elimination",
+    std::to_array<Column>({{"candidate"}, {"iteration"}, {"step"}, {"rank_sum"}, {"reason"}})};
+
+inline constexpr TableColumns kEliteColumns{
+    "elite", std::to_array<Column>(
+                 {{"design"}, {"iteration"}, {"rank"}, {"candidate"}, {"mean"}, {"runs"}})};
+
+inline constexpr TableColumns kTotalsColumns{
+    "candidate_totals",
+    std::to_array<Column>({{"candidate"}, {"runs"}, {"score_sum"}, {"score_squares"}})};
+
+/// What a design's search says of it; its other columns are written once.
+inline constexpr TableColumns kDesignStateColumns{
+    "design",
+    std::to_array<Column>(
+        {{"id"}, {"state"}, {"used"}, {"iteration"}, {"best"}, {"best_mean"}, {"reason"}})};
+
+inline constexpr TableColumns kCommandColumns{
+    "command",
+    std::to_array<Column>(
+        {{"number", 3}, {"kind", 3}, {"design", 3}, {"step", 3}, {"budget", 3}, {"who", 3}})};
+
+}  // namespace swarmsmith
