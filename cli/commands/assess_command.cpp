@@ -22,7 +22,7 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
   const auto profile = find_profile_or_complain(arguments.profile, "--profile", output);
   if (!profile) return fail(output, ExitCode::Usage, profile.error());
   // What modules promise is checked with RVRs.
-  if (const auto why = misfit(**flavour, rvr()))
+  if (const auto why = misfit(*flavour, rvr()))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--flavour"});
   if (const auto why = misfit(*profile, rvr()))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--profile"});

@@ -59,7 +59,7 @@ ExitCode export_irace(const std::string& source, const IraceExport& what, const 
   const auto searches = searches_of(*campaign);
   if (const auto search = searches.find(design->id); search != searches.end()) {
     print_note(output, to_string(design->id) + " is searched by " +
-                           std::string(name_of(search->second.kind)) +
+                           std::string(words_of(search->second).name) +
                            " here; irace races the same space and budget");
   }
   for (const std::string& remark : made->remarks)

@@ -129,7 +129,7 @@ std::optional<std::string> complaint_about_running(const Controller& controller,
                                                    const Flavour& flavour) {
   std::optional<std::string> complaint;
   const auto look_at = [&](Module module) {
-    if (!is_external(module)) return;
+    if (complaint || !is_external(module)) return;
     const ModuleSpec* spec = flavour.find(module);
     complaint = "the module " + (spec == nullptr ? "external" : spec->id) + " of the flavour " +
                 flavour.name +

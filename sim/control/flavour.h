@@ -141,7 +141,7 @@ struct NeighbourModel {
   double attraction_gain = 1;
   double repulsion_gain = 1;
   /// Counts are subtracted without a sign: more neighbours than xi are as if there were none
-  /// (e-puck facts, 4.5).
+  /// (epuck facts, 4.5).
   bool unsigned_count = false;
 
   friend bool operator==(const NeighbourModel&, const NeighbourModel&) = default;
@@ -192,7 +192,15 @@ struct FloorModel {
   bool hue_wraps = true;          ///< 359 degrees is near to 0
   /// A label's saturation differs by less; infinity for not looked at.
   double saturation_tolerance = 0;
+  /// The three channels are grey levels of three ground sensors, and it is enough that one of them
+  /// is in a range (epuck facts, section 5.2.1).
+  bool any_channel = false;
 
+  bool sees(const GrayRange& range, const Rgb& color) const {
+    if (!any_channel) return range.contains(gray_level(color));
+    return range.contains(1000 * color.r) || range.contains(1000 * color.g) ||
+           range.contains(1000 * color.b);
+  }
   friend bool operator==(const FloorModel&, const FloorModel&) = default;
 };
 

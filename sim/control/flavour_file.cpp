@@ -384,7 +384,7 @@ void check_symbols(TableReader& root, const std::string& key,
   }
 }
 
-/// What one key of a flavour wants of others.
+/// What one key of a flavour wants of others, when each of them is right.
 void check_whole(TableReader& root, const Flavour& flavour) {
   for (const auto& [key, modules] : {std::pair("behaviours", &flavour.behaviours),
                                      std::pair("conditions", &flavour.conditions)}) {
@@ -408,6 +408,7 @@ void check_whole(TableReader& root, const Flavour& flavour) {
 
 /// The fields of a table, over those of the flavour that `base` names.
 void read_fields(TableReader& table, Flavour& flavour) {
+  const std::size_t before = table.complaints();
   const std::vector<std::string> names = flavour_names();
   if (const auto base = table.choice("base", names)) {
     std::string name = std::move(flavour.name);
@@ -424,7 +425,7 @@ void read_fields(TableReader& table, Flavour& flavour) {
   reader.finish();
   read_modules(table, "behaviours", flavour.behaviours);
   read_modules(table, "conditions", flavour.conditions);
-  check_whole(table, flavour);
+  if (table.complaints() == before) check_whole(table, flavour);
 }
 
 /// The visitor that writes the constants as lines.
@@ -527,7 +528,7 @@ FlavourOrErrors read_flavour_file(const std::filesystem::path& file) {
   return flavour;
 }
 
-/// Those that the program carries, in the order of their files, none of which has a base.
+/// Those that the program carries, in the order of their files. None has a base.
 const std::vector<Flavour>& built_in_flavours() {
   static const std::vector<Flavour> kFlavours = [] {
     std::vector<Flavour> flavours;
@@ -597,6 +598,11 @@ Flavour read_flavour_table(TableReader& table) {
   flavour.name = table.text("name").value_or("");
   check_name(table, flavour.name, {});
   read_fields(table, flavour);
+  if (takes_a_name_of_ours(flavour)) {
+    table.complain("name", "`" + flavour.name +
+                               "` is built in with other values; give the flavour "
+                               "another name");
+  }
   table.finish();
   return flavour;
 }

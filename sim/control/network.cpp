@@ -16,7 +16,8 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::array kAllInputs = {NetworkInputs::Rvr, NetworkInputs::RvrGray, NetworkInputs::Rm12};
+constexpr std::array kAllInputs = {NetworkInputs::Rvr, NetworkInputs::RvrGray, NetworkInputs::Rm12,
+                                   NetworkInputs::Rm11};
 
 /// Slope of the output's sigmoid (NEAT 1.2.1; docs/methods.md).
 constexpr double kSlope = 4.924273;
@@ -63,12 +64,11 @@ double count_input(std::size_t count) {
   return count < kFew.size() ? kFew[count] : tanh_half(static_cast<double>(count));
 }
 
-/// The sum over neighbours of 1 / (1 + d), d in metres, in their directions; its length l becomes
-/// tanh(l / 2).
-Vector2 neighbour_vector(std::span<const Neighbour> neighbours) {
+/// The sum over neighbours of 1 / (1 + d) in their directions; its length l becomes tanh(l / 2).
+Vector2 neighbour_vector(std::span<const Neighbour> neighbours, double per_metre) {
   Vector2 sum;
   for (const Neighbour& neighbour : neighbours) {
-    const double strength = 1 / (1 + neighbour.distance_m);
+    const double strength = 1 / (1 + per_metre * neighbour.distance_m);
     sum.x += strength * neighbour.direction_x;
     sum.y += strength * neighbour.direction_y;
   }
@@ -91,6 +91,7 @@ void add_floor(NetworkInputs set, const Rgb& color, const FloorModel& model, Inp
       inputs.add(static_cast<double>(gray_level(color)) / kMostGray);
       return;
     case NetworkInputs::Rm12:
+    case NetworkInputs::Rm11:
       break;
   }
   const int gray = gray_level(color);
@@ -98,6 +99,24 @@ void add_floor(NetworkInputs set, const Rgb& color, const FloorModel& model, Inp
   if (model.black.contains(gray)) level = 0;
   if (model.white.contains(gray)) level = 1;
   inputs.add(level);
+}
+
+/// The single sensors of both rings.
+void add_strengths(Senses& senses, InputList& inputs) {
+  for (const double strength : senses.proximity())
+    inputs.add(strength);
+  for (const double strength : senses.light())
+    inputs.add(strength);
+}
+
+/// The inputs that all sets end with.
+InputValues with_neighbours(const Vector2& towards, Senses& senses, NetworkInputs set,
+                            InputList& inputs) {
+  inputs.add(count_input(static_cast<std::size_t>(senses.neighbour_count())));
+  add_projections(towards, inputs);
+  inputs.add(1);
+  SWARMSMITH_ASSERT(inputs.count == input_count(set), "a set of inputs is whole");
+  return inputs.values;
 }
 
 /// Whether any module of the flavour reads the ring of light sensors.
@@ -113,6 +132,8 @@ std::string_view name_of(NetworkInputs inputs) {
       return "rvr";
     case NetworkInputs::RvrGray:
       return "rvr-gray";
+    case NetworkInputs::Rm11:
+      return "rm1.1";
     case NetworkInputs::Rm12:
       break;
   }
@@ -127,12 +148,21 @@ std::optional<NetworkInputs> network_inputs_from(std::string_view name) {
 }
 
 std::vector<std::string> input_names(NetworkInputs inputs) {
-  std::vector<std::string> names = {"obstacle 45", "obstacle 135", "obstacle 225", "obstacle 315"};
+  std::vector<std::string> names;
+  if (inputs == NetworkInputs::Rm11) {
+    for (const char* ring : {"proximity ", "light "}) {
+      for (int i = 0; i < kProximitySensors; ++i)
+        names.push_back(ring + std::to_string(i));
+    }
+  } else {
+    names = {"obstacle 45", "obstacle 135", "obstacle 225", "obstacle 315"};
+  }
   const auto add = [&names](std::initializer_list<const char*> more) {
     names.insert(names.end(), more.begin(), more.end());
   };
   if (inputs == NetworkInputs::Rvr) add({"floor red", "floor green", "floor blue"});
   if (inputs == NetworkInputs::RvrGray) add({"floor grey"});
+  if (inputs == NetworkInputs::Rm11) add({"floor left", "floor centre", "floor right"});
   if (inputs == NetworkInputs::Rm12)
     add({"light 45", "light 135", "light 225", "light 315", "floor level"});
   add({"neighbour count", "neighbour 45", "neighbour 135", "neighbour 225", "neighbour 315",
@@ -146,6 +176,8 @@ std::size_t input_count(NetworkInputs inputs) {
       return 13;
     case NetworkInputs::RvrGray:
       return 11;
+    case NetworkInputs::Rm11:
+      return 25;
     case NetworkInputs::Rm12:
       break;
   }
@@ -164,6 +196,13 @@ std::optional<Error> check(const Network& network, const Flavour& flavour) {
   for (const double weight : network.weights) {
     if (!std::isfinite(weight))
       return Error{ErrorKind::BadInput, "a weight is a finite number", "--weights"};
+  }
+  if (network.inputs == NetworkInputs::Rm11 &&
+      flavour.obstacles.reading != ObstacleModel::Reading::AsSensed) {
+    return Error{ErrorKind::BadInput,
+                 "the inputs rm1.1 are strengths of single sensors, which the flavour " +
+                     flavour.name + " has not: take chocolate-epuck, or other inputs",
+                 "--network"};
   }
   if (network.inputs == NetworkInputs::Rm12 && !senses_light(flavour)) {
     return Error{ErrorKind::BadInput,
@@ -203,7 +242,7 @@ Expected<Network> parse_network(std::string_view text, const Flavour& flavour) {
   const auto set = network_inputs_from(inputs->value.text);
   if (!set) {
     return Unexpected(error_at(inputs->value, "no inputs " + quoted(inputs->value.text) +
-                                                  "; there are rvr, rvr-gray and rm1.2"));
+                                                  "; there are rvr, rvr-gray, rm1.2 and rm1.1"));
   }
   network.inputs = *set;
   std::string_view rest = weights->value.text;
@@ -241,7 +280,15 @@ InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& fla
   InputList inputs;
   const std::span<const Neighbour> neighbours = senses.neighbours();
   // Before the other sensors are read: its chain of operations is the longest.
-  const Vector2 towards = neighbour_vector(neighbours);
+  // The e-puck's programs count in centimetres (docs/methods.md), ours in metres.
+  const Vector2 towards =
+      neighbour_vector(neighbours, set == NetworkInputs::Rm11 ? flavour.neighbours.per_metre : 1);
+  if (set == NetworkInputs::Rm11) {
+    add_strengths(senses, inputs);
+    for (int i = 0; i < 3; ++i)
+      add_floor(set, senses.ground_color(), flavour.floor, inputs);
+    return with_neighbours(towards, senses, set, inputs);
+  }
   const bool counts = flavour.obstacles.neighbours_as_obstacles;
   add_projections(
       cut(obstacle_vector(senses.proximity(), counts ? neighbours : std::span<const Neighbour>(),
@@ -250,11 +297,7 @@ InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& fla
   if (set == NetworkInputs::Rm12)
     add_projections(cut(light_vector(senses.light(), flavour.light)), inputs);
   add_floor(set, senses.ground_color(), flavour.floor, inputs);
-  inputs.add(count_input(static_cast<std::size_t>(senses.neighbour_count())));
-  add_projections(towards, inputs);
-  inputs.add(1);
-  SWARMSMITH_ASSERT(inputs.count == input_count(set), "a set of inputs is whole");
-  return inputs.values;
+  return with_neighbours(towards, senses, set, inputs);
 }
 
 Command NetworkControl::step(Senses& senses) const {

@@ -22,16 +22,17 @@ enum class NetworkInputs {
   Rvr,      ///< 4 obstacles, 3 colour channels of the floor, count, 4 neighbours, bias
   RvrGray,  ///< the same with the floor's grey level in place of its colour
   Rm12,     ///< 4 obstacles, 4 light, floor in 3 levels, count, 4 neighbours, bias
+  Rm11,     ///< 8 proximity, 8 light, 3 times the floor in 3 levels, count, 4 neighbours, bias
 };
 
 inline constexpr std::size_t kWheels = 2;
 /// Weights of the search space are within these.
 inline constexpr double kMostWeight = 5;
 
-/// `rvr`, `rvr-gray` or `rm1.2`.
+/// `rvr`, `rvr-gray`, `rm1.2` or `rm1.1`.
 std::string_view name_of(NetworkInputs inputs);
 std::optional<NetworkInputs> network_inputs_from(std::string_view name);
-/// 13, 11 or 15, the bias included.
+/// 13, 11, 15 or 25, the bias included.
 std::size_t input_count(NetworkInputs inputs);
 /// Short names of the inputs, in order, for pictures and tables.
 std::vector<std::string> input_names(NetworkInputs inputs);
@@ -57,7 +58,7 @@ Expected<Network> parse_network(std::string_view text, const Flavour& flavour);
 std::string print_network(const Network& network, const Flavour& flavour);
 
 /// The inputs of one cycle, in order; the first `input_count` of them.
-inline constexpr std::size_t kMostInputs = 15;
+inline constexpr std::size_t kMostInputs = 25;
 using InputValues = std::array<double, kMostInputs>;
 InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& flavour);
 

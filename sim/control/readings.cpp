@@ -54,7 +54,7 @@ Vector2 light_by_law(const LightReadings& readings, const LightModel& model) {
   if (model.least_reading > 0 && strongest <= model.least_reading) return {};
   const Vector2 sum = sum_along(model.directions.value_or(kProximityDirections), strengths);
   if (!model.unit_vector) return sum;
-  // Readings that add up to nothing are a light ahead (e-puck facts, 3.2).
+  // Readings that add up to nothing are a light ahead (epuck facts, 3.2).
   const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
   return length > 0 ? Vector2{sum.x / length, sum.y / length} : Vector2{1, 0};
 }

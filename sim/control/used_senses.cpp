@@ -29,7 +29,8 @@ UsedSenses senses_used_by(const Controller& controller, const Flavour& flavour) 
                           used = {.proximity = true,
                                   .ground_color = true,
                                   .neighbours = true,
-                                  .light = network.inputs == NetworkInputs::Rm12};
+                                  .light = network.inputs == NetworkInputs::Rm12 ||
+                                           network.inputs == NetworkInputs::Rm11};
                         }},
              controller);
   return used;

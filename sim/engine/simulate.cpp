@@ -141,6 +141,7 @@ class Run {
                          .clock = RobotClock(profile_of(i).timing, run, i)});
       next_events_.push_back(agents_.back().next_event());
       agents_.back().senses.remember(sensors);
+      if (setup.flavour.floor.any_channel) agents_.back().senses.split_ground();
       if (slips_) grips_.push_back(grip_of_run(profile_of(i).treads, run, i));
       if (disturbs_) wheel_noises_.emplace_back(run, "wheels", i);
     }

@@ -14,7 +14,7 @@ namespace swarmsmith {
 /// The columns of the tables of the answer, one list a table: rows are written, read, summed and
 /// checked by these. tests/storage/columns_test.cpp compares them with the tables of each schema.
 
-struct Column {
+struct StoredColumn {
   std::string_view name;
   std::int64_t since = 1;  ///< the schema that brought it: NULL in stores of earlier ones
   /// Of an evaluation: what was scored, with which result (`row_check`); not the numbers that
@@ -25,7 +25,7 @@ struct Column {
 template <std::size_t N>
 struct TableColumns {
   std::string_view table;
-  std::array<Column, N> columns;
+  std::array<StoredColumn, N> columns;
 
   static constexpr std::size_t size() { return N; }
 
@@ -39,7 +39,7 @@ struct TableColumns {
   /// "candidate, purpose, NULL": for a SELECT from a store of the schema.
   std::string names(std::int64_t schema = kSchemaVersion) const {
     std::string text;
-    for (const Column& column : columns) {
+    for (const StoredColumn& column : columns) {
       if (!text.empty()) text += ", ";
       text += column.since <= schema ? column.name : "NULL";
     }
@@ -58,87 +58,92 @@ struct TableColumns {
   }
 };
 
+template <std::size_t N>
+TableColumns(std::string_view, std::array<StoredColumn, N>) -> TableColumns<N>;
+
 inline constexpr TableColumns kCandidateColumns{"candidate",
-                                                std::to_array<Column>({{"id"},
-                                                                       {"iteration"},
-                                                                       {"parent"},
-                                                                       {"states"},
-                                                                       {"transitions"},
-                                                                       {"modules"},
-                                                                       {"machine"},
-                                                                       {"parameters"},
-                                                                       {"code", 4},
-                                                                       {"module_code", 4}})};
+                                                std::to_array<StoredColumn>({{"id"},
+                                                                             {"iteration"},
+                                                                             {"parent"},
+                                                                             {"states"},
+                                                                             {"transitions"},
+                                                                             {"modules"},
+                                                                             {"machine"},
+                                                                             {"parameters"},
+                                                                             {"code", 4},
+                                                                             {"module_code", 4}})};
 
 inline constexpr TableColumns kPairColumns{
-    "pair", std::to_array<Column>({{"design"}, {"purpose"}, {"number"}, {"instance"}, {"seed"}})};
+    "pair",
+    std::to_array<StoredColumn>({{"design"}, {"purpose"}, {"number"}, {"instance"}, {"seed"}})};
 
 /// Without `iteration`, which comes and goes, and `row_check`.
 inline constexpr TableColumns kEvaluationColumns{
-    "evaluation", std::to_array<Column>({{.name = "candidate", .is_checked = true},
-                                         {.name = "purpose", .is_checked = true},
-                                         {.name = "pair", .is_checked = true},
-                                         {.name = "status", .is_checked = true},
-                                         {.name = "score", .is_checked = true},
-                                         {.name = "state_digest", .is_checked = true},
-                                         {.name = "source"},
-                                         {.name = "wall_us", .is_checked = true},
-                                         {.name = "worker"},
-                                         {.name = "attempt", .is_checked = true},
-                                         {.name = "time", .since = 2, .is_checked = true},
-                                         {.name = "bound", .since = 2, .is_checked = true}})};
+    "evaluation", std::to_array<StoredColumn>({{.name = "candidate", .is_checked = true},
+                                               {.name = "purpose", .is_checked = true},
+                                               {.name = "pair", .is_checked = true},
+                                               {.name = "status", .is_checked = true},
+                                               {.name = "score", .is_checked = true},
+                                               {.name = "state_digest", .is_checked = true},
+                                               {.name = "source"},
+                                               {.name = "wall_us", .is_checked = true},
+                                               {.name = "worker"},
+                                               {.name = "attempt", .is_checked = true},
+                                               {.name = "time", .since = 2, .is_checked = true},
+                                               {.name = "bound", .since = 2, .is_checked = true}})};
 
-inline constexpr TableColumns kIterationColumns{"iteration",
-                                                std::to_array<Column>({{"design"},
-                                                                       {"number"},
-                                                                       {"planned"},
-                                                                       {"budget"},
-                                                                       {"configurations"},
-                                                                       {"elites"},
-                                                                       {"soft_restart"},
-                                                                       {"model_digest"},
-                                                                       {"postselection", 2}})};
+inline constexpr TableColumns kIterationColumns{
+    "iteration", std::to_array<StoredColumn>({{"design"},
+                                              {"number"},
+                                              {"planned"},
+                                              {"budget"},
+                                              {"configurations"},
+                                              {"elites"},
+                                              {"soft_restart"},
+                                              {"model_digest"},
+                                              {"postselection", 2}})};
 
-inline constexpr TableColumns kRaceStepColumns{"race_step", std::to_array<Column>({{"design"},
-                                                                                   {"step"},
-                                                                                   {"iteration"},
-                                                                                   {"pair"},
-                                                                                   {"marker"},
-                                                                                   {"evaluated"},
-                                                                                   {"alive_before"},
-                                                                                   {"alive_after"},
-                                                                                   {"best"},
-                                                                                   {"mean_best"},
-                                                                                   {"used"},
-                                                                                   {"statistic"},
-                                                                                   {"p_value"},
-                                                                                   {"kendall_w"},
-                                                                                   {"spearman_rho"},
-                                                                                   {"qvar"},
-                                                                                   {"digest"},
-                                                                                   {"bound", 2}})};
+inline constexpr TableColumns kRaceStepColumns{"race_step",
+                                               std::to_array<StoredColumn>({{"design"},
+                                                                            {"step"},
+                                                                            {"iteration"},
+                                                                            {"pair"},
+                                                                            {"marker"},
+                                                                            {"evaluated"},
+                                                                            {"alive_before"},
+                                                                            {"alive_after"},
+                                                                            {"best"},
+                                                                            {"mean_best"},
+                                                                            {"used"},
+                                                                            {"statistic"},
+                                                                            {"p_value"},
+                                                                            {"kendall_w"},
+                                                                            {"spearman_rho"},
+                                                                            {"qvar"},
+                                                                            {"digest"},
+                                                                            {"bound", 2}})};
 
 inline constexpr TableColumns kEliminationColumns{
-    "elimination",
-    std::to_array<Column>({{"candidate"}, {"iteration"}, {"step"}, {"rank_sum"}, {"reason"}})};
+    "elimination", std::to_array<StoredColumn>(
+                       {{"candidate"}, {"iteration"}, {"step"}, {"rank_sum"}, {"reason"}})};
 
 inline constexpr TableColumns kEliteColumns{
-    "elite", std::to_array<Column>(
+    "elite", std::to_array<StoredColumn>(
                  {{"design"}, {"iteration"}, {"rank"}, {"candidate"}, {"mean"}, {"runs"}})};
 
 inline constexpr TableColumns kTotalsColumns{
     "candidate_totals",
-    std::to_array<Column>({{"candidate"}, {"runs"}, {"score_sum"}, {"score_squares"}})};
+    std::to_array<StoredColumn>({{"candidate"}, {"runs"}, {"score_sum"}, {"score_squares"}})};
 
 /// What a design's search says of it; its other columns are written once.
 inline constexpr TableColumns kDesignStateColumns{
     "design",
-    std::to_array<Column>(
+    std::to_array<StoredColumn>(
         {{"id"}, {"state"}, {"used"}, {"iteration"}, {"best"}, {"best_mean"}, {"reason"}})};
 
 inline constexpr TableColumns kCommandColumns{
     "command",
-    std::to_array<Column>(
+    std::to_array<StoredColumn>(
         {{"number", 3}, {"kind", 3}, {"design", 3}, {"step", 3}, {"budget", 3}, {"who", 3}})};
 
 }  // namespace swarmsmith

@@ -141,6 +141,7 @@ PairRow pair(const Statement& row) {
 /// Behind the table's columns: its iteration, and the name of its source.
 EvaluationRow evaluation(const Statement& row) {
   constexpr auto& kAll = kEvaluationColumns;
+  static_assert(kAll.size() == 12, "a new column is read here");
   return {.key = key_at(row, kAll.at("candidate")),
           .iteration = row.integer(kAll.size()),
           .status = status_at(row, kAll.at("status")),
@@ -259,6 +260,7 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const 
 
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part) {
   constexpr auto& kAll = kEvaluationColumns;
+  static_assert(kAll.size() == 12, "a new column is read here, if a resumed campaign needs it");
   std::vector<StoredScore> scores;
   Statement row(connection, "SELECT " + kAll.names(schema_of(connection)) +
                                 ", iteration FROM evaluation WHERE " +

@@ -162,7 +162,7 @@ std::int64_t remove_changed_evaluations(sqlite::Connection& connection) {
   using Key = std::array<std::int64_t, 3>;
   std::vector<Key> changed;
   std::string checked = fmt::format("(candidate - 1) % {}", kCandidatesPerDesign);
-  for (const Column& column : kEvaluationColumns.columns)
+  for (const StoredColumn& column : kEvaluationColumns.columns)
     if (column.is_checked && column.name != "candidate") checked += ", " + std::string(column.name);
   Statement row(connection, "SELECT " + checked +
                                 ", row_check, candidate FROM evaluation"

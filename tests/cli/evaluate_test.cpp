@@ -173,10 +173,56 @@ TEST(Evaluate, TakesMissionAndProfileFromFiles) {
   EXPECT_THAT(wrong.err, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
 }
 
+TEST(Evaluate, TakesAFlavourFromAFile) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "mine.toml").string();
+  ASSERT_EQ(run({"flavour", "watermelon", "-o", file}).code, 0);
+  const auto evaluate = [](const std::string& machine, const std::string& flavour) {
+    return run({"evaluate", machine, "--flavour", flavour, "--mission", "grid_exploration",
+                "--seeds", "4", "--json"});
+  };
+  const Ran same = evaluate(kExploreText, file);
+  ASSERT_EQ(same.code, 0) << same.err;
+  EXPECT_EQ(lines_of(same.out)[0]["score"], score_of("grid_exploration", 4));
+  write_file(folder / "mine.toml", "format = 1\nbase = \"watermelon\"\nspeed_mps = 0.1\n");
+  EXPECT_NE(lines_of(evaluate(kExploreText, file).out)[0]["score"],
+            score_of("grid_exploration", 4));
+  write_file(folder / "mine.toml",
+             "format = 1\nbase = \"watermelon\"\n[behaviours]\n"
+             "wave = { number = 9, kind = \"external\" }\n");
+  const Ran external = evaluate("--nstates 1 --s0 9", file);
+  EXPECT_EQ(external.code, 2);
+  EXPECT_THAT(external.err, HasSubstr("the module wave of the flavour mine is external"));
+  const Ran robot = evaluate("--nstates 1 --s0 1", "chocolate-epuck");
+  EXPECT_EQ(robot.code, 2);
+  EXPECT_THAT(robot.err, HasSubstr("needs a robot with the reference model rm1.2"));
+  write_file(folder / "mine.toml", "format = 1\nbase = \"watermelon\"\nstates = 20\n");
+  EXPECT_THAT(evaluate(kExploreText, file).err,
+              HasSubstr("mine.toml:3:10: `states` must be from 1 to 16, this is 20"));
+}
+
+TEST(Flavours, AreListedPrintedAndWrittenButNotOver) {
+  EXPECT_THAT(run({"flavour"}).out, testing::StartsWith("watermelon\nwatermelon-argos3\n"));
+  EXPECT_THAT(run({"flavour", "chocolate"}).out, HasSubstr("[behaviours]\n"));
+  EXPECT_EQ(json::parse(run({"flavour", "--json"}).out)["flavours"].size(), all_flavours().size());
+  const json listed = json::parse(run({"ls", "flavours", "--json"}).out);
+  EXPECT_EQ(listed["rows"].size(), all_flavours().size());
+  EXPECT_EQ(listed["rows"][0]["flavour"], "watermelon");
+  EXPECT_EQ(listed["rows"][0]["states"], 4);
+  const TemporaryFolder folder;
+  const std::string file = (folder / "f.toml").string();
+  EXPECT_EQ(run({"flavour", "chocolate", "-o", file}).code, 0);
+  EXPECT_EQ(run({"flavour", "chocolate", "-o", file}).code, 2);
+  EXPECT_THAT(run({"flavour", file}).out, HasSubstr("reference = \"rvr\""));
+  EXPECT_THAT(run({"flavour", "chocolat"}).err, HasSubstr("did you mean \"chocolate\"?"));
+}
+
 TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
-  EXPECT_EQ(run({"profile"}).out, "rvr\nargos3\npseudo-reality\nthesis-robots\n");
+  EXPECT_EQ(run({"profile"}).out,
+            "rvr\nargos3\npseudo-reality\nthesis-robots\nepuck\nepuck-ideal\n"
+            "epuck-pseudo-reality\n");
   EXPECT_THAT(run({"profile", "pseudo-reality"}).out, HasSubstr("jitter = 0.05"));
-  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 4U);
+  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 7U);
   const TemporaryFolder folder;
   const std::string file = (folder / "p.toml").string();
   EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 0);

@@ -171,7 +171,7 @@ ROOMS = ("analysis", "base", "benchmarks", "cli", "console", "coordinator", "doc
          "proto", "sim", "storage", "tests", "tracking", "worker")
 # Decisions and the changelog tell of their time; builds, readers of how-tos and tests make some files.
 HISTORY = ("docs/decisions/", "docs/reference/", "CHANGELOG.md")
-MADE = re.compile(r".*\.pb\.h|sim/mission/scores/(spread|KIND)\.|sim/mission/score_rule\.h|storage/internal/schema_files\.h|cli/commands/simulated_figures\.h|irace_core/search/searches\.h|sim/control/modules?\.h|sim/control/(behaviours|conditions)/KIND\.|irace_core/search/halving\.(cpp|h)|examples/missions/x\.toml")
+MADE = re.compile(r".*\.pb\.h|sim/mission/scores/(spread|KIND)\.|sim/mission/score_rule\.h|storage/internal/schema_files\.h|storage/schema/NNNN_name\.sql|cli/commands/simulated_figures\.h|irace_core/search/searches\.h|sim/control/modules?\.h|sim/control/conditions/obstacle_ahead\.h|irace_core/search/halving\.(cpp|h)|examples/missions/x\.toml")
 
 
 def wrong_paths(text, files):

@@ -22,7 +22,8 @@ RUN_BY = {
     "docs/thesis.md": "examples/thesis/make",  # which writes the page; takes half an hour
 }
 #: Pages that begin in an empty folder, and those with the stores demo.db and campaign.db.
-FROM_NOTHING = ("assessment", "cluster", "missions", "profiles", "tutorial-cluster", "tutorial-mission", "tutorial-paper")
+FROM_NOTHING = ("assessment", "cluster", "flavours", "missions", "profiles", "tutorial-cluster", "tutorial-mission",
+                "tutorial-paper")
 WITH_STORES = ("figures", "machines", "report", "storage", "trajectories")
 ALONE = ("coming-from-irace", "tutorial-real-run")
 CAMPAIGN = """\

@@ -91,10 +91,11 @@ name = "own"
 ?
 proximity = { ? }
 ground_color = { labels = ["red"], ? }
+light = { ? }
 lidar = { ? }
 neighbours = { ? }
 timing = { delays = [ { time = "10 ms", ? } ], ? }
-treads = { ? }
+treads = { sd = { run = [0, 0.1], ? }, ? }
 tracking = { ? }
 [tests]
 ?

@@ -1,5 +1,5 @@
 """The programs and tests, built from a copy of the sources that has what the how-tos add: the new kind of score of
-docs/missions.md and the new search of docs/methods.md, and nothing else. Long: it compiles them all."""
+docs/missions.md, the new search of docs/methods.md and the new condition of docs/flavours.md, and nothing else. Long: it compiles them all."""
 import os
 import pathlib
 import re
@@ -13,6 +13,7 @@ from page_files import files_of, follow
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 MISSIONS = SOURCE / "docs/missions.md"
 METHODS = SOURCE / "docs/methods.md"
+FLAVOURS = SOURCE / "docs/flavours.md"
 LIST = "sim/mission/CMakeLists.txt"
 FOLDERS = ["cmake", *re.findall(r"^ *add_subdirectory\((\w+)\)", (SOURCE / "CMakeLists.txt").read_text(), re.M)]
 
@@ -71,6 +72,7 @@ class Programs(unittest.TestCase):
                 assert len(text.splitlines()) == len(old.splitlines()) + 1
             (cls.folder / path).write_text(text)
         follow(METHODS, cls.folder)
+        follow(FLAVOURS, cls.folder)
 
     def run_campaign(self, store, workers=1, **keys):
         text = CAMPAIGN.format(**{"mission": "aggregation", "score": "", "method": "", "budget": 1350, **keys})
@@ -87,6 +89,14 @@ class Programs(unittest.TestCase):
         least, most = map(float, self.row("score.db", "SELECT min(score), max(score) FROM evaluation"))
         self.assertLess(least, most)
         self.assertLessEqual(most, 0)
+
+    def test_know_the_condition(self):
+        machine = "--nstates 2 --s0 0 --rwm0 5 --n0 1 --n0x0 0 --c0x0 6 --p0x0 1 --s1 1"
+        said = self.call(self.swarmsmith, "evaluate", machine, "--flavour", "chocolate", "--mission", "aggregation",
+                         "--seeds", "1", "--csv", "-")
+        # Robots explore until something is in front of them, and stop for good.
+        self.assertEqual({row.split(",")[9] for row in said.splitlines()[-3:]}, {"stop"})
+        self.assertIn(",exploration,", said)
 
     def test_know_the_search(self):
         self.assertIn("EverySearch", self.call("build/bin/search_test"))  # halving is one of them

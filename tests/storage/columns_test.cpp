@@ -36,7 +36,7 @@ class Columns : public ::testing::TestWithParam<std::int64_t> {
   template <std::size_t N>
   void expect(const TableColumns<N>& listed, std::vector<std::string> others = {}) {
     std::vector<std::string> left = columns_in(listed.table);
-    for (const Column& column : listed.columns) {
+    for (const StoredColumn& column : listed.columns) {
       const bool is_there = std::erase(left, column.name) > 0;
       EXPECT_EQ(is_there, column.since <= GetParam()) << listed.table << "." << column.name;
     }

@@ -258,10 +258,11 @@ TEST_F(ViewsTest, TakeMachinesApart) {
 struct MachineViewsTest : testing::Test {
   TemporaryFolder folder;
   std::unique_ptr<StoreReader> reader;
+  std::string file;  ///< the campaign's text
 
   void store(const std::vector<std::pair<std::string, std::string>>& flavours_and_texts) {
     SyntheticCampaign made;
-    made.campaign = {.name = "machines", .digest = "d", .deciding = "{}", .file = "", .seed = 1};
+    made.campaign = {.name = "machines", .digest = "d", .deciding = "{}", .file = file, .seed = 1};
     std::vector<Row> rows;
     for (const auto& [flavour, text] : flavours_and_texts) {
       const DesignId id{static_cast<std::int64_t>(made.designs.size()) + 1};
@@ -414,6 +415,32 @@ TEST_F(MachineViewsTest, KnowTheNumbersOfEveryFlavour) {
           {flavour->name, "l", std::to_string(spec.number), std::string(name_of(spec.label))});
   }
   EXPECT_THAT(all("SELECT * FROM flavour_name"), testing::UnorderedElementsAreArray(names));
+}
+
+TEST_F(MachineViewsTest, KnowTheModulesOfAFlavourOfTheCampaignsOwn) {
+  file =
+      "format = 1\n[[method]]\nname = \"m\"\n[method.flavour]\nname = \"mine\"\n"
+      "base = \"watermelon\"\nstates = 16\n[method.flavour.behaviours]\nstop = { number = 3 }\n"
+      "exploration = { number = 0 }\n"
+      "wave = { number = 12, kind = \"external\", parameters = [\n"
+      "{ name = \"speed\", token = \"vel\", type = \"real\", range = [0, 1] } ] }\n";
+  std::string text = "--nstates 12";
+  for (int i = 0; i < 12; ++i) {
+    const std::string own = std::to_string(i);
+    text += " --s" + own +
+            (i == 1    ? " 3"
+             : i == 11 ? " 12 --vel11 0.5"
+                       : " 0 --rwm" + own + " 4") +
+            " --n" + own + " 1 --n" + own + "x0 10 --c" + own + "x0 5 --p" + own + "x0 0.25";
+  }
+  store({{"mine", text}});
+  EXPECT_THAT(all("SELECT state, behaviour, parameter FROM v_states WHERE state IN (0, 1, 10, 11) "
+                  "ORDER BY state"),
+              ElementsAre(Cells{"0", "exploration", "4"}, Cells{"1", "stop", "NULL"},
+                          Cells{"10", "exploration", "4"}, Cells{"11", "wave", "0.5"}));
+  EXPECT_THAT(all("SELECT module, occurrences FROM v_modules ORDER BY module"),
+              ElementsAre(Cells{"exploration", "10"}, Cells{"fixed_probability", "12"},
+                          Cells{"stop", "1"}, Cells{"wave", "1"}));
 }
 
 TEST_F(MachineViewsTest, AgreeWithTheProgramsOnMachinesAtRandom) {

@@ -84,7 +84,7 @@ std::vector<Interval> intervals_of(std::span<const Sample> seen) {
   return intervals;
 }
 
-struct Robot {
+struct LoggedRobot {
   std::vector<Interval> seen;
   Told way;
   Told turn;
@@ -96,13 +96,13 @@ struct Fit {
   double correlation = 0;
 };
 
-Fit fit_of(const std::vector<Robot>& robots, double rate, double shift_s) {
+Fit fit_of(const std::vector<LoggedRobot>& robots, double rate, double shift_s) {
   std::array<double, 2> told{};
   std::array<double, 2> seen{};
   std::array<double, 2> both{};
   double count = 0;
   double length = 0;
-  for (const Robot& robot : robots) {
+  for (const LoggedRobot& robot : robots) {
     for (const Interval& one : robot.seen) {
       const double from = rate * one.from_s - shift_s;
       const double to = rate * one.to_s - shift_s;
@@ -135,7 +135,7 @@ struct Best {
 };
 
 /// At one rate, over all shifts.
-Fit best_fit(const std::vector<Robot>& robots, double rate, double start_s) {
+Fit best_fit(const std::vector<LoggedRobot>& robots, double rate, double start_s) {
   Fit best{-1e300, 0};
   const double stretched_s = (1 - rate) * start_s;
   for (double shift = kLeastShift_s; shift < kMostShift_s + kTable_s; shift += kPeriod_s) {
@@ -148,7 +148,7 @@ Fit best_fit(const std::vector<Robot>& robots, double rate, double start_s) {
   return best;
 }
 
-Best best_of(const std::vector<Robot>& robots, double start_s, double least, double most,
+Best best_of(const std::vector<LoggedRobot>& robots, double start_s, double least, double most,
              double step) {
   Best best{1, {-1e300, 0}};
   for (double rate = least; rate <= most; rate *= 1 + step) {
@@ -162,12 +162,12 @@ Best best_of(const std::vector<Robot>& robots, double start_s, double least, dou
 
 FilmRate film_rate(std::span<const ToldAndSeen> all, double start_s) {
   constexpr std::size_t kLeastIntervals = 50;
-  std::vector<Robot> robots;
+  std::vector<LoggedRobot> robots;
   FilmRate found;
   double end_s = 0;
   for (const ToldAndSeen& one : all) {
     if (one.commands.empty()) continue;
-    Robot robot{intervals_of(one.seen), Told(one.commands, false), Told(one.commands, true)};
+    LoggedRobot robot{intervals_of(one.seen), Told(one.commands, false), Told(one.commands, true)};
     if (robot.seen.size() < kLeastIntervals) continue;
     end_s = std::max(end_s, one.commands.back().time_s);
     robots.push_back(std::move(robot));

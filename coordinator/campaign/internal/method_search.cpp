@@ -170,8 +170,10 @@ void read_numbers(TableReader& table, Method& method) {
 void read_network(TableReader& table, Method& method) {
   const bool is_network = method.architecture == Architecture::Network;
   const auto flavour = flavour_of(method);
+  const bool has_strengths =
+      flavour && (*flavour)->obstacles.reading == ObstacleModel::Reading::AsSensed;
   if (flavour && (*flavour)->find(Module::Phototaxis) != nullptr)
-    method.inputs = NetworkInputs::Rm12;
+    method.inputs = has_strengths ? NetworkInputs::Rm11 : NetworkInputs::Rm12;
   table.take("network");
   if (!table.has("network")) return;
   if (!is_network) {
@@ -182,15 +184,20 @@ void read_network(TableReader& table, Method& method) {
   }
   auto network = table.table("network");
   if (!network) return;
-  static const std::vector<std::string> kInputs = {std::string(name_of(NetworkInputs::Rvr)),
-                                                   std::string(name_of(NetworkInputs::RvrGray)),
-                                                   std::string(name_of(NetworkInputs::Rm12))};
+  static const std::vector<std::string> kInputs = {
+      std::string(name_of(NetworkInputs::Rvr)), std::string(name_of(NetworkInputs::RvrGray)),
+      std::string(name_of(NetworkInputs::Rm12)), std::string(name_of(NetworkInputs::Rm11))};
   if (const auto inputs = network->choice("inputs", kInputs)) {
     method.inputs = *network_inputs_from(*inputs);
     if (method.inputs == NetworkInputs::Rm12 && flavour &&
         (*flavour)->find(Module::Phototaxis) == nullptr) {
       network->complain("inputs", "the inputs rm1.2 read light sensors, which the flavour " +
                                       method.flavour + " has not: take rvr or rvr-gray");
+    }
+    if (method.inputs == NetworkInputs::Rm11 && flavour && !has_strengths) {
+      network->complain("inputs",
+                        "the inputs rm1.1 are strengths of single sensors, which the flavour " +
+                            method.flavour + " has not: take other inputs");
     }
   }
   if (const auto most = network->number("most_weight", {0.01, 1000})) method.most_weight = *most;

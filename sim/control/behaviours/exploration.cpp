@@ -82,7 +82,7 @@ Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
   return sum.y < 0 ? Turn::Left : Turn::Right;
 }
 
-/// The front says whether, the sum of all readings away from which side (e-puck facts, 5.2.1).
+/// The front says whether, the sum of all readings away from which side (epuck facts, 5.2.1).
 Turn turn_from_front_by_sum(Senses& senses, const Flavour& flavour) {
   if (turn_from_front(senses, flavour) == Turn::None) return Turn::None;
   const Vector2 sum = obstacle_sum(

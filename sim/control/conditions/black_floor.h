@@ -20,7 +20,7 @@ struct BlackFloor {
     visitor(beta_parameter(), self.probability);
   }
   double enabling(const FloorReading& floor, const Flavour& flavour) const {
-    return flavour.floor.black.contains(gray_level(floor.color)) ? probability : 0.0;
+    return flavour.floor.sees(flavour.floor.black, floor.color) ? probability : 0.0;
   }
   friend bool operator==(const BlackFloor&, const BlackFloor&) = default;
 };

@@ -20,7 +20,7 @@ struct GrayFloor {
     visitor(beta_parameter(), self.probability);
   }
   double enabling(const FloorReading& floor, const Flavour& flavour) const {
-    return flavour.floor.gray.contains(gray_level(floor.color)) ? probability : 0.0;
+    return flavour.floor.sees(flavour.floor.gray, floor.color) ? probability : 0.0;
   }
   friend bool operator==(const GrayFloor&, const GrayFloor&) = default;
 };

@@ -20,7 +20,7 @@ struct WhiteFloor {
     visitor(beta_parameter(), self.probability);
   }
   double enabling(const FloorReading& floor, const Flavour& flavour) const {
-    return flavour.floor.white.contains(gray_level(floor.color)) ? probability : 0.0;
+    return flavour.floor.sees(flavour.floor.white, floor.color) ? probability : 0.0;
   }
   friend bool operator==(const WhiteFloor&, const WhiteFloor&) = default;
 };

@@ -99,6 +99,7 @@ void visit_flavour_fields(AnyFlavour& flavour, Visitor& visitor) {
   visitor.number("hue_tolerance_deg", flavour.floor.hue_tolerance_deg, FlavourLimits{0, 360});
   visitor.flag("hue_wraps", flavour.floor.hue_wraps);
   visitor.number("saturation_tolerance", flavour.floor.saturation_tolerance, kLength);
+  visitor.flag("any_channel", flavour.floor.any_channel);
 }
 
 }  // namespace swarmsmith

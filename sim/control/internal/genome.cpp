@@ -120,12 +120,16 @@ class GenomeReader {
                    "; networks without a hidden layer are read, as EvoStick, CMA-ES and xNES make "
                    "them"));
     }
-    Network network{.inputs = NetworkInputs::Rm12, .weights = {}};
+    const bool has_single_sensors = inputs_.size() == input_count(NetworkInputs::Rm11);
+    Network network{.inputs = has_single_sensors ? NetworkInputs::Rm11 : NetworkInputs::Rm12,
+                    .weights = {}};
     const std::size_t count = input_count(network.inputs);
     if (inputs_.size() != count) {
       return Unexpected(error_at(end, "a genome of " + std::to_string(inputs_.size()) +
-                                          " inputs; those of rm1.2 are read, which are " +
-                                          std::to_string(count) + " with the bias"));
+                                          " inputs; those of rm1.2 and rm1.1 are read, which are " +
+                                          std::to_string(count) + " and " +
+                                          std::to_string(input_count(NetworkInputs::Rm11)) +
+                                          " with the bias"));
     }
     if (!has_bias_)
       return Unexpected(error_at(end, "the last input of the genome is no bias, as that of rm1.2"));

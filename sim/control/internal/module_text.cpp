@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 
 namespace swarmsmith {
 namespace {
@@ -89,7 +90,10 @@ void append_parameters(std::string& text, const ModuleSpec& spec, const std::vec
         if (static_cast<double>(label.label) == values[i]) value = label.number;
       }
     }
-    append_switch(text, spec.parameters[i].token, suffix, shortest(value));
+    // The shortest form of 100,000 is 1e+05, which is no integer.
+    const bool is_real = spec.parameters[i].type == ParameterSpec::Type::Real;
+    append_switch(text, spec.parameters[i].token, suffix,
+                  is_real ? shortest(value) : std::to_string(static_cast<std::int64_t>(value)));
   }
 }
 

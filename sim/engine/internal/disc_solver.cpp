@@ -21,9 +21,9 @@ namespace swarmsmith {
 namespace {
 
 constexpr int kRounds = 10;
-/// Rounds end early when nothing changes its impulse by more, N s: a thousandth of what the e-puck's
-/// drive gives in a sub-step. The next sub-step goes on from there.
-constexpr double kSettled_Ns = 1.5e-5;
+/// Rounds end early when nothing changes its impulse by more, N s: a ten thousandth of what the
+/// e-puck's drive gives in a sub-step. The next sub-step goes on from there.
+constexpr double kSettled_Ns = 1.5e-6;
 constexpr std::uint64_t kWallBit = std::uint64_t{1} << 31U;
 constexpr std::uint64_t kObstacleBit = std::uint64_t{1} << 30U;
 
@@ -119,6 +119,12 @@ class DiscSolver final : public ContactSolver {
   void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) override {
     if (islands.empty() && memory_.empty()) return;
     states_.resize(movers.size() + 1);
+    // All are robots of one kind.
+    dynamics_ = movers.front().dynamics();
+    inverse_mass_ = 1 / dynamics_.mass_kg;
+    inverse_inertia_ = 1 / dynamics_.inertia_kg_m2;
+    most_Ns_ = dynamics_.max_force_N * kSubStep_s;
+    most_Nms_ = dynamics_.max_torque_Nm * kSubStep_s;
     fresh_.clear();
     for (const Island& island : islands) {
       recall(island);
@@ -250,7 +256,7 @@ class DiscSolver final : public ContactSolver {
       for (DiscContact& contact : contacts_)
         change = std::max(change, relax(contact, states_[contact.a], states_[contact.b]));
       for (const std::size_t i : active_)
-        change = std::max(change, relax_drive(movers[i], states_[i]));
+        change = std::max(change, relax_drive(movers[i].set_point, states_[i]));
     }
   }
 
@@ -260,8 +266,8 @@ class DiscSolver final : public ContactSolver {
     for (const std::size_t i : active_) {
       const Body& body = movers[i].body;
       DiscState& state = states_[i];
-      state.inverse_mass = 1 / movers[i].dynamics().mass_kg;
-      state.inverse_inertia = 1 / movers[i].dynamics().inertia_kg_m2;
+      state.inverse_mass = inverse_mass_;
+      state.inverse_inertia = inverse_inertia_;
       state.vx = body.vx + state.drive_x_Ns * state.inverse_mass;
       state.vy = body.vy + state.drive_y_Ns * state.inverse_mass;
       state.spin = body.spin + state.drive_twist_Nms * state.inverse_inertia;
@@ -319,21 +325,18 @@ class DiscSolver final : public ContactSolver {
   }
 
   /// One round for one drive: towards the set-point, its whole impulse within the limit.
-  static double relax_drive(const Mover& mover, DiscState& state) {
-    const Dynamics& dynamics = mover.dynamics();
-    double x = state.drive_x_Ns + dynamics.mass_kg * (mover.set_point.vx - state.vx);
-    double y = state.drive_y_Ns + dynamics.mass_kg * (mover.set_point.vy - state.vy);
-    const double most_Ns = dynamics.max_force_N * kSubStep_s;
+  double relax_drive(const SetPoint& set_point, DiscState& state) const {
+    double x = state.drive_x_Ns + dynamics_.mass_kg * (set_point.vx - state.vx);
+    double y = state.drive_y_Ns + dynamics_.mass_kg * (set_point.vy - state.vy);
     const double size2 = x * x + y * y;
-    if (size2 > most_Ns * most_Ns) {
-      const double scale = most_Ns / std::sqrt(size2);
+    if (size2 > most_Ns_ * most_Ns_) {
+      const double scale = most_Ns_ / std::sqrt(size2);
       x *= scale;
       y *= scale;
     }
-    const double most_Nms = dynamics.max_torque_Nm * kSubStep_s;
-    const double twist = std::clamp(
-        state.drive_twist_Nms + dynamics.inertia_kg_m2 * (mover.set_point.spin - state.spin),
-        -most_Nms, most_Nms);
+    const double twist =
+        std::clamp(state.drive_twist_Nms + dynamics_.inertia_kg_m2 * (set_point.spin - state.spin),
+                   -most_Nms_, most_Nms_);
     const double change =
         std::max(std::fabs(x - state.drive_x_Ns), std::fabs(y - state.drive_y_Ns));
     state.vx += (x - state.drive_x_Ns) * state.inverse_mass;
@@ -348,6 +351,11 @@ class DiscSolver final : public ContactSolver {
   const Surroundings* surroundings_;
   double robot_friction_;
   double wall_friction_;
+  Dynamics dynamics_;
+  double inverse_mass_ = 0;
+  double inverse_inertia_ = 0;
+  double most_Ns_ = 0;  ///< of a drive in a sub-step
+  double most_Nms_ = 0;
   std::vector<DiscContact> contacts_;  ///< of this sub-step
   std::vector<DiscContact> before_;    ///< of the last one
   std::vector<DiscContact> memory_;    ///< of all islands at the end of the last call, by id

@@ -37,6 +37,11 @@ double gap_along_normals(const Form& form, const Body& at, const Form& other,
 
 double gap_between(const Form& form, const Body& at, const Form& other, const Body& other_at) {
   if (form.is_rvr && other.is_rvr) return gap_between(at, other_at);
+  if (form.is_circle() && other.is_circle()) {
+    const double dx = other_at.x - at.x;
+    const double dy = other_at.y - at.y;
+    return std::sqrt(dx * dx + dy * dy) - form.radius_m - other.radius_m;
+  }
   double gap = std::max(gap_along_normals(form, at, other, other_at),
                         gap_along_normals(other, other_at, form, at));
   if (form.is_circle() || other.is_circle()) {

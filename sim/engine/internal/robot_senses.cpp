@@ -204,6 +204,13 @@ void RobotSenses::count_votes() {
   }
   blur_strengths(std::span(levels).first(count), profile_->ground_color.half_width, ground_noise_,
                  cycle_.number);
+  if (splits_ground_) {
+    const auto channel = [&](std::size_t index) {
+      return noisy_channel(0, 255 * levels[std::min(index, count - 1)]);
+    };
+    readings_.ground_color = {channel(0), channel(1), channel(2)};
+    return;
+  }
   Votes now;
   for (std::size_t i = 0; i < count; ++i) {
     now.black += levels[i] < sensor.black_below ? 1 : 0;
@@ -275,24 +282,9 @@ void RobotSenses::receive_packets() {
   int& oldest = packets_[static_cast<std::size_t>(cycle_.number) % packets_.size()];
   known.erase(known.begin(), known.begin() + oldest);
   heard_ = 0;
-  // Sixteen bits of the stream decide on a packet, so that four senders share one of its numbers.
-  const auto lost_below = static_cast<std::uint64_t>(std::lround(neighbour_miss_rate_ * 65'536));
-  const auto groups = static_cast<std::uint64_t>(world_->robots() + 3) / 4;
-  const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * groups;
-  std::uint64_t group = groups;
-  std::uint64_t bits = 0;
-  const auto is_lost = [&](int other) {
-    const auto sender = static_cast<std::uint64_t>(other);
-    if (sender / 4 != group) {
-      group = sender / 4;
-      bits = neighbour_misses_.at(first + group).next();
-    }
-    return (bits >> (16 * (sender % 4)) & 0xffffU) < lost_below;
-  };
   const auto take = [&](int other) {
-    if (other == robot_ || other >= world_->robots()) return;
-    if (lost_below > 0 && is_lost(other)) return;
-    if (world_->distance2(robot_, other) >= radio.range_m * radio.range_m) return;
+    if (other == robot_ || world_->distance2(robot_, other) >= radio.range_m * radio.range_m)
+      return;
     if (sight_.is_hidden(robot_, other, between_)) return;
     const Neighbour heard = neighbour_of(*world_, robot_, other);
     // The e-puck's reference model takes a bearing of exactly 0 for no packet (epuck facts, 4.1).
@@ -300,13 +292,17 @@ void RobotSenses::receive_packets() {
     known.push_back(heard);
     ++heard_;
   };
-  // Of few robots, most are lost before it matters where they are.
-  constexpr int kFew = 64;
-  if (world_->robots() <= kFew) {
-    for (int other = 0; other < world_->robots(); ++other)
-      take(other);
-  } else {
-    world_->visit_near(robot_, radio.range_m, room_, take);
+  // Sixteen bits of the stream decide on a packet, so that four senders share one of its numbers.
+  const auto lost_below = static_cast<std::uint64_t>(std::lround(neighbour_miss_rate_ * 65'536));
+  const int robots = world_->robots();
+  const auto groups = static_cast<std::uint64_t>(robots + 3) / 4;
+  const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * groups;
+  for (int group = 0; group < robots; group += 4) {
+    // Most are lost before it matters where they are.
+    std::uint64_t bits = neighbour_misses_.at(first + static_cast<std::uint64_t>(group) / 4).next();
+    for (int other = group; other < std::min(group + 4, robots); ++other, bits >>= 16U) {
+      if ((bits & 0xffffU) >= lost_below) take(other);
+    }
   }
   oldest = heard_;
 }

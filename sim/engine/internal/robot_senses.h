@@ -40,6 +40,10 @@ class RobotSenses final : public SimulatedSenses {
   /// with all that will be asked for. Others are read when asked for.
   void remember(Sensors sensors);
 
+  /// From now on ground sensors that vote give their own grey levels of the cycle instead, as the
+  /// channels of the colour (epuck facts, section 5.2.1).
+  void split_ground() { splits_ground_ = true; }
+
   /// A control cycle of this robot.
   struct Cycle {
     std::int64_t number = 0;  ///< counts from 1
@@ -130,6 +134,7 @@ class RobotSenses final : public SimulatedSenses {
   std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
 
   Sensors remembered_;
+  bool splits_ground_ = false;
   /// How many points were black, and white, in each of the last cycles, and in all of them.
   struct Votes {
     int black = 0;

@@ -71,7 +71,7 @@ inline Machine random_machine(Rng& rng, int states) {
   Machine machine;
   for (int i = 0; i < states; ++i) {
     State state{.behaviour = random_behaviour(rng), .transitions = {}};
-    const auto transitions = states == 1 ? 0 : rng.uniform_int(1, kMaxTransitions);
+    const auto transitions = states == 1 ? 0 : rng.uniform_int(1, watermelon().most_transitions);
     for (int j = 0; j < transitions; ++j) {
       const auto other = static_cast<int>(rng.uniform_int(0, states - 2));
       state.transitions.push_back({random_condition(rng), other < i ? other : other + 1});

@@ -83,6 +83,27 @@ TEST(Scenarios, GiveBackTheMethods) {
   EXPECT_EQ(read_back(some_scenario())->methods, some_scenario().methods);
 }
 
+TEST(Scenarios, HaveAFlavourThatIsNotBuiltInWhole) {
+  Flavour mine = watermelon();
+  mine.name = "mine";
+  mine.speed_mps = 0.2;
+  WorkerScenario scenario = some_scenario();
+  const std::string before = to_bytes({scenario});
+  scenario.methods.front() = {
+      .flavour = mine.name, .turn_clock = TurnClock::Cycles, .own_flavour = kept_flavour(mine)};
+  const auto read = read_back(scenario);
+  ASSERT_TRUE(read.has_value()) << to_string(read.error());
+  EXPECT_EQ(read->methods, scenario.methods);
+  EXPECT_EQ(*read->methods.front().own_flavour, mine);
+  EXPECT_NE(to_bytes({scenario}), before);
+  pb::PoolScenario message;
+  ASSERT_TRUE(message.ParseFromString(to_bytes({scenario})));
+  message.mutable_campaigns(0)->mutable_methods(0)->set_own_flavour("format = 1\nspeed_mps = -1\n");
+  const auto wrong = scenarios_from_bytes(message.SerializeAsString());
+  ASSERT_FALSE(wrong.has_value());
+  EXPECT_THAT(to_string(wrong.error()), HasSubstr("methods[0].own_flavour: mine.toml:2:13"));
+}
+
 TEST(Scenarios, AreTheSameBytesForTheSameScenario) {
   EXPECT_EQ(to_bytes({some_scenario()}), to_bytes({some_scenario()}));
 }

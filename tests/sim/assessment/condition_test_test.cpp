@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
+#include "sim/assessment/internal/checks.h"
 #include "sim/control/readings.h"
 #include "sim/files/profile_file.h"
 
@@ -72,6 +74,25 @@ TEST(ForEachCycle, TestsNothingInTheFirstCycleOfAState) {
     ASSERT_EQ(cycle.state, number / 2 % 2);
   });
   EXPECT_EQ(cycles[0], kConditionRuns * kCycles);
+}
+
+// A condition without a test of its own: the machine must act on what the control software makes of
+// the recorded readings, as often as it says.
+TEST(CheckCondition, OfOtherReadingsIsThatTheMachineActsOnThem) {
+  const Profile profile = *built_in_profile("argos3");
+  ConditionTest test = test_of(Module::BlackFloor, watermelon());
+  test.trigger = Trigger::Readings;
+  const Check check = check_condition(test, watermelon(), profile);
+  EXPECT_TRUE(check.passes) << check.note;
+  const std::vector<Rate> rates = rates_of(test, watermelon(), profile);
+  ASSERT_EQ(rates.size(), 1U);
+  EXPECT_GT(rates[0].trials, 100);
+  EXPECT_NEAR(rates[0].expected, 0.3, 1e-12);
+  EXPECT_LE(rates[0].low, 0.3);
+  EXPECT_GE(rates[0].high, 0.3);
+  // Over gray floor alone it never fires, which is not as expected.
+  test.arena.patches.clear();
+  EXPECT_FALSE(check_condition(test, watermelon(), profile).passes);
 }
 
 }  // namespace

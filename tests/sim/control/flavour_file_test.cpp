@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "sim/control/controller.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
@@ -100,6 +103,102 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_THAT(complaints("base = \"wassermelone\"\n[behaviours]\nstop = { number = 0 }\n"
                          "[conditions]\ngray_floor = { number = 0 }\n"),
               ElementsAre(HasSubstr("`base` cannot be \"wassermelone\"")));
+}
+
+const std::string kColours =
+    "base = \"watermelon\"\nstates = 12\n[behaviours]\nstop = { number = 1 }\n"
+    "exploration = { number = 0 }\n"
+    "go_to_color = { number = 8, kind = \"external\", parameters = [\n"
+    "  { name = \"velocity\", token = \"vel\", type = \"real\", range = [0, 1] },\n"
+    "  { name = \"color\", token = \"clr\", type = \"int\", range = [1, 6] } ] }\n"
+    "[conditions]\nblack_floor = { number = 0 }\n"
+    "message = { number = 3, kind = \"external\" }\n";
+
+TEST(FlavourFile, ModulesThatOnlyOthersHaveAreReadAndWritten) {
+  const auto read = parse_flavour("format = 1\n" + kColours, "colours.toml");
+  ASSERT_TRUE(read.has_value()) << to_string(read.error().front());
+  const ModuleSpec* module = read->find("go_to_color");
+  ASSERT_NE(module, nullptr);
+  EXPECT_TRUE(is_external(module->module));
+  EXPECT_TRUE(is_behaviour(module->module));
+  EXPECT_EQ(module->module, external_behaviour(8));
+  ASSERT_EQ(module->parameters.size(), 2U);
+  EXPECT_EQ(module->parameters[0].symbol, "VEL");
+  EXPECT_EQ(module->parameters[0].digits, 2);
+  EXPECT_EQ(module->parameters[1].type, ParameterSpec::Type::Integer);
+  EXPECT_EQ(module->parameters[1].high, 6);
+  EXPECT_FALSE(is_behaviour(read->find("message")->module));
+  EXPECT_EQ(*parse_flavour(flavour_text(*read), "colours.toml"), *read);
+}
+
+TEST(FlavourFile, TextsOfExternalModulesAreReadAndPrintedAndNeverRun) {
+  const Flavour colours = *parse_flavour("format = 1\n" + kColours, "colours.toml");
+  const std::string text =
+      "--nstates 2 --s0 8 --vel0 0.5 --clr0 3 --n0 1 --n0x0 0 --c0x0 3 --s1 1 --n1 1 --n1x0 0 "
+      "--c1x0 0 --p1x0 0.25";
+  const auto controller = parse_controller(text, colours);
+  ASSERT_TRUE(controller.has_value()) << to_string(controller.error());
+  EXPECT_EQ(print_controller(*controller, colours), text);
+  const auto& machine = std::get<Machine>(*controller);
+  EXPECT_EQ(machine.states[0].behaviour, (Behaviour(ExternalBehaviour{8, {0.5, 3}})));
+  EXPECT_EQ(parameters_of(machine.states[0].behaviour), (std::vector<double>{0.5, 3}));
+  EXPECT_EQ(module_of(machine.states[0].transitions[0].condition), external_condition(3));
+  EXPECT_EQ(complaint_about_running(*controller, colours),
+            "the module go_to_color of the flavour colours is external: this program can read it, "
+            "and only a program of its own can run it");
+  const auto own = parse_controller("--nstates 1 --s0 1", colours);
+  EXPECT_EQ(complaint_about_running(*own, colours), std::nullopt);
+  const auto other = parse_controller("--nstates 1 --s0 8 --vel0 0.5 --clr0 2.5", colours);
+  ASSERT_FALSE(other.has_value());
+  EXPECT_THAT(other.error().message, HasSubstr("`--clr0` wants an integer, not `2.5`"));
+}
+
+TEST(FlavourFile, AMachineHasAsManyStatesAsItsFlavourAllows) {
+  const Flavour colours = *parse_flavour("format = 1\n" + kColours, "colours.toml");
+  std::string text = "--nstates 12";
+  for (int i = 0; i < 12; ++i) {
+    const std::string own = std::to_string(i);
+    text += " --s" + own + " 1 --n" + own + " 1 --n" + own + "x0 " + std::to_string(i % 11) +
+            " --c" + own + "x0 0 --p" + own + "x0 1";
+  }
+  const auto machine = parse_controller(text, colours);
+  ASSERT_TRUE(machine.has_value()) << to_string(machine.error());
+  EXPECT_EQ(print_controller(*machine, colours), text);
+  EXPECT_THAT(parse_controller(text, watermelon()).error().message,
+              HasSubstr("a machine of 12 states; machines of 1 to 4 states are read"));
+  EXPECT_THAT(check(*machine, watermelon())->message, HasSubstr("a machine has 1 to 4 states"));
+}
+
+TEST(FlavourFile, WhatIsWrongWithAnExternalModuleIsSaid) {
+  const auto with = [](const std::string& line) {
+    return complaints(kOnWatermelon + "[behaviours]\nstop = { number = 1 }\n" + line);
+  };
+  EXPECT_THAT(with("stop_it = { number = 1, kind = \"external\" }"),
+              ElementsAre(HasSubstr("`stop` and `stop_it` have the same number 1")));
+  EXPECT_THAT(with("exploration = { number = 3, kind = \"external\" }"),
+              ElementsAre(HasSubstr("`exploration` is a kind that this program has")));
+  EXPECT_THAT(with("Wave = { number = 3, kind = \"external\" }"),
+              ElementsAre(HasSubstr("a module's name consists of small letters, digits and `_`")));
+  EXPECT_THAT(with("wave = { number = 3, kind = \"foreign\" }"),
+              ElementsAre(HasSubstr("`kind` cannot be \"foreign\"")));
+  EXPECT_THAT(with("gray_floor = { number = 3, kind = \"external\" }"),
+              ElementsAre(HasSubstr("`gray_floor` is a kind that this program has")));
+  const auto parameter = [&](const std::string& keys) {
+    return with("wave = { number = 3, kind = \"external\", parameters = [ { " + keys + " } ] }");
+  };
+  EXPECT_THAT(parameter("name = \"speed\", token = \"v\", type = \"real\", range = [2, 1]"),
+              ElementsAre(HasSubstr("the range of speed is [2, 1]: its ends are exchanged")));
+  EXPECT_THAT(parameter("name = \"speed\", token = \"v2\", type = \"real\", range = [1, 2]"),
+              ElementsAre(HasSubstr("`token` is 1 to 20 letters")));
+  EXPECT_THAT(parameter("name = \"speed\", token = \"s\", type = \"int\", range = [1, 2]"),
+              ElementsAre(HasSubstr("texts have --s for something else"),
+                          HasSubstr("the search has a parameter S of its own")));
+  EXPECT_THAT(parameter("token = \"v\", type = \"int\", range = [1, 2]"),
+              ElementsAre(HasSubstr("needs `name`")));
+  EXPECT_THAT(complaints(kOnWatermelon + "[conditions]\nblack_floor = { number = 0 }\n"
+                                         "gray_floor = { number = 1, beta = [0, 0.5] }\n"),
+              ElementsAre(HasSubstr("black_floor and gray_floor have parameters of the symbol P "
+                                    "that differ")));
 }
 
 TEST(FlavourFile, AFlavourIsFoundByNameOrFile) {

@@ -92,6 +92,7 @@ std::vector<std::pair<std::string, Text>> constants() {
        [](F f) { return f.floor.labels.empty() ? "-" : yes_no(f.floor.hue_wraps); }},
       {"floor.saturation_tolerance",
        [](F f) { return f.floor.labels.empty() ? "-" : short_text(f.floor.saturation_tolerance); }},
+      {"floor.any_channel", [](F f) { return yes_no(f.floor.any_channel); }},
       {"xi, least",
        [](F f) { return short_text(f.find(Module::NeighbourCount)->parameters[0].low); }},
   };

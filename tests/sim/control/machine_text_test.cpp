@@ -260,6 +260,13 @@ TEST(MachineText, WhatIsPrintedReadsBackToTheSameMachine) {
   }
 }
 
+TEST(MachineText, ALargeIntegerReadsBack) {
+  const std::string text = "--nstates 1 --s0 0 --rwm0 100000";
+  const auto machine = parse_machine(text, watermelon());
+  ASSERT_TRUE(machine.has_value());
+  EXPECT_EQ(print_machine(*machine, watermelon()), text);
+}
+
 TEST(MachineText, ATextWithAWordLeftOutIsAnError) {
   EXPECT_TRUE(rc::check([] {
     const std::string text = print_machine(any_machine(watermelon()), watermelon());

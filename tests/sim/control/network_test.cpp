@@ -67,6 +67,24 @@ TEST(NetworkInputs, ThreeLevelsOfTheFloorAreTheFlavours) {
   }
 }
 
+TEST(NetworkInputs, OfRm11AreSingleSensorsAndTheFloorThreeTimes) {
+  FakeSenses senses;
+  senses.distances = {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+  senses.lux = {1, 0, 0, 0, 0, 0, 0, 0.5};
+  senses.floor = {255, 255, 255};
+  senses.neighbour(0.09, 45);
+  const auto inputs = inputs_of(NetworkInputs::Rm11, senses, **find_flavour("chocolate-epuck"));
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(inputs[i], senses.distances[i]);
+  EXPECT_EQ(inputs[8], 1);
+  EXPECT_EQ(inputs[15], 0.5);
+  for (const std::size_t i : {16U, 17U, 18U})
+    EXPECT_EQ(inputs[i], 1);
+  EXPECT_NEAR(inputs[19], std::tanh(0.5), 1e-12);
+  EXPECT_NEAR(inputs[20], std::tanh(0.05), 1e-12);  // 1 / (1 + 9 cm), squashed
+  EXPECT_EQ(inputs[24], 1);
+}
+
 TEST(NetworkInputs, AreAllBetweenZeroAndOne) {
   FakeSenses senses;
   for (const int direction : kProximityDirections_deg)
@@ -223,8 +241,10 @@ TEST(GenomeText, SaysWhatCannotBeRead) {
   EXPECT_THAT(complaint(evolved.text()),
               HasSubstr("a genome of NEAT with 2 hidden nodes; networks without a hidden layer"));
   Genome raw;
+  raw.sensors = 23;
+  EXPECT_THAT(complaint(raw.text()), HasSubstr("a genome of 23 inputs"));
   raw.sensors = 25;
-  EXPECT_THAT(complaint(raw.text()), HasSubstr("a genome of 25 inputs"));
+  EXPECT_THAT(complaint(raw.text()), HasSubstr("which the flavour chocolate has not"));
   const std::string good = Genome().text();
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = good;

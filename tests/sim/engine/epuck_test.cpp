@@ -8,11 +8,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/math.h"
 #include "base/text/csv.h"
-#include "sim/control/behaviours.h"
+#include "sim/control/controller.h"
 #include "sim/control/readings.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/internal/world.h"
@@ -20,6 +21,7 @@
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "sim/files/robot_file.h"
+#include "tests/support/long_runs.h"
 #include "tests/support/not_empty.h"
 
 // The e-puck against traces of its original program (tests/golden/epuck).
@@ -258,6 +260,84 @@ TEST(Epuck, DrivesAsTheOriginalDoes) {
 
 TEST(Epuck, DrivesInASwarmAsTheOriginalDoesForSixSeconds) {
   EXPECT_LT(farthest_off("rt-aac", "traj-rt-aac-hc03-nonoise-20robots.csv", 60, false), 1e-3);
+}
+
+/// A machine's scores there, and here.
+struct Compared {
+  std::string machine;
+  double theirs = 0;
+  double half_width_99 = 0;
+  double ours = 0;
+  double z = 0;  ///< the difference in its standard errors
+};
+
+std::vector<Compared> compared(const std::string& mission_name, int seeds) {
+  const Mission mission = golden_mission(mission_name);
+  const Profile profile = built_in_profile("epuck").value();
+  std::vector<Compared> all;
+  for (const Row& row : rows_of("scores.csv")) {
+    if (row.at("mission") != mission_name) continue;
+    const Flavour& flavour = **find_flavour(row.at("flavour"));
+    const Controller machine = parse_controller(row.at("text"), flavour).value();
+    double sum = 0;
+    double squares = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const Instance instance = instance_of(mission, seed).value();
+      const double score = simulate({.controller = machine,
+                                     .flavour = flavour,
+                                     .profile = profile,
+                                     .mission = mission,
+                                     .instance = instance,
+                                     .seed = seed})
+                               .score;
+      sum += score;
+      squares += score * score;
+    }
+    const double mean = sum / seeds;
+    const double variance = std::max(0.0, squares / seeds - mean * mean) / (seeds - 1);
+    const double theirs = number_in(row, "sd");
+    const double error = std::sqrt(variance + theirs * theirs / number_in(row, "n"));
+    all.push_back({.machine = row.at("machine"),
+                   .theirs = number_in(row, "mean"),
+                   .half_width_99 = number_in(row, "half_width_99"),
+                   .ours = mean,
+                   .z = (mean - number_in(row, "mean")) / std::max(error, 1e-9)});
+  }
+  return all;
+}
+
+/// Spearman's, of means that are all different.
+double rank_correlation(const std::vector<Compared>& all) {
+  const auto rank = [&](double Compared::*of, const Compared& one) {
+    return std::ranges::count_if(all, [&](const Compared& other) { return other.*of < one.*of; });
+  };
+  double squares = 0;
+  for (const Compared& one : all) {
+    const auto apart =
+        static_cast<double>(rank(&Compared::theirs, one) - rank(&Compared::ours, one));
+    squares += apart * apart;
+  }
+  const auto n = static_cast<double>(all.size());
+  return 1 - 6 * squares / (n * (n * n - 1));
+}
+
+TEST(Epuck, ScoresItsMachinesAsTheOriginalDoes) {
+  const std::vector<std::pair<std::string, double>> least_correlations = {
+      {"rt-for", 0.95}, {"rt-grid", 0.95}, {"rt-aac", 0.8}, {"mp-for", 0.95}};
+  const auto missions = static_cast<std::size_t>(times(1, 4));
+  for (std::size_t i = 0; i < missions; ++i) {
+    const auto& [mission, least_correlation] = least_correlations[i];
+    const std::vector<Compared> all = compared(mission, 5);
+    ASSERT_GT(all.size(), 15U);
+    double squares = 0;
+    for (const Compared& one : all) {
+      EXPECT_LT(std::fabs(one.z), 4.5) << mission << " " << one.machine << ": " << one.theirs
+                                       << " there, " << one.ours << " here";
+      squares += one.z * one.z;
+    }
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(all.size())), 1.6) << mission;
+    EXPECT_GE(rank_correlation(all), least_correlation) << mission;
+  }
 }
 
 }  // namespace

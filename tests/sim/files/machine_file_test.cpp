@@ -57,6 +57,17 @@ TEST(MachineFile, HasMissionsAndProfilesOfOnesOwnWhole) {
   EXPECT_EQ(read->front().head, head);
 }
 
+TEST(MachineFile, HasAFlavourOfOnesOwnWhole) {
+  Flavour mine = chocolate();
+  mine.name = "mine";
+  mine.most_states = 7;
+  const MachineHead head{.flavour = mine.name, .own_flavour = kept_flavour(mine)};
+  EXPECT_THAT(head_text(head), HasSubstr("#: [flavour]\n#: name = \"mine\"\n"));
+  const auto read = parse_machine_file(head_text(head) + kStop, "m.fsm");
+  ASSERT_TRUE(read.has_value()) << to_string(read.error().front());
+  EXPECT_EQ(read->front().head, head);
+}
+
 TEST(MachineFile, HasABuiltInMissionWholeThatWasChanged) {
   MachineHead head = head_of_a_winner();
   head.mission->mission.cycles = 100;

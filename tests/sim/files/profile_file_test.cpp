@@ -70,7 +70,7 @@ TEST(Profile, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
   EXPECT_THAT(none.error().message,
-              HasSubstr("built in are: rvr, argos3, pseudo-reality, thesis-robots"));
+              HasSubstr("built in are: rvr, argos3, pseudo-reality, thesis-robots, epuck"));
 }
 
 TEST(ProfileText, ReadsBackToTheSameProfileBitForBit) {

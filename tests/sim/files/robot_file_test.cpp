@@ -96,9 +96,12 @@ TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
   EXPECT_THAT(misfit(**find_flavour("chocolate-epuck"), rvr()),
               Optional(HasSubstr("takes strengths")));
   EXPECT_EQ(misfit(**find_flavour("chocolate-epuck"), epuck), std::nullopt);
-  EXPECT_EQ(misfit(**find_flavour("chocolate-epuck-2018"), epuck),
-            "the flavour `chocolate-epuck-2018` needs the reference model rm1-2018, and the robot "
-            "`epuck` is simulated with rm1.1 and rm1.2");
+  EXPECT_EQ(misfit(**find_flavour("maple-epuck-2018"), epuck), std::nullopt);
+  Flavour other = **find_flavour("chocolate-epuck");
+  other.reference = "rm3.0";
+  EXPECT_EQ(misfit(other, epuck),
+            "the flavour `chocolate-epuck` needs the reference model rm3.0, and the robot `epuck` "
+            "is simulated with rm1.1 and rm1.2 and rm1-2018");
   EXPECT_THAT(misfit(built_in_profile("rvr").value(), epuck), Optional(HasSubstr("`proximity`")));
   EXPECT_THAT(misfit(built_in_profile("epuck").value(), rvr()),
               Optional(HasSubstr("`proximity.half_width`")));
@@ -107,7 +110,8 @@ TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
 }
 
 TEST(RobotFile, TheExampleRobotFitsTheFlavoursOfDistances) {
-  const auto robot = find_robot(SWARMSMITH_SOURCE_DIR "/examples/robots/turtlebot4.toml", "");
+  const auto robot =
+      find_robot(SWARMSMITH_SOURCE_DIR "/examples/missions/robots/turtlebot4.toml", "");
   ASSERT_TRUE(robot) << to_string(robot.error().front());
   EXPECT_EQ(robot->proximity.rays_deg.size(), 7U);
   EXPECT_EQ(misfit(watermelon(), *robot), std::nullopt);

@@ -1,0 +1,137 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/campaign_text.h"
+#include "coordinator/campaign/machine_space.h"
+#include "coordinator/campaign/method_space.h"
+#include "sim/control/flavour_file.h"
+#include "sim/control/machine_text.h"
+#include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A method with a flavour of a file.
+const std::string kMethod = "name = \"m\"\nflavour = \"mine.toml\"\n";
+const std::string kSixStates = "format = 1\nbase = \"watermelon\"\nstates = 6\n";
+const std::string kExternal =
+    "format = 1\nbase = \"watermelon\"\n[behaviours]\nstop = { number = 1 }\n"
+    "exploration = { number = 0 }\nwave = { number = 9, kind = \"external\", parameters = [\n"
+    "{ name = \"speed\", token = \"v\", type = \"real\", range = [0, 2] } ] }\n";
+
+class OwnFlavour : public ::testing::Test {
+ protected:
+  CampaignOrErrors read(const std::string& flavour, const FileText& file) {
+    std::ofstream(folder_ / "mine.toml") << flavour;
+    return parse_campaign(file.text(), (folder_ / "x.toml").string());
+  }
+  std::vector<std::string> complaints(const std::string& flavour, const FileText& file) {
+    std::vector<std::string> lines;
+    const auto campaign = read(flavour, file);
+    if (campaign) return lines;
+    for (const Error& error : campaign.error())
+      lines.push_back(to_string(error));
+    return lines;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(OwnFlavour, LivesWholeInTheCampaignsText) {
+  const auto campaign = read(kSixStates, {.method = kMethod});
+  ASSERT_TRUE(campaign.has_value()) << to_string(campaign.error().front());
+  const Method& method = campaign->methods.front();
+  EXPECT_EQ(method.flavour, "mine");
+  ASSERT_NE(method.own_flavour, nullptr);
+  EXPECT_EQ(method.own_flavour->most_states, 6);
+  EXPECT_EQ(method.max_states, 6);
+  const std::string text = normalised_text(*campaign);
+  EXPECT_THAT(text, HasSubstr("[method.flavour]\nname = \"mine\"\n"));
+  const auto again = parse_campaign(text, "nowhere/stored.toml");
+  ASSERT_TRUE(again.has_value()) << to_string(again.error().front());
+  EXPECT_EQ(again->methods, campaign->methods);
+  EXPECT_EQ(campaign_digest(*again), campaign_digest(*campaign));
+  EXPECT_THAT(own_flavours_in(text), ElementsAre(method.own_flavour));
+  EXPECT_THAT(own_flavours_in(normalised_text(parsed(FileText().text()))), ElementsAre());
+}
+
+TEST_F(OwnFlavour, DecidesTheDigestUnlessItIsBuiltIn) {
+  FileText built_in;
+  built_in.method = "name = \"m\"\n";
+  const auto one = read(kSixStates, {.method = kMethod});
+  const auto other = read(kSixStates + "speed_mps = 0.2\n", {.method = kMethod});
+  EXPECT_NE(campaign_digest(*one), campaign_digest(*other));
+  EXPECT_NE(campaign_digest(*one), campaign_digest(parsed(built_in.text())));
+  // A table of the text that says what the built-in one says is its name.
+  FileText table = built_in;
+  table.method += "[method.flavour]\nname = \"watermelon\"\nbase = \"watermelon\"\n";
+  EXPECT_EQ(campaign_digest(parsed(table.text())), campaign_digest(parsed(built_in.text())));
+}
+
+TEST_F(OwnFlavour, ItsSpaceHasMachinesOfAllItsStates) {
+  const auto campaign = read(kSixStates, {.method = kMethod});
+  const Method& method = campaign->methods.front();
+  const auto space = MachineSpace::make(method, *method.own_flavour, 2);
+  ASSERT_TRUE(space.has_value());
+  Rng rng(3);
+  std::size_t most = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Machine machine = space->to_machine(random_configuration(space->parameters(), rng));
+    most = std::max(most, machine.states.size());
+    const std::string text = print_machine(machine, *method.own_flavour);
+    EXPECT_EQ(parse_machine(text, *method.own_flavour).value(), machine);
+    EXPECT_EQ(space->to_machine(space->from_machine(machine)), machine);
+  }
+  EXPECT_EQ(most, 6U);
+}
+
+TEST_F(OwnFlavour, ModulesThatOnlyOthersHaveAreForPrograms) {
+  EXPECT_THAT(
+      complaints(kExternal, {.method = kMethod}),
+      ElementsAre(HasSubstr("x.toml:6:11: `wave` of the flavour mine is external, which only "
+                            "programs run: leave it out of `behaviours`")));
+  EXPECT_THAT(complaints(kExternal, {.method = kMethod + "behaviours = [\"stop\"]\n"}),
+              ElementsAre());
+  EXPECT_THAT(
+      complaints(kExternal, {.method = kMethod + "baseline = \"--nstates 1 --s0 9 --v0 1\"\n"}),
+      ElementsAre(HasSubstr("the module wave of the flavour mine is external")));
+  const FileText programs{.mission = "name = \"theirs\"\n",
+                          .method = kMethod,
+                          .rest = "[simulator]\nkind = \"command\"\nrunner = \"/bin/true\"\n"};
+  EXPECT_THAT(complaints(kExternal, programs), ElementsAre());
+  const auto campaign = read(kExternal, programs);
+  ASSERT_TRUE(campaign.has_value()) << to_string(campaign.error().front());
+  const Method& method = campaign->methods.front();
+  const auto space = MethodSpace::make(method, 2);
+  ASSERT_TRUE(space.has_value());
+  const auto machine = parse_machine("--nstates 1 --s0 9 --v0 1.5", *method.own_flavour);
+  EXPECT_EQ(modules_json(*machine, *method.own_flavour), R"({"wave":1})");
+  const auto machines = MachineSpace::make(method, *method.own_flavour, 2);
+  EXPECT_EQ(machines->to_machine(machines->from_machine(*machine)), *machine);
+}
+
+TEST_F(OwnFlavour, WhatIsWrongInItsFileIsSaidThere) {
+  EXPECT_THAT(complaints(kSixStates + "speed = 1\n", {.method = kMethod}),
+              ElementsAre(HasSubstr("mine.toml:4:1: the file has no key `speed`")));
+  EXPECT_THAT(
+      complaints("format = 1\nbase = \"chocolate-epuck\"\n", {.method = kMethod}),
+      ElementsAre(HasSubstr("the flavour mine needs a robot with the reference model rm1.2, "
+                            "and this one has rvr")));
+  FileText file{.method = kMethod};
+  file.method = "name = \"m\"\n[method.flavour]\nname = \"watermelon\"\nbase = \"chocolate\"\n";
+  EXPECT_THAT(complaints("", file),
+              ElementsAre(HasSubstr("`watermelon` is built in with other values")));
+}
+
+}  // namespace
+}  // namespace swarmsmith
