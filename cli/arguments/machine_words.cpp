@@ -18,27 +18,22 @@ bool begins_machine(std::string_view word) {
          (is_whole && find_controller(word) != std::string_view::npos);
 }
 
-/// Whether the word is a switch of one of the grammars: a known stem, and then digits or
-/// DIGITSxDIGITS; or a word that only trees and networks have.
+/// Whether the word is a switch of one of the grammars: letters, which a flavour may choose, and
+/// then digits or DIGITSxDIGITS, as no option of the program has; or a word that only trees and
+/// networks have.
 bool is_machine_switch(std::string_view word) {
-  static constexpr std::array<std::string_view, 12> kStems = {
-      "s", "rwm", "att", "rep", "nchild", "nc", "n", "c", "p", "w", "l", "a"};
   static constexpr std::array<std::string_view, 3> kWhole = {"--nchildroot", "--nchildsroot",
                                                              "--weights"};
   if (begins_machine(word) || std::ranges::find(kWhole, word) != kWhole.end()) return true;
   if (!word.starts_with("--")) return false;
   word.remove_prefix(2);
-  for (const std::string_view stem : kStems) {
-    if (!word.starts_with(stem)) continue;
-    const std::string_view suffix = word.substr(stem.size());
-    const std::size_t cross = suffix.find('x');
-    if (suffix.empty() || suffix.front() == 'x' || suffix.back() == 'x') continue;
-    if (suffix.find_first_not_of("0123456789x") != std::string_view::npos) continue;
-    if (cross == std::string_view::npos || suffix.find('x', cross + 1) == std::string_view::npos) {
-      return true;
-    }
-  }
-  return false;
+  const auto is_letter = [](char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z'); };
+  const auto digits = std::ranges::find_if_not(word, is_letter);
+  if (digits == word.begin()) return false;
+  const std::string_view suffix(digits, word.end());
+  if (suffix.empty() || suffix.front() == 'x' || suffix.back() == 'x') return false;
+  return suffix.find_first_not_of("0123456789x") == std::string_view::npos &&
+         std::ranges::count(suffix, 'x') <= 1;
 }
 
 }  // namespace

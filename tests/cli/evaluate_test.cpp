@@ -195,7 +195,7 @@ TEST(Evaluate, TakesAFlavourFromAFile) {
   EXPECT_THAT(external.err, HasSubstr("the module wave of the flavour mine is external"));
   const Ran robot = evaluate("--nstates 1 --s0 1", "chocolate-epuck");
   EXPECT_EQ(robot.code, 2);
-  EXPECT_THAT(robot.err, HasSubstr("needs a robot with the reference model rm1.2"));
+  EXPECT_THAT(robot.err, HasSubstr("takes strengths from proximity sensors"));
   write_file(folder / "mine.toml", "format = 1\nbase = \"watermelon\"\nstates = 20\n");
   EXPECT_THAT(evaluate(kExploreText, file).err,
               HasSubstr("mine.toml:3:10: `states` must be from 1 to 16, this is 20"));
@@ -404,6 +404,14 @@ TEST(MachineWords, LeaveOtherWordsAlone) {
   EXPECT_EQ(with_machine_as_one_word(words), words);
   EXPECT_THAT(with_machine_as_one_word({"--nstates", "1", "--s0", "1", "--seeds", "2", "--store"}),
               ElementsAre(" --nstates 1 --s0 1", "--seeds", "2", "--store"));
+}
+
+TEST(MachineWords, MayHaveTheSwitchesOfAnyFlavour) {
+  EXPECT_THAT(
+      with_machine_as_one_word({"--nstates", "2", "--s0", "8", "--vel0", "0.5", "--n0", "1",
+                                "--n0x0", "0", "--c0x0", "3", "--msg0x0", "85", "--seeds", "1-3"}),
+      ElementsAre(" --nstates 2 --s0 8 --vel0 0.5 --n0 1 --n0x0 0 --c0x0 3 --msg0x0 85", "--seeds",
+                  "1-3"));
 }
 
 TEST(Seeds, AreRangesAndLists) {

@@ -98,7 +98,7 @@ TEST_F(OwnFlavour, ItsSpaceHasMachinesOfAllItsStates) {
 TEST_F(OwnFlavour, ModulesThatOnlyOthersHaveAreForPrograms) {
   EXPECT_THAT(
       complaints(kExternal, {.method = kMethod}),
-      ElementsAre(HasSubstr("x.toml:6:11: `wave` of the flavour mine is external, which only "
+      ElementsAre(HasSubstr("x.toml:7:11: `wave` of the flavour mine is external, which only "
                             "programs run: leave it out of `behaviours`")));
   EXPECT_THAT(complaints(kExternal, {.method = kMethod + "behaviours = [\"stop\"]\n"}),
               ElementsAre());
@@ -107,7 +107,7 @@ TEST_F(OwnFlavour, ModulesThatOnlyOthersHaveAreForPrograms) {
       ElementsAre(HasSubstr("the module wave of the flavour mine is external")));
   const FileText programs{.mission = "name = \"theirs\"\n",
                           .method = kMethod,
-                          .rest = "[simulator]\nkind = \"command\"\nrunner = \"/bin/true\"\n"};
+                          .rest = "[simulator]\nkind = \"command\"\ncommand = [\"/bin/true\"]\n"};
   EXPECT_THAT(complaints(kExternal, programs), ElementsAre());
   const auto campaign = read(kExternal, programs);
   ASSERT_TRUE(campaign.has_value()) << to_string(campaign.error().front());
@@ -125,8 +125,8 @@ TEST_F(OwnFlavour, WhatIsWrongInItsFileIsSaidThere) {
               ElementsAre(HasSubstr("mine.toml:4:1: the file has no key `speed`")));
   EXPECT_THAT(
       complaints("format = 1\nbase = \"chocolate-epuck\"\n", {.method = kMethod}),
-      ElementsAre(HasSubstr("the flavour mine needs a robot with the reference model rm1.2, "
-                            "and this one has rvr")));
+      ElementsAre(HasSubstr("the flavour `mine` takes strengths from proximity sensors, and the "
+                            "robot `rvr` gives distances")));
   FileText file{.method = kMethod};
   file.method = "name = \"m\"\n[method.flavour]\nname = \"watermelon\"\nbase = \"chocolate\"\n";
   EXPECT_THAT(complaints("", file),

@@ -41,7 +41,7 @@ void expect_towards(const Command& command, double x, double y, double least_inn
 
 TEST(EPuckFlavours, AttractionIsTheSumOverGapsInCentimetresLessSixTimesTheObstacles) {
   FakeSenses senses = nothing_near();
-  senses.neighbour(0.17, 90);  // 10 cm between the bodies
+  senses.neighbour(0.1, 90);   // 3.4: between the bodies
   senses.distances[1] = 0.05;  // ahead
   // 4.4: alpha is truncated to 2; A = 2 / (1 + 10) to the left; P = (0.05, 0).
   expect_towards(command_of(Attraction{2.9}, senses, named("chocolate-epuck")), -0.3, 2.0 / 11, -1);
@@ -78,8 +78,8 @@ TEST(EPuckFlavours, LightIsAllOrNothing) {
 TEST(EPuckFlavours, ObstaclesAreCutToOneOrNot) {
   FakeSenses senses = nothing_near();
   senses.distances = {1, 1, 1, 0, 0, 0, 0, 0};
-  senses.neighbour(0.07, 180);  // touching: A = 5 behind
-  senses.neighbour(0.07, 90);
+  senses.neighbour(0, 180);  // touching: A = 5 behind
+  senses.neighbour(0, 90);
   const double sum = 1 + 2 * std::sqrt(0.5);
   ASSERT_GT(sum, 1);
   expect_towards(command_of(Attraction{5}, senses, named("chocolate-epuck")), -5 - 6, 5, -1);
