@@ -21,11 +21,11 @@ Expected<std::int64_t> number_of(const std::string& text, char letter, const cha
 
 /// Seeds of runs that are simulated again.
 Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments) {
-  constexpr std::size_t kMostRuns = 12;
+  constexpr std::size_t kMostSeeds = 12;
   constexpr std::int64_t kLargest = 2'147'483'647;
   std::vector<std::int64_t> seeds;
-  if (arguments.seeds.size() > kMostRuns)
-    return bad_input("at most " + std::to_string(kMostRuns) + " runs are drawn", "--seed");
+  if (arguments.seeds.size() > kMostSeeds)
+    return bad_input("at most " + std::to_string(kMostSeeds) + " runs are drawn", "--seed");
   for (const std::string& text : arguments.seeds) {
     std::int64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
