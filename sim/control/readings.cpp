@@ -78,8 +78,6 @@ std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings
   if (model.reading == ObstacleModel::Reading::Linear) {
     for (std::size_t i = 0; i < strengths.size(); ++i)
       strengths[i] = ramp(proximity[i], near, far);
-  } else if (model.reading == ObstacleModel::Reading::AsSensed) {
-    strengths = proximity;
   } else {
     for (std::size_t i = 0; i < strengths.size(); ++i)
       strengths[i] = inverse_within(proximity[i], near, far);
@@ -94,12 +92,13 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
 Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                      const ObstacleModel& model) {
   Vector2 sum;
-  const bool has_strengths = model.reading == ObstacleModel::Reading::AsSensed;
-  if (!has_strengths && neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) {
-    return sum;
+  if (model.directions || model.reading == ObstacleModel::Reading::AsSensed) {
+    sum = sum_along(model.directions.value_or(kProximityDirections),
+                    obstacle_strengths(proximity, model));
+  } else {
+    if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
+    sum = sum_along_sensors(obstacle_strengths(proximity, model));
   }
-  const auto strengths = obstacle_strengths(proximity, model);
-  sum = model.directions ? sum_along(*model.directions, strengths) : sum_along_sensors(strengths);
   for (const Neighbour& neighbour : neighbours) {
     const double strength = neighbour_strength(neighbour.distance_m, model);
     sum.x += strength * neighbour.direction_x;

@@ -67,6 +67,8 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       proximity_rays_(world, robot, ray_range_m(world.robot().proximity, profile)),
       proximity_noise_(profile.proximity, run, robot),
       distorts_proximity_(profile.float32_wire || profile.proximity.touch_is_nothing),
+      votes_(world.robot().ground.reading == GroundSensor::Reading::Vote),
+      ground_sensor_(world.robot().ground.places.front()),
       ground_hold_{.beats = driver_beats(profile.timing.driver_sub_steps, run, robot),
                    .next = profile.timing.driver_sub_steps == 0 ? Beats::kNever : 0},
       neighbour_hold_{
@@ -169,12 +171,12 @@ FrontProximity RobotSenses::front_proximity() {
 const Rgb& RobotSenses::ground_color() {
   Rgb& ground = readings_.ground_color;
   if (!is_due(Sensor::GroundColor)) return ground;
-  if (world_->robot().ground.reading == GroundSensor::Reading::Vote) {
+  if (votes_) {
     count_votes();
     return ground;
   }
   const Body& body = world_->body(robot_);
-  const Point& sensor = world_->robot().ground.places.front();
+  const Point& sensor = ground_sensor_;
   const Point place = {body.x + sensor.x * body.cos - sensor.y * body.sin,
                        body.y + sensor.x * body.sin + sensor.y * body.cos};
   if (place != floor_place_) {  // robots often stand

@@ -87,10 +87,19 @@ void find_neighbours(const World& world, const Sight& sight, int robot, std::vec
                      std::vector<Neighbour>& found) {
   found.clear();
   const double range_m = world.robot().neighbours.range_m;
+  const auto is_out_of_range = [&](int other) {
+    return other >= world.robots() || world.distance2(robot, other) >= range_m * range_m;
+  };
+  if (sight
+          .is_clear()) {  // apart from the other loop: this one runs in each cycle of most missions
+    world.visit_near(robot, range_m, room, [&](int other) {
+      if (!is_out_of_range(other)) found.push_back(neighbour_of(world, robot, other));
+    });
+    return;
+  }
   std::vector<int> between;
   world.visit_near(robot, range_m, room, [&](int other) {
-    if (other >= world.robots() || world.distance2(robot, other) >= range_m * range_m) return;
-    if (!sight.is_clear() && sight.is_hidden(robot, other, between)) return;
+    if (is_out_of_range(other) || sight.is_hidden(robot, other, between)) return;
     found.push_back(neighbour_of(world, robot, other));
   });
 }
