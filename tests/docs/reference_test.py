@@ -71,6 +71,9 @@ score = { kind = "objects_on", ? }
 name = "foraging"
 score = { kind = "foraging", ? }
 [[mission]]
+name = "fullest"
+score = { kind = "most_on", ? }
+[[mission]]
 name = "formula"
 score = { kind = "formula", ? }
 [[method]]

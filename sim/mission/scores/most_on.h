@@ -25,9 +25,8 @@ struct MostOn {
 
   template <class Rule, class Visitor>
   static void fields(Rule& rule, Visitor& field) {
-    field(
-        {.key = "color", .meaning = "of the spots, of which the fullest counts", .required = true},
-        rule.color);
+    field({.key = "color", .meaning = "of the spots; the fullest one counts", .required = true},
+          rule.color);
     field(kAtField, rule.at);
     field({.key = "share", .meaning = "whether the score is divided by the number of robots"},
           rule.share);
