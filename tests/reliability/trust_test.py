@@ -157,6 +157,8 @@ class Forgiven(Trust):
         self.wait_stored(20)
         liar = self.liar(serving.address(), 0, 1)
         wait_for(lambda: "in quarantine" in liar.log() or not serving.alive(), serving.tail)
+        # The worker hears of it before the row is on disk.
+        wait_for(lambda: self.quarantine() or not serving.alive(), serving.tail)
         if serving.alive():
             [one] = self.quarantine()
             self.assertEqual(one["who"], "loopback")
