@@ -67,7 +67,7 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       proximity_rays_(world, robot, ray_range_m(world.robot().proximity, profile)),
       proximity_noise_(profile.proximity, run, robot),
       distorts_proximity_(profile.float32_wire || profile.proximity.touch_is_nothing),
-      votes_(world.robot().ground.reading == GroundSensor::Reading::Vote),
+      is_vote_(world.robot().ground.reading == GroundSensor::Reading::Vote),
       ground_sensor_(world.robot().ground.places.front()),
       ground_hold_{.beats = driver_beats(profile.timing.driver_sub_steps, run, robot),
                    .next = profile.timing.driver_sub_steps == 0 ? Beats::kNever : 0},
@@ -171,7 +171,7 @@ FrontProximity RobotSenses::front_proximity() {
 const Rgb& RobotSenses::ground_color() {
   Rgb& ground = readings_.ground_color;
   if (!is_due(Sensor::GroundColor)) return ground;
-  if (votes_) {
+  if (is_vote_) {
     count_votes();
     return ground;
   }

@@ -118,7 +118,7 @@ class RobotSenses final : public SimulatedSenses {
   NoiseStream lidar_noise_;
   NoiseStream neighbour_misses_;
   bool distorts_proximity_;
-  bool votes_;           ///< the ground is GroundSensor::Reading::Vote
+  bool is_vote_;         ///< the ground is GroundSensor::Reading::Vote
   Point ground_sensor_;  ///< the first place of the robot's GroundSensor
   Hold ground_hold_;
   Hold neighbour_hold_;
