@@ -85,6 +85,16 @@ std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings
   return strengths;
 }
 
+namespace {
+
+/// Of a robot whose ring has directions of its own, or gives strengths.
+Vector2 sum_of_ring(const ProximityReadings& proximity, const ObstacleModel& model) {
+  return sum_along(model.directions.value_or(kProximityDirections),
+                   obstacle_strengths(proximity, model));
+}
+
+}  // namespace
+
 double neighbour_strength(double distance_m, const ObstacleModel& model) {
   return ramp(distance_m, model.neighbour_near_m, model.neighbour_far_m);
 }
@@ -93,8 +103,7 @@ Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbo
                      const ObstacleModel& model) {
   Vector2 sum;
   if (model.directions || model.reading == ObstacleModel::Reading::AsSensed) {
-    sum = sum_along(model.directions.value_or(kProximityDirections),
-                    obstacle_strengths(proximity, model));
+    sum = sum_of_ring(proximity, model);
   } else {
     if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
     sum = sum_along_sensors(obstacle_strengths(proximity, model));

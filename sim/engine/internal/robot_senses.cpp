@@ -177,8 +177,8 @@ const Rgb& RobotSenses::ground_color() {
   }
   const Body& body = world_->body(robot_);
   const Point& sensor = ground_sensor_;
-  const Point place = {body.x + sensor.x * body.cos - sensor.y * body.sin,
-                       body.y + sensor.x * body.sin + sensor.y * body.cos};
+  Point place = {body.x + sensor.x * body.cos, body.y + sensor.x * body.sin};
+  if (sensor.y != 0) place = {place.x - sensor.y * body.sin, place.y + sensor.y * body.cos};
   if (place != floor_place_) {  // robots often stand
     floor_place_ = place;
     floor_ = floor_at(*arena_, place);

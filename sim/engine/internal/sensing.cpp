@@ -70,12 +70,12 @@ RayDistances ray_distances(const World& world, int robot, double range_m) {
   return distances;
 }
 
-Neighbour neighbour_of(const World& world, int robot, int other) {
-  const Body& self = world.body(robot);
-  const double dx = world.body(other).x - self.x;
-  const double dy = world.body(other).y - self.y;
-  const double distance = std::sqrt(dx * dx + dy * dy);
-  Neighbour neighbour{.distance_m = distance - world.robot().neighbours.less_m};
+namespace {
+
+/// A robot at (dx, dy) from `self`, on the axes of the arena; `less_m`: NeighbourSensor's.
+Neighbour neighbour_at(const Body& self, double dx, double dy, double distance2, double less_m) {
+  const double distance = std::sqrt(distance2);
+  Neighbour neighbour{.distance_m = distance - less_m};
   if (distance > 0) {
     neighbour.direction_x = (self.cos * dx + self.sin * dy) / distance;
     neighbour.direction_y = (self.cos * dy - self.sin * dx) / distance;
@@ -83,25 +83,33 @@ Neighbour neighbour_of(const World& world, int robot, int other) {
   return neighbour;
 }
 
+}  // namespace
+
+Neighbour neighbour_of(const World& world, int robot, int other) {
+  const Body& self = world.body(robot);
+  const double dx = world.body(other).x - self.x;
+  const double dy = world.body(other).y - self.y;
+  return neighbour_at(self, dx, dy, dx * dx + dy * dy, world.robot().neighbours.less_m);
+}
+
 void find_neighbours(const World& world, const Sight& sight, int robot, std::vector<int>& room,
                      std::vector<Neighbour>& found) {
   found.clear();
+  const Body& self = world.body(robot);
   const double range_m = world.robot().neighbours.range_m;
-  const auto is_out_of_range = [&](int other) {
-    return other >= world.robots() || world.distance2(robot, other) >= range_m * range_m;
-  };
-  if (sight
-          .is_clear()) {  // apart from the other loop: this one runs in each cycle of most missions
+  const double less_m = world.robot().neighbours.less_m;
+  const auto look = [&](const auto& is_seen) {
     world.visit_near(robot, range_m, room, [&](int other) {
-      if (!is_out_of_range(other)) found.push_back(neighbour_of(world, robot, other));
+      const double dx = world.body(other).x - self.x;
+      const double dy = world.body(other).y - self.y;
+      const double distance2 = dx * dx + dy * dy;
+      if (other >= world.robots() || distance2 >= range_m * range_m || !is_seen(other)) return;
+      found.push_back(neighbour_at(self, dx, dy, distance2, less_m));
     });
-    return;
-  }
+  };
+  if (sight.is_clear()) return look([](int) { return true; });  // in most missions
   std::vector<int> between;
-  world.visit_near(robot, range_m, room, [&](int other) {
-    if (is_out_of_range(other) || sight.is_hidden(robot, other, between)) return;
-    found.push_back(neighbour_of(world, robot, other));
-  });
+  look([&](int other) { return !sight.is_hidden(robot, other, between); });
 }
 
 }  // namespace swarmsmith
