@@ -233,11 +233,15 @@ def program_page(tells):
 
 
 def schema():
-    """The store's schema, empty, as the programs make it."""
+    """The store's schema, empty, as the programs make it, but for the names in flavour_name: those are of no view's text."""
     connection = sqlite3.connect(":memory:")
-    files = sorted((SOURCE / "storage/schema").glob("0*.sql"))
-    for file in [*files, SOURCE / "storage/schema/views.sql"]:
+    for file in sorted((SOURCE / "storage/schema").glob("0*.sql")):
         connection.executescript(file.read_text())
+    place, view = "-- flavour_name\n", "CREATE VIEW flavour_name(flavour, kind, number, name) AS VALUES (1, 1, 1, 1);\n"
+    views = (SOURCE / "storage/schema/views.sql").read_text()
+    if views.count(place) != 1:
+        raise SystemExit("storage/schema/views.sql has no place for flavour_name")
+    connection.executescript(views.replace(place, view))
     return connection
 
 
