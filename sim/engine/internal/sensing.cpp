@@ -92,24 +92,39 @@ Neighbour neighbour_of(const World& world, int robot, int other) {
   return neighbour_at(self, dx, dy, dx * dx + dy * dy, world.robot().neighbours.less_m);
 }
 
-void find_neighbours(const World& world, const Sight& sight, int robot, std::vector<int>& room,
-                     std::vector<Neighbour>& found) {
-  found.clear();
+namespace {
+
+template <class IsSeen>
+[[gnu::always_inline]] inline void look_for(const World& world, int robot, std::vector<int>& room,
+                                            std::vector<Neighbour>& found, const IsSeen& is_seen) {
   const Body& self = world.body(robot);
   const double range_m = world.robot().neighbours.range_m;
   const double less_m = world.robot().neighbours.less_m;
-  const auto look = [&](const auto& is_seen) {
-    world.visit_near(robot, range_m, room, [&](int other) {
-      const double dx = world.body(other).x - self.x;
-      const double dy = world.body(other).y - self.y;
-      const double distance2 = dx * dx + dy * dy;
-      if (other >= world.robots() || distance2 >= range_m * range_m || !is_seen(other)) return;
-      found.push_back(neighbour_at(self, dx, dy, distance2, less_m));
-    });
-  };
-  if (sight.is_clear()) return look([](int) { return true; });  // in most missions
+  const double range2 = range_m * range_m;
+  world.visit_near(robot, range_m, room, [&](int other) {
+    const double dx = world.body(other).x - self.x;
+    const double dy = world.body(other).y - self.y;
+    const double distance2 = dx * dx + dy * dy;
+    if (other >= world.robots() || distance2 >= range2 || !is_seen(other)) return;
+    found.push_back(neighbour_at(self, dx, dy, distance2, less_m));
+  });
+}
+
+/// Where something may be in between.
+[[gnu::noinline]] void look_past_things(const World& world, const Sight& sight, int robot,
+                                        std::vector<int>& room, std::vector<Neighbour>& found) {
   std::vector<int> between;
-  look([&](int other) { return !sight.is_hidden(robot, other, between); });
+  look_for(world, robot, room, found,
+           [&](int other) { return !sight.is_hidden(robot, other, between); });
+}
+
+}  // namespace
+
+void find_neighbours(const World& world, const Sight& sight, int robot, std::vector<int>& room,
+                     std::vector<Neighbour>& found) {
+  found.clear();
+  if (!sight.is_clear()) return look_past_things(world, sight, robot, room, found);
+  look_for(world, robot, room, found, [](int) { return true; });
 }
 
 }  // namespace swarmsmith
