@@ -75,9 +75,9 @@ class IteratedRace : public Search {
   /// configuration); empty once finished. Valid until the next tell().
   std::span<const Experiment> wanted() const override;
   /// What the race would want after that, in canonical order, on up to `pairs` further pairs, if
-  /// its tests dropped no candidate: for slots that would idle. It moves no generator; what is told
-  /// does not depend on it. Empty where results decide more than who is alive: capping, a
-  /// targetEvaluator, max_time; and with one_task_at_a_time.
+  /// its tests dropped no candidate: for slots that would idle. It moves no generator; what the
+  /// race answers does not depend on it. Empty where results decide more than who is alive:
+  /// capping, a targetEvaluator, max_time; and with one_task_at_a_time.
   std::vector<Experiment> ahead(std::int64_t pairs) const override;
   /// Costs of all wanted() in the same order, smaller is better. An infinite cost rejects the
   /// configuration; what was wanted of it on later tasks is then neither counted nor used. Throws

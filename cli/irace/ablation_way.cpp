@@ -61,7 +61,8 @@ constexpr std::array<RSwitch, 10> kSwitches = {
       "leave it out: all parameters that differ are tried; to keep some, change them in the file "
       "that "
       "--ablation-source or --ablation-target names"},
-     {"-O", "--plot-type", "", "leave it out: `swarmsmith figure ablation STORE -o FILE.pdf` draws it"},
+     {"-O", "--plot-type", "",
+      "leave it out: `swarmsmith figure ablation STORE -o FILE.pdf` draws it"},
      {"", "--plot", "", "leave it out: `swarmsmith figure ablation STORE -o FILE.pdf` draws it"},
      {"", "--old-path", "", "leave it out: the scenario says where files are"},
      {"", "--new-path", "", "leave it out: the scenario says where files are"}}};

@@ -104,7 +104,7 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
                       .finalists = finalists,
                       .final_runs = options.final_runs};
   plan.generations = (plan.configurations + kChunk - 1) / kChunk;
-  // What is left over is less than a draw; whole pairs of it go to the finalists.
+  // The rest is less than a draw; whole pairs of it go to the finalists.
   plan.final_runs = (budget - plan.configurations * plan.runs) / finalists;
   return plan;
 }

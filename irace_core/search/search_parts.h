@@ -17,7 +17,7 @@ namespace swarmsmith {
 
 /// What searches are made of. Each is a struct of its options, KIND.h in this folder; its line in
 /// CMakeLists.txt makes it known. The program knows most searches by no name: campaign files, their
-/// digests, events, budgets, stores and what people are told of a search follow from what the
+/// digests, events, budgets, stores and what is shown of a search follow from what the
 /// struct has, and it does not compile without:
 ///
 /// - `kWords`, what people call it and its parts;

@@ -94,7 +94,7 @@ struct ObstacleModel {
   double neighbour_near_m = 0.275;
   double neighbour_far_m = 0.55;
   /// What the sensors are taken for, unit vectors; nothing: the RVR's ring. A robot's, not a
-  /// flavour's: whoever runs a controller on another robot sets them.
+  /// flavour's: code that runs a controller on another robot sets them.
   std::optional<RingDirections> directions;
 
   friend bool operator==(const ObstacleModel&, const ObstacleModel&) = default;

@@ -128,7 +128,7 @@ class RobotSenses final : public SimulatedSenses {
   Cycle cycle_;
   Sensors computed_;  ///< the others' readings are of an earlier cycle
   Readings readings_;
-  RayDistances front_m_{};    ///< front_proximity's, of which the first ones are readings
+  RayDistances front_m_{};    ///< front_proximity's, whose first ones are readings
   std::vector<int> room_;     ///< for numbers of movers
   std::vector<int> between_;  ///< the same, while room_ is in use
   Point floor_place_;         ///< where the floor was last looked up, and what colour it has there

@@ -28,7 +28,7 @@ inline constexpr double kSubSteps_per_s = 100;
 /// A field that is not there keeps its value.
 class FieldReader {
  public:
-  /// `ranges` takes those numbers that are told as ranges; null where they have to be numbers.
+  /// `ranges` takes those numbers that are given as ranges; null where they have to be numbers.
   explicit FieldReader(TableReader& root, std::vector<FieldRange>* ranges = nullptr)
       : root_(&root), ranges_(ranges) {}
 
@@ -214,8 +214,9 @@ class FieldReader {
     std::erase_if(*ranges_, [&](const FieldRange& range) { return range.field == field; });
     const bool of_run = std::holds_alternative<Table>(node->value);
     if (!of_run && !std::holds_alternative<Array>(node->value)) return false;
-    constexpr const char* kWanted = "a number, a range such as [0, 0.1] that is drawn for each "
-                                    "robot and run, or { run = [0, 0.1] }, drawn for the run";
+    constexpr const char* kWanted =
+        "a number, a range such as [0, 0.1] that is drawn for each "
+        "robot and run, or { run = [0, 0.1] }, drawn for the run";
     std::optional<Limits<double>> range;
     if (of_run) {
       auto inner = table.table(key);
@@ -227,8 +228,8 @@ class FieldReader {
     }
     if (!range) return true;
     if (range->least > range->most) {
-      table.complain(key, "the ends of the range `" + field + "` are exchanged: " +
-                              number_text(range->least) + " is more than " +
+      table.complain(key, "the ends of the range `" + field +
+                              "` are exchanged: " + number_text(range->least) + " is more than " +
                               number_text(range->most));
     } else if (!limits.contain(range->least) || !limits.contain(range->most)) {
       table.complain(key, "the range `" + field + "` must be within " + number_text(limits.least) +
