@@ -14,7 +14,7 @@ bool gives_strengths(const Robot& robot) {
   return robot.proximity.reading == ProximityRing::Reading::Strength;
 }
 
-/// The reference models that the robot's senses are (docs/robots.md).
+/// The reference models that the robot's senses are (docs/flavours.md).
 std::span<const std::string_view> models_of(const Robot& robot) {
   static constexpr std::array<std::string_view, 1> kOfDistances = {kRvrModel};
   static constexpr std::array<std::string_view, 3> kOfStrengths = {"rm1.1", "rm1.2", "rm1-2018"};

@@ -199,7 +199,7 @@ TEST(EngineVersion, IsAnotherWhereTheExactModelMeetsObstacles) {
   Mission bent = mission;
   bent.arena.walls = walls_around({{1, -1}, {1, 1}, {0, 0.5}, {-1, 1}, {-1, -1}});
   EXPECT_EQ(engine_version_of(bent, exact), kEngineVersion);
-  // What is as high as the camera hides neighbours, whoever plays contacts.
+  // What is as high as the camera hides neighbours under both contact models.
   EXPECT_EQ(engine_version_of(mission_with_solids(), exact), kSightVersion);
   mission.arena.obstacles.front().height_m = 0.154;
   EXPECT_EQ(engine_version_of(mission, box2d), kSightVersion);
