@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/measured.h"
 #include "programs/failure_details.h"
 #include "proto/key.h"
 
@@ -12,11 +13,8 @@ namespace swarmsmith {
 struct Result {
   PackedKey key = 0;  ///< names the campaign too
   std::int64_t attempt = 0;
-  double score = 0;
-  std::uint64_t state_digest = 0;
-  std::int64_t wall_us = 0;
+  Measured measured{};
   bool rejected = false;        ///< a target's word for it: neither score nor failure
-  double time = 0;              ///< as a target says it, in its unit; 0 where it does not
   std::string failure{};        ///< empty when there is a score or a rejection
   FailureDetails details{};     ///< of a failed target
   std::uint64_t signature = 0;  ///< of the lease under which it ran

@@ -49,13 +49,16 @@ void write(const LeasedTask& task, pb::Task& message) {
 }
 
 Result result_of(const pb::Result& message) {
+  Measured measured;
+  auto& [score, state_digest, wall_us, time] = measured;
+  score = message.score() + 0.0;
+  state_digest = message.state_digest();
+  wall_us = message.wall_us();
+  time = message.time();
   return {.key = *pack(message.key()),
           .attempt = message.attempt(),
-          .score = message.score() + 0.0,
-          .state_digest = message.state_digest(),
-          .wall_us = message.wall_us(),
+          .measured = measured,
           .rejected = message.rejected(),
-          .time = message.time(),
           .failure = message.failure(),
           .details = {message.command(), message.output(), message.errors()},
           .signature = message.signature()};
@@ -65,10 +68,11 @@ void write(const Result& result, pb::Result& message) {
   unpack(result.key, *message.mutable_key());
   message.set_attempt(result.attempt);
   message.set_signature(result.signature);
-  message.set_score(result.score);
-  message.set_state_digest(result.state_digest);
-  message.set_wall_us(result.wall_us);
-  message.set_time(result.time);
+  const auto& [score, state_digest, wall_us, time] = result.measured;
+  message.set_score(score);
+  message.set_state_digest(state_digest);
+  message.set_wall_us(wall_us);
+  message.set_time(time);
   message.set_rejected(result.rejected);
   if (result.failure.empty()) return;
   message.set_failure(clipped_text(result.failure));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/id.h"
+#include "base/measured.h"
 
 namespace swarmsmith {
 
@@ -147,12 +148,9 @@ struct EvaluationRow {
   EvaluationKey key;
   std::int64_t iteration = 0;  ///< whose race asked for it; 0 outside races
   EvaluationStatus status = EvaluationStatus::Ok;
-  double score = 0;  ///< larger is better; finite
-  std::uint64_t state_digest = 0;
-  double time = 0;           ///< as a target says it; 0 where it does not
-  double bound = 0;          ///< on that time; 0 for none
+  Measured measured{};       ///< finite
+  double bound = 0;          ///< on its time; 0 for none
   std::string source;        ///< the simulator profile
-  std::int64_t wall_us = 0;  ///< not part of the answer
   std::int64_t worker = 0;   ///< not part of the answer; 0 when unknown
   std::int64_t attempt = 1;  ///< not part of the answer
 };
@@ -370,9 +368,7 @@ using Row =
 struct StoredScore {
   EvaluationKey key;
   EvaluationStatus status = EvaluationStatus::Ok;
-  double score = 0;
-  std::uint64_t state_digest = 0;
-  double time = 0;
+  Measured measured{};
   double bound = 0;
   std::int64_t iteration = 0;  ///< that used it last; 0: none (EvaluationRow)
   std::int64_t worker = 0;

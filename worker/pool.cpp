@@ -12,14 +12,14 @@ Result evaluate(const Evaluator& evaluator, const LeasedTask& item) {
   const auto begin = std::chrono::steady_clock::now();
   try {
     result = evaluator(item);
-    if (!std::isfinite(result.score)) result = {.failure = "the score is not finite"};
+    if (!std::isfinite(result.measured.score)) result = {.failure = "the score is not finite"};
   } catch (const std::exception& error) {
     result.failure = error.what();
   } catch (...) {
     result.failure = "an exception without a text";
   }
   const auto spent = std::chrono::steady_clock::now() - begin;
-  result.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
+  result.measured.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
   result.key = item.key;
   result.attempt = item.attempt;
   result.signature = item.signature;

@@ -79,9 +79,9 @@ void WorkerProtocol::on_evaluated(Result result, TimePoint now) {
   // Those of its last lease: it may have been leased to this worker again meanwhile.
   result.attempt = held->second.attempt;
   result.signature = held->second.signature;
-  count_busy(held->second, result.wall_us, now);
+  count_busy(held->second, result.measured.wall_us, now);
   held_.erase(held);
-  const auto spent_us = static_cast<double>(result.wall_us);
+  const auto spent_us = static_cast<double>(result.measured.wall_us);
   estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
   Finished& finished = finished_[key];
   finished = Finished{std::move(result), false, {}};

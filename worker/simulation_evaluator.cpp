@@ -49,7 +49,7 @@ class Simulation {
                                               .mission = mission,
                                               .instance = *instance,
                                               .seed = item.seed});
-    return Result{.score = result.score, .state_digest = result.state_digest};
+    return Result{.measured = {.score = result.score, .state_digest = result.state_digest}};
   }
 
   const Profile& profile_of(const LeasedTask& item) const {

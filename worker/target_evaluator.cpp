@@ -133,10 +133,10 @@ class Programs {
   }
 
   static Result result_of(const TargetResult& result) {
-    if (result.rejected) return {.rejected = true, .time = result.reading.time};
-    return {.score = to_score(result.reading.cost),
-            .state_digest = digest_of(result.reading),
-            .time = result.reading.time};
+    if (result.rejected) return {.measured = {.time = result.reading.time}, .rejected = true};
+    return {.measured = {.score = to_score(result.reading.cost),
+                         .state_digest = digest_of(result.reading),
+                         .time = result.reading.time}};
   }
 
   std::shared_ptr<const WorkerScenario> scenario_;  ///< of all slots

@@ -63,12 +63,13 @@ class Member {
   void finish(TimePoint now) {
     const Running done = running_.top();
     running_.pop();
-    protocol_.on_evaluated({.key = done.item.key,
-                            .attempt = done.item.attempt,
-                            .score = synthetic_score(done.item.machine, done.item.seed),
-                            .state_digest = mix64(static_cast<std::uint64_t>(done.item.seed)),
-                            .wall_us = us_},
-                           now);
+    protocol_.on_evaluated(
+        {.key = done.item.key,
+         .attempt = done.item.attempt,
+         .measured = {.score = synthetic_score(done.item.machine, done.item.seed),
+                      .state_digest = mix64(static_cast<std::uint64_t>(done.item.seed)),
+                      .wall_us = us_}},
+        now);
   }
 
   void start_items(TimePoint now) {

@@ -38,10 +38,8 @@ void FlatCampaign::tell(const Outcome& outcome) {
   rows_.emplace_back(EvaluationRow{.key = outcome.key,
                                    .iteration = 1,
                                    .status = outcome.status,
-                                   .score = outcome.score,
-                                   .state_digest = outcome.state_digest,
+                                   .measured = outcome.measured,
                                    .source = "rvr",
-                                   .wall_us = outcome.wall_us,
                                    .worker = outcome.worker,
                                    .attempt = outcome.attempt});
 }

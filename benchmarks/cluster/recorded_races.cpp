@@ -170,10 +170,8 @@ void RecordedRaces::tell(const Outcome& outcome) {
   rows_.emplace_back(EvaluationRow{.key = outcome.key,
                                    .iteration = 1,
                                    .status = outcome.status,
-                                   .score = outcome.score,
-                                   .state_digest = outcome.state_digest,
+                                   .measured = outcome.measured,
                                    .source = "recorded",
-                                   .wall_us = outcome.wall_us,
                                    .worker = outcome.worker,
                                    .attempt = outcome.attempt});
   const auto number = static_cast<std::size_t>(design_of(outcome.key.candidate).value - 1);

@@ -39,12 +39,13 @@ std::string CallLog::text(const EvaluationRow& run, const std::string& switches,
   if (run.status == EvaluationStatus::Rejected) {
     said = "Inf";
   } else if (has_cost) {
-    said = fmt::format("{:.15g}", to_cost(run.score));
+    said = fmt::format("{:.15g}", to_cost(run.measured.score));
   }
-  if (run.time > 0) said += fmt::format("{}{:.15g}", said.empty() ? "" : " ", run.time);
+  if (run.measured.time > 0)
+    said += fmt::format("{}{:.15g}", said.empty() ? "" : " ", run.measured.time);
   return fmt::format("# {}: {}\n# {}: DONE ({}) Elapsed wall-clock seconds: {:.2f}\n{}\n", date,
                      command(run, pair->second, switches), date, number_of(run.key.candidate),
-                     1e-6 * static_cast<double>(run.wall_us), said);
+                     1e-6 * static_cast<double>(run.measured.wall_us), said);
 }
 
 }  // namespace swarmsmith::cli

@@ -102,7 +102,7 @@ class AblationReport final : public RunListener {
   Expected<void> go_on_from(StoreReader& store) {
     store.each_answer_row([this](const Row& row) { take(row); });
     for (const StoredScore& score : store.scores())
-      note(score.key, score.status, score.score);
+      note(score.key, score.status, score.measured.score);
     tell_steps();
     return fault();
   }
@@ -112,7 +112,7 @@ class AblationReport final : public RunListener {
     take(row);
     if (std::holds_alternative<EventRow>(row)) console_.add(campaign, row, now);
     if (const auto* run = std::get_if<EvaluationRow>(&row)) {
-      note(run->key, run->status, run->score);
+      note(run->key, run->status, run->measured.score);
       if (run->key.purpose == counted_) counter_.tell(++made_, wanted_);
     }
     if (std::holds_alternative<DesignStateRow>(row)) tell_steps();

@@ -16,7 +16,7 @@ namespace swarmsmith::cli {
 namespace {
 
 double cost_of(const EvaluationRow& row) {
-  return row.status == EvaluationStatus::Ok ? to_cost(row.score)
+  return row.status == EvaluationStatus::Ok ? to_cost(row.measured.score)
                                             : std::numeric_limits<double>::infinity();
 }
 

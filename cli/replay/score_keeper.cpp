@@ -25,28 +25,27 @@ Expected<ScoreKeeper> ScoreKeeper::open(const std::string& store) {
 
 ScoreKeeper::Kept ScoreKeeper::keep(const ScorePlace& place, const SimulationResult& result,
                                     std::int64_t wall_us) {
-  const double score = result.score + 0.0;  // the store keeps -0 as 0
+  // The store keeps -0 as 0.
+  const Measured measured{
+      .score = result.score + 0.0, .state_digest = result.state_digest, .wall_us = wall_us};
   const LedgerScore* known = ledger_.find(place);
   if (known == nullptr) {
-    const EvaluationKey key = ledger_.add(place, score, result.state_digest, rows_);
-    rows_.emplace_back(EvaluationRow{.key = key,
-                                     .score = score,
-                                     .state_digest = result.state_digest,
-                                     .source = place.source,
-                                     .wall_us = wall_us});
-    return {Kept::How::New, key, score};
+    const EvaluationKey key = ledger_.add(place, measured, rows_);
+    rows_.emplace_back(EvaluationRow{.key = key, .measured = measured, .source = place.source});
+    return {Kept::How::New, key, measured.score};
   }
   // An imported score has no last state to compare.
-  const bool same_score =
-      std::bit_cast<std::uint64_t>(known->score + 0.0) == std::bit_cast<std::uint64_t>(score);
-  const bool same_state = known->state_digest == 0 || known->state_digest == result.state_digest;
-  if (same_score && same_state) return {Kept::How::Known, known->key, known->score};
+  const bool same_score = std::bit_cast<std::uint64_t>(known->measured.score + 0.0) ==
+                          std::bit_cast<std::uint64_t>(measured.score);
+  const bool same_state =
+      known->measured.state_digest == 0 || known->measured.state_digest == result.state_digest;
+  if (same_score && same_state) return {Kept::How::Known, known->key, known->measured.score};
   rows_.emplace_back(ConflictRow{.key = known->key,
-                                 .kept_score = known->score,
-                                 .other_score = score,
+                                 .kept_score = known->measured.score,
+                                 .other_score = measured.score,
                                  .other_state_digest = result.state_digest,
                                  .other_worker = 0});
-  return {Kept::How::Conflict, known->key, known->score};
+  return {Kept::How::Conflict, known->key, known->measured.score};
 }
 
 Expected<void> ScoreKeeper::commit() {

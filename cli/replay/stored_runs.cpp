@@ -51,7 +51,7 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
   run.seed = cells[2].integer();
   run.rejected = cells[3].text == "rejected";
   if (cells[4].type != Cell::Type::Null) {
-    run.outcome = StoredOutcome{cells[4].real(), static_cast<std::uint64_t>(cells[5].integer())};
+    run.outcome = SimulationResult{cells[4].real(), static_cast<std::uint64_t>(cells[5].integer())};
   }
   run.worker = cells[9].integer();
   run.host = cells[10].text;
@@ -170,7 +170,7 @@ class Draw {
 
 }  // namespace
 
-bool same_bits(const StoredOutcome& stored, const SimulationResult& result) {
+bool same_bits(const SimulationResult& stored, const SimulationResult& result) {
   return std::bit_cast<std::uint64_t>(stored.score) ==
              std::bit_cast<std::uint64_t>(result.score + 0.0) &&
          stored.state_digest == result.state_digest;

@@ -16,19 +16,13 @@
 
 namespace swarmsmith::cli {
 
-/// What the store holds of an evaluation's outcome.
-struct StoredOutcome {
-  double score = 0;
-  std::uint64_t state_digest = 0;
-};
-
 /// An evaluation of a store with everything that it is a function of.
 struct StoredRun {
   std::string id;         ///< of the evaluation, e81200007; empty when the store has none of it
   std::string candidate;  ///< c812
   std::int64_t seed = 0;
   bool rejected = false;
-  std::optional<StoredOutcome> outcome;  ///< none: rejected, or not in the store
+  std::optional<SimulationResult> outcome;  ///< none: rejected, or not in the store
   Controller controller;
   Flavour flavour;
   Profile profile;
@@ -45,7 +39,7 @@ struct StoredRun {
 };
 
 /// Whether a simulation gave what the store holds, bit for bit. The store keeps -0 as 0.
-bool same_bits(const StoredOutcome& stored, const SimulationResult& result);
+bool same_bits(const SimulationResult& stored, const SimulationResult& result);
 
 /// The evaluations of a store, to be simulated again.
 class StoredRuns {

@@ -15,7 +15,7 @@ constexpr double kRejected = std::numeric_limits<double>::infinity();
 }  // namespace
 
 StoredScore score_of(const Outcome& outcome, double bound) {
-  return {outcome.key, outcome.status, outcome.score, outcome.state_digest, outcome.time, bound};
+  return {outcome.key, outcome.status, outcome.measured, bound};
 }
 
 Batch::Batch(std::vector<Experiment> experiments)
@@ -53,7 +53,8 @@ std::vector<Measurement> Batch::measurements() const {
   measurements.reserve(scores_.size());
   for (const StoredScore& score : scores_) {
     const bool is_ok = score.status == EvaluationStatus::Ok;
-    measurements.push_back({is_ok ? to_cost(score.score) : kRejected, score.time});
+    measurements.push_back(
+        {is_ok ? to_cost(score.measured.score) : kRejected, score.measured.time});
   }
   return measurements;
 }

@@ -429,7 +429,7 @@ void DesignRunner::count_used(const std::vector<std::pair<std::int64_t, std::int
     const StoredScore score = given_.front();
     given_.pop_front();
     if (score.status == EvaluationStatus::Ok)
-      recorder_.record_run(configuration, to_score(to_cost(score.score)));
+      recorder_.record_run(configuration, to_score(to_cost(score.measured.score)));
   }
 }
 
@@ -441,7 +441,7 @@ void DesignRunner::count_judged() {
     const StoredScore& score = batch_.scores()[i];
     if (!experiment.is_evaluation || score.status != EvaluationStatus::Ok) continue;
     recorder_.record_judged(experiment.configuration, experiment.pair,
-                            to_score(to_cost(score.score)));
+                            to_score(to_cost(score.measured.score)));
   }
 }
 

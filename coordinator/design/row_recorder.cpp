@@ -28,12 +28,9 @@ EvaluationRow evaluation_row(const Outcome& outcome, std::int64_t iteration, dou
   return {.key = outcome.key,
           .iteration = iteration,
           .status = outcome.status,
-          .score = outcome.score,
-          .state_digest = outcome.state_digest,
-          .time = outcome.time,
+          .measured = outcome.measured,
           .bound = bound,
           .source = source,
-          .wall_us = outcome.wall_us,
           .worker = outcome.worker,
           .attempt = outcome.attempt};
 }
@@ -180,9 +177,7 @@ void RowRecorder::record_use(const StoredScore& score) {
   record(EvaluationRow{.key = score.key,
                        .iteration = counted_iteration(),
                        .status = score.status,
-                       .score = score.score,
-                       .state_digest = score.state_digest,
-                       .time = score.time,
+                       .measured = score.measured,
                        .bound = score.bound,
                        .source = source_});
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/measured.h"
 #include "proto/task.h"
 #include "storage/rows.h"
 
@@ -21,12 +22,9 @@ struct Outcome {
   EvaluationKey key;
   std::uint32_t campaign = 0;
   EvaluationStatus status = EvaluationStatus::Ok;
-  double score = 0;
-  std::uint64_t state_digest = 0;
-  std::int64_t wall_us = 0;
+  Measured measured{};
   std::int64_t worker = 0;  ///< WorkerRow::id
   std::int64_t attempt = 1;
-  double time = 0;  ///< as a target says it; 0 where it does not
 };
 
 }  // namespace swarmsmith

@@ -23,10 +23,7 @@ struct Said {
   What what = What::Score;
   WorkerNumber worker = 0;
   std::string principal;
-  double score = 0;
-  std::uint64_t state_digest = 0;
-  std::int64_t wall_us = 0;
-  double time = 0;
+  Measured measured{};
   std::int64_t attempt = 1;
   bool taken = false;     ///< it is the outcome
   bool on_trial = false;  ///< one of the first results of its principal, which waits for the word

@@ -19,10 +19,9 @@ DesignId design_of_key(PackedKey key) {
 
 }  // namespace
 
-DoneEntry DoneTable::entry_of(PackedKey key, EvaluationStatus status, double score,
-                              std::uint64_t state_digest) {
+DoneEntry DoneTable::entry_of(PackedKey key, EvaluationStatus status, const Measured& measured) {
   if (status == EvaluationStatus::Rejected) return {key, kRejectedBits, 0};
-  return {key, std::bit_cast<std::uint64_t>(score), state_digest};
+  return {key, std::bit_cast<std::uint64_t>(measured.score), measured.state_digest};
 }
 
 std::size_t DoneTable::Outcomes::place_of(PackedKey key) const {
@@ -64,15 +63,15 @@ DoneTable::Outcomes& DoneTable::at(std::uint32_t campaign, DesignId design) {
   return designs[index];
 }
 
-const DoneEntry* DoneTable::insert(PackedKey key, EvaluationStatus status, double score,
-                                   std::uint64_t state_digest) {
+const DoneEntry* DoneTable::insert(PackedKey key, EvaluationStatus status,
+                                   const Measured& measured) {
   SWARMSMITH_ASSERT(key != 0, "0 marks a free place");
   Outcomes& outcomes = at(campaign_of(key), design_of_key(key));
   if (outcomes.closed) return nullptr;
   if (4 * (outcomes.size + 1) > 3 * outcomes.entries.size()) outcomes.grow();
   DoneEntry& entry = outcomes.entries[outcomes.place_of(key)];
   if (entry.key == 0) {
-    entry = entry_of(key, status, score, state_digest);
+    entry = entry_of(key, status, measured);
     ++outcomes.size;
   }
   return &entry;
@@ -121,9 +120,8 @@ std::size_t DoneTable::size() const {
   return size;
 }
 
-bool DoneTable::same(const DoneEntry& entry, EvaluationStatus status, double score,
-                     std::uint64_t state_digest) {
-  const DoneEntry other = entry_of(entry.key, status, score, state_digest);
+bool DoneTable::same(const DoneEntry& entry, EvaluationStatus status, const Measured& measured) {
+  const DoneEntry other = entry_of(entry.key, status, measured);
   return entry.score_bits == other.score_bits && entry.state_digest == other.state_digest;
 }
 

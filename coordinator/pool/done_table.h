@@ -27,8 +27,7 @@ class DoneTable {
  public:
   /// Inserts, or returns the entry that is there already; null when the design is over. What comes
   /// of a candidate that is out of its race, such as a test, is known until others are out.
-  const DoneEntry* insert(PackedKey key, EvaluationStatus status, double score,
-                          std::uint64_t state_digest);
+  const DoneEntry* insert(PackedKey key, EvaluationStatus status, const Measured& measured);
   const DoneEntry* find(PackedKey key) const;
   /// Forgets the design's outcomes: it needs no more of them, whatever comes.
   void close(std::uint32_t campaign, DesignId design);
@@ -37,10 +36,8 @@ class DoneTable {
   bool is_closed(PackedKey key) const;
   std::size_t size() const;
 
-  static DoneEntry entry_of(PackedKey key, EvaluationStatus status, double score,
-                            std::uint64_t state_digest);
-  static bool same(const DoneEntry& entry, EvaluationStatus status, double score,
-                   std::uint64_t state_digest);
+  static DoneEntry entry_of(PackedKey key, EvaluationStatus status, const Measured& measured);
+  static bool same(const DoneEntry& entry, EvaluationStatus status, const Measured& measured);
 
  private:
   struct Outcomes {

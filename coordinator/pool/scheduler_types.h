@@ -53,9 +53,7 @@ struct Ruling {
   };
   PackedKey key = 0;
   Kind kind = Kind::Score;
-  double score = 0;
-  std::uint64_t state_digest = 0;
-  std::int64_t wall_us = 0;
+  Measured measured{};
   std::string reason{};  ///< a sentence, unless there is a score
 };
 

@@ -53,7 +53,7 @@ void TaskBook::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
   SWARMSMITH_ASSERT(done.find(key) == nullptr, "a task has one outcome");
   leases.remove(key, outcome.worker);
-  done.insert(key, outcome.status, outcome.score, outcome.state_digest);
+  done.insert(key, outcome.status, outcome.measured);
   CampaignMeters& meters = leases.meters(outcome.campaign);
   const bool ok = outcome.status == EvaluationStatus::Ok;
   ++(ok ? counters.done : counters.rejected);

@@ -55,7 +55,7 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
   std::deque<StoredWord> unaudited;
   for (const StoredScore& score : known) {
     const PackedKey key = pack(score.key, campaign);
-    book_->done.insert(key, score.status, score.score, score.state_digest);
+    book_->done.insert(key, score.status, score.measured);
     const auto name = trust.principals.find(score.worker);
     if (name == trust.principals.end() || trust.audited.contains(score.key)) continue;
     ++principals_.at(name->second)
@@ -67,8 +67,7 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
                          {.what = Said::What::Score,
                           .worker = static_cast<WorkerNumber>(score.worker),
                           .principal = name->second,
-                          .score = score.score,
-                          .state_digest = score.state_digest,
+                          .measured = score.measured,
                           .taken = true}});
   }
   return unaudited;
@@ -140,10 +139,7 @@ void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now
                 Said{.what = Said::What::Score,
                      .worker = one.worker,
                      .principal = principal.name,
-                     .score = one.result.score,
-                     .state_digest = one.result.state_digest,
-                     .wall_us = one.result.wall_us,
-                     .time = one.result.time,
+                     .measured = one.result.measured,
                      .attempt = one.result.attempt,
                      .on_trial = true},
                 false);
@@ -198,8 +194,7 @@ void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Resu
               Said{.what = Said::What::Score,
                    .worker = entry.number,
                    .principal = entry.principal->name,
-                   .score = result.score,
-                   .state_digest = result.state_digest,
+                   .measured = result.measured,
                    .taken = true},
               true);
 }
@@ -449,22 +444,22 @@ void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, T
     if (const WorkerEntry* other = workers_->of_number(record.avoid))
       strike(*other->principal, other->number, now);
   }
-  book_->learn(campaign, result.wall_us);
+  book_->learn(campaign, result.measured.wall_us);
   book_->note_second_copy(record, entry.number, now);
   const Lease* lease = record.lease_of(entry.number);
   CampaignMeters& meters = book_->leases.meters(campaign);
-  meters.evaluation.observe(std::chrono::microseconds(std::max<std::int64_t>(result.wall_us, 0)));
+  meters.evaluation.observe(
+      std::chrono::microseconds(std::max<std::int64_t>(result.measured.wall_us, 0)));
   if (lease != nullptr) meters.round_trip.observe(now - lease->granted);
+  Measured measured = result.measured;
+  if (result.rejected) measured.score = 0;
   book_->accept(
       {.key = record.task.key,
        .campaign = campaign,
        .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
-       .score = result.rejected ? 0 : result.score,
-       .state_digest = result.state_digest,
-       .wall_us = result.wall_us,
+       .measured = measured,
        .worker = entry.number,
-       .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1),
-       .time = result.time});
+       .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1)});
 }
 
 /// Principals that have proved themselves and are there.

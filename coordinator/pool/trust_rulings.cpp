@@ -11,29 +11,28 @@
 namespace swarmsmith {
 namespace {
 
-double value_of(const DoneEntry& entry) {
-  return std::bit_cast<double>(entry.score_bits);
+Measured measured_of(const DoneEntry& entry) {
+  return {.score = std::bit_cast<double>(entry.score_bits), .state_digest = entry.state_digest};
 }
 
 bool is_right(const Said& said, const Ruling& ruling) {
   if (said.what == Said::What::NoScore) return ruling.kind == Ruling::Kind::Rejected;
-  return ruling.kind == Ruling::Kind::Score && said.state_digest == ruling.state_digest &&
-         std::bit_cast<std::uint64_t>(said.score) == std::bit_cast<std::uint64_t>(ruling.score);
+  return ruling.kind == Ruling::Kind::Score && same_bits(said.measured, ruling.measured);
 }
 
 std::string text_of(const Ruling& ruling) {
   if (ruling.kind != Ruling::Kind::Score) return "that it has no score";
-  return fmt::format("{}", ruling.score);
+  return fmt::format("{}", ruling.measured.score);
 }
 
 std::string text_of(const Said& said) {
-  return said.what == Said::What::Score ? fmt::format("{}", said.score) : "no score";
+  return said.what == Said::What::Score ? fmt::format("{}", said.measured.score) : "no score";
 }
 
 /// Equal scores of runs whose robots ended elsewhere are no evidence without this.
 std::string text_beside(const Said& said, const Ruling& ruling) {
   const bool is_same = said.what == Said::What::Score && ruling.kind == Ruling::Kind::Score &&
-                       said.score == ruling.score;
+                       said.measured.score == ruling.measured.score;
   return text_of(ruling) + (is_same ? ", with another end of the run" : "");
 }
 
@@ -70,7 +69,7 @@ void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
   const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
   // Two runs of a program may differ, in its time at least: the first one counts.
   const bool is_the_same = known == nullptr || book_->options.evaluates_programs ||
-                           DoneTable::same(*known, status, result.score, result.state_digest);
+                           DoneTable::same(*known, status, result.measured);
   if (is_the_same || entry.principal->claims >= Principal::kMostClaims) {
     book_->act(OutcomeRepeated{result.key, entry.number});
   } else {
@@ -83,17 +82,15 @@ void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
 /// told the task.
 void Trust::dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result) {
   if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
-  const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, 0, 0);
+  const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, {});
   disputed_[result.key].push_back(
       {.kept = {.what = has_score ? Said::What::Score : Said::What::NoScore,
-                .score = value_of(known),
-                .state_digest = known.state_digest,
+                .measured = measured_of(known),
                 .taken = true},
        .other = {.what = result.rejected ? Said::What::NoScore : Said::What::Score,
                  .worker = entry.number,
                  .principal = entry.principal->name,
-                 .score = result.score,
-                 .state_digest = result.state_digest},
+                 .measured = result.measured},
        .signature = result.signature});
   book_->act(TaskInDispute{campaign_of(result.key), unpack(result.key)});
 }
@@ -133,9 +130,9 @@ void Trust::note_conflict(PackedKey key, const Dispute& dispute) {
   const bool has_score = dispute.kept.what == Said::What::Score;
   book_->act(ConflictFound{campaign_of(key),
                            {.key = unpack(key),
-                            .kept_score = has_score ? dispute.kept.score : 0,
-                            .other_score = dispute.other.score,
-                            .other_state_digest = dispute.other.state_digest,
+                            .kept_score = has_score ? dispute.kept.measured.score : 0,
+                            .other_score = dispute.other.measured.score,
+                            .other_state_digest = dispute.other.measured.state_digest,
                             .other_worker = dispute.other.worker}});
   const WorkerEntry* worker = workers_->of_number(dispute.other.worker);
   book_->note("error", "not deterministic",
@@ -151,7 +148,7 @@ void Trust::on_ruling(const Ruling& ruling, TimePoint now) {
   if (!ruled) return;
   ++book_->counters.rulings;
   if (ruling.kind == Ruling::Kind::Score) {
-    const auto spent_us = static_cast<double>(std::max<std::int64_t>(ruling.wall_us, 0));
+    const auto spent_us = static_cast<double>(std::max<std::int64_t>(ruling.measured.wall_us, 0));
     referee_us_ += (referee_us_ == 0 ? 1.0 : 0.05) * (spent_us - referee_us_);
   }
   if (ruling.kind == Ruling::Kind::NoWord) {
@@ -194,13 +191,13 @@ void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
   }
   const WorkerNumber by = is_of_worker ? right->worker : 0;
   book_->note_second_copy(*record, by, now);
+  Measured measured = ruling.measured;
+  if (is_of_worker) measured.wall_us = right->measured.wall_us;
   book_->accept(
       {.key = record->task.key,
        .campaign = record->task.campaign,
        .status = EvaluationStatus::Ok,
-       .score = ruling.score,
-       .state_digest = ruling.state_digest,
-       .wall_us = is_of_worker ? right->wall_us : ruling.wall_us,
+       .measured = measured,
        .worker = by,
        .attempt = is_of_worker ? right->attempt : std::max<std::int64_t>(record->attempts, 1)});
 }
@@ -237,7 +234,7 @@ void Trust::note_audited(const Said& said, Principal* principal, const Ruling& r
                           {.key = unpack(ruling.key),
                            .attempt = said.attempt,
                            .worker = 0,
-                           .held_ms = ruling.wall_us / 1000,
+                           .held_ms = ruling.measured.wall_us / 1000,
                            .outcome = AttemptOutcome::Audited}});
 }
 

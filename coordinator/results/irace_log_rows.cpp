@@ -140,8 +140,7 @@ void Rows::add_pairs_and_evaluations() {
         EvaluationRow{.key = {id_of(run.configuration), Purpose::Race, run.pair},
                       .iteration = run.iteration,
                       .status = rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
-                      .score = value,
-                      .time = run.time,
+                      .measured = {.score = value, .time = run.time},
                       .bound = run.bound,
                       .source = "command"});
     CandidateTotalsRow& total = totals[run.configuration];
@@ -157,7 +156,7 @@ void Rows::add_pairs_and_evaluations() {
     rows_.emplace_back(
         EvaluationRow{.key = {id_of(test.configuration), Purpose::Test, test.pair},
                       .status = rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
-                      .score = rejected ? 0 : -test.cost,
+                      .measured = {.score = rejected ? 0 : -test.cost},
                       .source = "command"});
   }
 }

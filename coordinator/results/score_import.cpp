@@ -224,7 +224,7 @@ Expected<void> Importer::put(const CsvRow& row, Score read) {
   if (stored != nullptr) {
     key = stored->key;
     const auto here = lines_.find(key);
-    if (stored->score == read.score) {
+    if (stored->measured.score == read.score) {
       if (here == lines_.end()) ++result_.known;
       return {};
     }
@@ -234,26 +234,28 @@ Expected<void> Importer::put(const CsvRow& row, Score read) {
                     read.place.seed == 0 ? fmt::format("run {}", *read.place.instance)
                                          : fmt::format("seed {}", read.place.seed));
     if (here != lines_.end()) {
-      return bad_input(both + fmt::format("is {} in {}", stored->score, here->second));
+      return bad_input(both + fmt::format("is {} in {}", stored->measured.score, here->second));
     }
     if (key.purpose == Purpose::Test) {
-      return bad_input(
-          both + fmt::format("is {} in the campaign's own test {}", stored->score, to_string(key)));
+      return bad_input(both + fmt::format("is {} in the campaign's own test {}",
+                                          stored->measured.score, to_string(key)));
     }
     if (!known_.replace) {
       return bad_input(both + fmt::format("is {} in the store, {}; --replace takes the new one",
-                                          stored->score, to_string(key)));
+                                          stored->measured.score, to_string(key)));
     }
     ledger_.replace(read.place, read.score);
     result_.addition.removed.push_back(key);
     ++result_.replaced;
   } else {
-    key = ledger_.add(read.place, read.score, 0, result_.addition.rows);
+    key = ledger_.add(read.place, {.score = read.score}, result_.addition.rows);
     ++result_.added;
   }
   lines_.emplace(key, table_.place(row));
-  result_.addition.rows.emplace_back(EvaluationRow{
-      .key = key, .score = read.score, .time = read.time, .source = read.place.source});
+  result_.addition.rows.emplace_back(
+      EvaluationRow{.key = key,
+                    .measured = {.score = read.score, .time = read.time},
+                    .source = read.place.source});
   if (!read.note.empty()) {
     result_.addition.rows.emplace_back(EventRow{
         .severity = "info",

@@ -31,10 +31,11 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
     const CandidateId candidate{integer_at(row[0])};
     const DesignId design = design_of(candidate);
     const Purpose purpose = purpose_of_word(row[1].text).value_or(Purpose::Score);
-    const LedgerScore known{.key = {candidate, purpose, integer_at(row[2])},
-                            .instance = integer_at(row[3]),
-                            .score = number_in(row[6].text).value_or(0),
-                            .state_digest = static_cast<std::uint64_t>(integer_at(row[7]))};
+    const LedgerScore known{
+        .key = {candidate, purpose, integer_at(row[2])},
+        .instance = integer_at(row[3]),
+        .measured = {.score = number_in(row[6].text).value_or(0),
+                     .state_digest = static_cast<std::uint64_t>(integer_at(row[7]))}};
     const std::string& source = row[5].text;
     const std::int64_t seed = integer_at(row[4]);
     if (purpose == Purpose::Score) {
@@ -71,7 +72,7 @@ const LedgerScore* ScoreLedger::find(const ScorePlace& place) const {
   return found == scores_.end() ? nullptr : &found->second;
 }
 
-EvaluationKey ScoreLedger::add(const ScorePlace& place, double score, std::uint64_t state_digest,
+EvaluationKey ScoreLedger::add(const ScorePlace& place, const Measured& measured,
                                std::vector<Row>& rows) {
   const DesignId design = design_of(place.candidate);
   const std::int64_t instance = place.instance.value_or(1);
@@ -86,7 +87,7 @@ EvaluationKey ScoreLedger::add(const ScorePlace& place, double score, std::uint6
   }
   const EvaluationKey key{place.candidate, Purpose::Score, pair->second};
   scores_.insert_or_assign(Place{place.candidate, place.source, place.seed, instance},
-                           LedgerScore{key, instance, score, state_digest});
+                           LedgerScore{key, instance, measured});
   return key;
 }
 
@@ -94,8 +95,7 @@ void ScoreLedger::replace(const ScorePlace& place, double score) {
   const auto found = at(place);
   SWARMSMITH_ASSERT(found != scores_.end(), "what is replaced is known");
   LedgerScore changed = found->second;
-  changed.score = score;
-  changed.state_digest = 0;
+  changed.measured = {.score = score};
   scores_.insert_or_assign(found->first, changed);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "base/measured.h"
 #include "storage/store.h"
 
 namespace swarmsmith {
@@ -16,8 +17,7 @@ namespace swarmsmith {
 struct LedgerScore {
   EvaluationKey key;  ///< a test's, or a later score's
   std::int64_t instance = 0;
-  double score = 0;
-  std::uint64_t state_digest = 0;  ///< 0: not made by this simulator
+  Measured measured{};  ///< digest 0: not made by this simulator
 };
 
 /// On what a score was made. No seed (0): a run that no seed describes, such as one of robots; then
@@ -42,8 +42,7 @@ class ScoreLedger {
 
   /// The key of a score that is not known there, and is from now on. A new pair is added to `rows`.
   /// Instance 1 when the place has none.
-  EvaluationKey add(const ScorePlace& place, double score, std::uint64_t state_digest,
-                    std::vector<Row>& rows);
+  EvaluationKey add(const ScorePlace& place, const Measured& measured, std::vector<Row>& rows);
 
   /// The score that `find` gives, which must be there, gives way to another, made elsewhere.
   void replace(const ScorePlace& place, double score);

@@ -122,7 +122,7 @@ void ProgressModel::add_test(DesignProgress& progress, const EvaluationRow& row)
   if (row.key.purpose != Purpose::Test || row.status != EvaluationStatus::Ok) return;
   TestedDesign& tested = progress.tests[row.key.candidate];
   ++tested.runs;
-  tested.mean += (row.score - tested.mean) / static_cast<double>(tested.runs);
+  tested.mean += (row.measured.score - tested.mean) / static_cast<double>(tested.runs);
 }
 
 void ProgressModel::tell_tests(DesignProgress& progress) {

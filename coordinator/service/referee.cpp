@@ -177,9 +177,7 @@ class ProcessReferee final : public Referee {
     if (!result.failure.empty() || result.rejected) {
       return {.ruling = Ruling{.kind = Ruling::Kind::Rejected, .reason = result.failure}};
     }
-    return {.ruling = Ruling{.score = result.score,
-                             .state_digest = result.state_digest,
-                             .wall_us = result.wall_us}};
+    return {.ruling = Ruling{.measured = result.measured}};
   }
 
   static Ruling timed_out(const AskReferee& ask) {

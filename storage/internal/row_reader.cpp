@@ -138,6 +138,17 @@ PairRow pair(const Statement& row) {
           .seed = row.integer(kPairColumns.at("seed"))};
 }
 
+Measured measured_at(const Statement& row) {
+  constexpr auto& kAll = kEvaluationColumns;
+  Measured measured;
+  auto& [score, state_digest, wall_us, time] = measured;
+  score = row.real(kAll.at("score"));
+  state_digest = row.bits(kAll.at("state_digest"));
+  wall_us = row.integer(kAll.at("wall_us"));
+  time = row.real(kAll.at("time"));
+  return measured;
+}
+
 /// Behind the table's columns: its iteration, and the name of its source.
 EvaluationRow evaluation(const Statement& row) {
   constexpr auto& kAll = kEvaluationColumns;
@@ -145,12 +156,9 @@ EvaluationRow evaluation(const Statement& row) {
   return {.key = key_at(row, kAll.at("candidate")),
           .iteration = row.integer(kAll.size()),
           .status = status_at(row, kAll.at("status")),
-          .score = row.real(kAll.at("score")),
-          .state_digest = row.bits(kAll.at("state_digest")),
-          .time = row.real(kAll.at("time")),
+          .measured = measured_at(row),
           .bound = row.real(kAll.at("bound")),
           .source = row.text(kAll.size() + 1),
-          .wall_us = row.integer(kAll.at("wall_us")),
           .worker = row.integer(kAll.at("worker")),
           .attempt = row.integer(kAll.at("attempt"))};
 }
@@ -270,9 +278,7 @@ std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const
   while (row.step()) {
     scores.push_back({.key = shifted(key_at(row, kAll.at("candidate")), shift),
                       .status = status_at(row, kAll.at("status")),
-                      .score = row.real(kAll.at("score")),
-                      .state_digest = row.bits(kAll.at("state_digest")),
-                      .time = row.real(kAll.at("time")),
+                      .measured = measured_at(row),
                       .bound = row.real(kAll.at("bound")),
                       .iteration = row.integer(kAll.size()),
                       .worker = row.integer(kAll.at("worker"))});

@@ -162,7 +162,8 @@ void RowWriter::put(const PairRow& row) {
 void RowWriter::put(const EvaluationRow& row) {
   const std::int64_t candidate = row.key.candidate.value;
   const std::int64_t purpose = number(row.key.purpose);
-  const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
+  const auto& [measured_score, state_digest, wall_us, time] = row.measured;
+  const double* score = row.status == EvaluationStatus::Ok ? &measured_score : nullptr;
   const auto iteration = unless_zero(row.iteration);
   const bool is_new = std::apply(
       [&](const auto&... cells) {
@@ -172,13 +173,13 @@ void RowWriter::put(const EvaluationRow& row) {
         if (sums_) sums_->add(Table::Evaluation, RowHash::of(cells...));
         return true;
       },
-      std::tuple(candidate, purpose, row.key.pair, number(row.status), score, row.state_digest,
-                 source_id(row.source), row.wall_us, row.worker, row.attempt, unless_zero(row.time),
+      std::tuple(candidate, purpose, row.key.pair, number(row.status), score, state_digest,
+                 source_id(row.source), wall_us, row.worker, row.attempt, unless_zero(time),
                  unless_zero(row.bound)));
   bool is_used = is_new;
   if (!is_new && iteration) {
-    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score,
-              row.state_digest, unless_zero(row.time));
+    used_.run(candidate, purpose, row.key.pair, iteration, number(row.status), score, state_digest,
+              unless_zero(time));
     is_used = connection_.changes() > 0;
   }
   if (sums_ && iteration && is_used)
@@ -307,8 +308,9 @@ void require_finite(const Row& row) {
   std::visit(Overloaded{
                  nothing,
                  [&](const EvaluationRow& r) {
-                   require(r.status != EvaluationStatus::Ok || std::isfinite(r.score), row);
-                   require(std::isfinite(r.time) && std::isfinite(r.bound), row);
+                   require(r.status != EvaluationStatus::Ok || std::isfinite(r.measured.score),
+                           row);
+                   require(std::isfinite(r.measured.time) && std::isfinite(r.bound), row);
                  },
                  [&](const RaceStepRow& r) {
                    require(std::isfinite(r.mean_best), row);

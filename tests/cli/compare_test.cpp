@@ -35,12 +35,14 @@ struct Compare : testing::Test {
   }
 
   static std::vector<Row> real_run(const DesignStateRow& design) {
-    return {PairRow{.design = design.design,
-                    .purpose = Purpose::Score,
-                    .number = 1,
-                    .instance = 1,
-                    .seed = 1},
-            EvaluationRow{.key = {design.best, Purpose::Score, 1}, .score = 1, .source = "real"}};
+    return {
+        PairRow{.design = design.design,
+                .purpose = Purpose::Score,
+                .number = 1,
+                .instance = 1,
+                .seed = 1},
+        EvaluationRow{
+            .key = {design.best, Purpose::Score, 1}, .measured = {.score = 1}, .source = "real"}};
   }
 };
 

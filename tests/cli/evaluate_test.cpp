@@ -318,8 +318,9 @@ TEST_F(EvaluateFromStore, ShoutsWhenTheBitsDifferFromWhatIsStored) {
                              design_rows(one_design_campaign()));
     (*store)->append(
         {PairRow{.design = {1}, .purpose = Purpose::Score, .number = 1, .instance = 1, .seed = 2},
-         EvaluationRow{
-             .key = {{1}, Purpose::Score, 1}, .score = 77, .state_digest = 5, .source = "rvr"}});
+         EvaluationRow{.key = {{1}, Purpose::Score, 1},
+                       .measured = {.score = 77, .state_digest = 5},
+                       .source = "rvr"}});
   }
   const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "2"});
   EXPECT_EQ(ran.code, 1);

@@ -55,11 +55,11 @@ void write_programs_store(const fs::path& file) {
   const auto run = [&](CandidateId candidate, Purpose purpose, std::int64_t number, double score) {
     return EvaluationRow{.key = {candidate, purpose, number},
                          .iteration = purpose == Purpose::Test ? 0 : 1,
-                         .score = score,
+                         .measured = {.score = score},
                          .source = "command"};
   };
   EvaluationRow timed = run(one, Purpose::Race, 1, 0);
-  timed.time = 1.25;
+  timed.measured.time = 1.25;
   timed.bound = 5;
   EvaluationRow rejected = run(two, Purpose::Race, 2, 0);
   rejected.status = EvaluationStatus::Rejected;
@@ -187,8 +187,7 @@ TEST_F(ExportRdata, OfARaceThatCapsHasTheCostsThatTheRaceCounted) {
     rows.push_back(PairRow{.design = {1}, .number = pair, .instance = 1, .seed = pair});
     rows.push_back(EvaluationRow{.key = {one, Purpose::Race, pair},
                                  .iteration = 1,
-                                 .score = score,
-                                 .time = time,
+                                 .measured = {.score = score, .time = time},
                                  .bound = bound,
                                  .source = "command"});
     rows.push_back(RaceStepRow{.design = {1}, .step = pair, .iteration = 1, .pair = pair});

@@ -66,14 +66,15 @@ void write_true_store(const std::filesystem::path& file, const CampaignRow& camp
   for (std::int64_t pair = 1; pair <= 5; ++pair) {
     const SimulationResult result = result_of(kTwoStatesText, 20 + pair);
     add(Purpose::Race, pair, 20 + pair,
-        {.iteration = 1, .score = result.score, .state_digest = result.state_digest});
+        {.iteration = 1, .measured = {.score = result.score, .state_digest = result.state_digest}});
   }
   add(Purpose::Race, 6, 26, {.iteration = 1, .status = EvaluationStatus::Rejected});
-  add(Purpose::Race, 7, 0, {.iteration = 1, .score = 1});
+  add(Purpose::Race, 7, 0, {.iteration = 1, .measured = {.score = 1}});
   const SimulationResult test = result_of(kTwoStatesText, 99);
-  add(Purpose::Test, 1, 99, {.score = test.score, .state_digest = test.state_digest});
-  add(Purpose::Audit, 1, 99, {.score = test.score, .state_digest = test.state_digest + 1});
-  add(Purpose::Score, 1, 3, {.score = 2, .source = "real"});
+  add(Purpose::Test, 1, 99, {.measured = {.score = test.score, .state_digest = test.state_digest}});
+  add(Purpose::Audit, 1, 99,
+      {.measured = {.score = test.score, .state_digest = test.state_digest + 1}});
+  add(Purpose::Score, 1, 3, {.measured = {.score = 2}, .source = "real"});
   (*store)->append(std::move(rows));
   (*store)->flush();
 }

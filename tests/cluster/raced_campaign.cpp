@@ -86,8 +86,7 @@ Outcome outcome_of(const CampaignShape& shape, const Task& task) {
   const bool ok = truth.kind == Truth::Kind::Score;
   return {.key = task.key,
           .status = ok ? EvaluationStatus::Ok : EvaluationStatus::Rejected,
-          .score = truth.score,
-          .state_digest = truth.state_digest};
+          .measured = {.score = truth.score, .state_digest = truth.state_digest}};
 }
 
 std::vector<DesignId> finished_on(const SimulatedDisk& disk) {

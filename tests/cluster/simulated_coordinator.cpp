@@ -133,12 +133,11 @@ void SimulatedCluster::judge(const AskReferee& ask) {
   const CampaignShape& shape = campaigns_.at(ask.task.campaign).shape;
   const Truth truth = truth_of(shape, ask.task);
   const bool has_score = truth.kind == Truth::Kind::Score;
-  const Ruling ruling{.key = key,
-                      .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,
-                      .score = truth.score,
-                      .state_digest = truth.state_digest,
-                      .wall_us = 1000,
-                      .reason = has_score ? "" : "planted"};
+  const Ruling ruling{
+      .key = key,
+      .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,
+      .measured = {.score = truth.score, .state_digest = truth.state_digest, .wall_us = 1000},
+      .reason = has_score ? "" : "planted"};
   on_process(kCoordinator, milliseconds(1), [this, ruling] {
     coordinator_->on_ruling(ruling, clock(kCoordinator));
     settle_coordinator();

@@ -166,8 +166,7 @@ std::vector<StoredScore> SimulatedDisk::scores() const {
   for (const EvaluationRow& row : rows_of<EvaluationRow>())
     scores.push_back({.key = row.key,
                       .status = row.status,
-                      .score = row.score,
-                      .state_digest = row.state_digest,
+                      .measured = row.measured,
                       .iteration = row.iteration,
                       .worker = row.worker});
   return scores;

@@ -141,8 +141,8 @@ void SimulatedCluster::check_row(const Running& running, const Row& row) {
     if (has_score && lies_.empty()) fail("rejected what has a score: " + to_string(key));
     return;
   }
-  const bool is_true = has_score && evaluation->score == truth->second.score &&
-                       evaluation->state_digest == truth->second.state_digest;
+  const bool is_true = has_score && evaluation->measured.score == truth->second.score &&
+                       evaluation->measured.state_digest == truth->second.state_digest;
   if (is_true) return;
   if (!leased_to_strangers_.contains(packed))
     fail("stored a score of somebody who had no lease of it: " + to_string(key));

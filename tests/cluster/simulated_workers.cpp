@@ -118,15 +118,15 @@ void SimulatedCluster::finish_item(int index, const LeasedTask& item) {
   --worker.running;
   const bool fails = truth.kind == Truth::Kind::Fails;
   if (fails) failed_.insert(item.key);
-  worker.protocol->on_evaluated(
-      {.key = item.key,
-       .attempt = item.attempt,
-       .score = truth.score,
-       .state_digest = truth.state_digest,
-       .wall_us =
-           std::chrono::duration_cast<microseconds>(time_of(item.key, worker.slowness)).count(),
-       .failure = fails ? "planted" : ""},
-      clock(index));
+  worker.protocol->on_evaluated({.key = item.key,
+                                 .attempt = item.attempt,
+                                 .measured = {.score = truth.score,
+                                              .state_digest = truth.state_digest,
+                                              .wall_us = std::chrono::duration_cast<microseconds>(
+                                                             time_of(item.key, worker.slowness))
+                                                             .count()},
+                                 .failure = fails ? "planted" : ""},
+                                clock(index));
   settle_worker(index);
 }
 

@@ -67,13 +67,12 @@ void SyntheticCampaign::tell(const Outcome& outcome) {
   }
   rows_.emplace_back(EvaluationRow{.key = outcome.key,
                                    .status = outcome.status,
-                                   .score = outcome.score,
-                                   .state_digest = outcome.state_digest,
+                                   .measured = outcome.measured,
                                    .source = "test",
                                    .worker = outcome.worker,
                                    .attempt = outcome.attempt});
   const auto design = static_cast<std::size_t>(design_of(outcome.key.candidate).value - 1);
-  put(design, outcome.key, outcome.status, outcome.score);
+  put(design, outcome.key, outcome.status, outcome.measured.score);
 }
 
 void SyntheticCampaign::put(std::size_t design, const EvaluationKey& key, EvaluationStatus status,
@@ -138,8 +137,7 @@ std::string undisturbed_dump(const CampaignShape& shape) {
       const bool ok = truth.kind == Truth::Kind::Score;
       campaign.tell({.key = task.key,
                      .status = ok ? EvaluationStatus::Ok : EvaluationStatus::Rejected,
-                     .score = truth.score,
-                     .state_digest = truth.state_digest});
+                     .measured = {.score = truth.score, .state_digest = truth.state_digest}});
     }
   }
   return campaign.dump();

@@ -41,11 +41,8 @@ TEST(TaskMessages, GiveBackTheTask) {
 TEST(TaskMessages, GiveBackTheResult) {
   const Result result{.key = pack(7, 0, 8, 9),
                       .attempt = 1,
-                      .score = 1.0 / 3,
-                      .state_digest = 2,
-                      .wall_us = 3,
+                      .measured = {.score = 1.0 / 3, .state_digest = 2, .wall_us = 3, .time = 0.5},
                       .rejected = true,
-                      .time = 0.5,
                       .failure = "why",
                       .details = {"called", "out", "err"},
                       .signature = 4};
@@ -54,11 +51,11 @@ TEST(TaskMessages, GiveBackTheResult) {
   const Result read = result_of(message);
   EXPECT_EQ(read.key, result.key);
   EXPECT_EQ(read.attempt, 1);
-  EXPECT_EQ(read.score, 1.0 / 3);
-  EXPECT_EQ(read.state_digest, 2U);
-  EXPECT_EQ(read.wall_us, 3);
+  EXPECT_EQ(read.measured.score, 1.0 / 3);
+  EXPECT_EQ(read.measured.state_digest, 2U);
+  EXPECT_EQ(read.measured.wall_us, 3);
   EXPECT_TRUE(read.rejected);
-  EXPECT_EQ(read.time, 0.5);
+  EXPECT_EQ(read.measured.time, 0.5);
   EXPECT_EQ(read.failure, "why");
   EXPECT_EQ(read.details, result.details);
   EXPECT_EQ(read.signature, 4U);
@@ -66,10 +63,12 @@ TEST(TaskMessages, GiveBackTheResult) {
 
 TEST(TaskMessages, CutTextsAndKnowOneZero) {
   pb::Result message;
-  write({.key = pack(1, 0, 1), .score = -0.0, .failure = std::string(2 * kMaxTextBytes, 'x')},
+  write({.key = pack(1, 0, 1),
+         .measured = {.score = -0.0},
+         .failure = std::string(2 * kMaxTextBytes, 'x')},
         message);
   EXPECT_EQ(result_of(message).failure.size(), kMaxTextBytes);
-  EXPECT_FALSE(std::signbit(result_of(message).score));
+  EXPECT_FALSE(std::signbit(result_of(message).measured.score));
 }
 
 }  // namespace

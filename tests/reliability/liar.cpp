@@ -28,8 +28,8 @@ EvaluatorFactory lying_evaluators(int honest, int every) {
     return [evaluate = std::move(*made), honest, every, count = 0](const LeasedTask& item) mutable {
       Result result = evaluate(item);
       if (++count <= honest || (count - honest) % every != 0) return result;
-      result.score += 1;
-      result.state_digest ^= 1;
+      result.measured.score += 1;
+      result.measured.state_digest ^= 1;
       return result;
     };
   };

@@ -11,7 +11,7 @@ EvaluationRow evaluation() {
   EvaluationRow row;
   row.key = {.candidate = {7}, .purpose = Purpose::Race, .pair = 3};
   row.iteration = 2;
-  row.score = 2.5;
+  row.measured.score = 2.5;
   row.source = "rvr";
   return row;
 }
@@ -20,24 +20,24 @@ TEST(Answer, LeavesOutWhoMadeAnEvaluationAndHowLongItTook) {
   EvaluationRow elsewhere = evaluation();
   elsewhere.worker = 9;
   elsewhere.attempt = 2;
-  elsewhere.wall_us = 1234;
+  elsewhere.measured.wall_us = 1234;
   EXPECT_TRUE(same_answer(evaluation(), elsewhere));
 }
 
 TEST(Answer, ChangesWithEveryBitOfAScoreButNotWithTheSignOfZero) {
   EvaluationRow other = evaluation();
-  other.score = std::nextafter(2.5, 3.0);
+  other.measured.score = std::nextafter(2.5, 3.0);
   EXPECT_FALSE(same_answer(evaluation(), other));
   EvaluationRow zero = evaluation();
-  zero.score = 0.0;
+  zero.measured.score = 0.0;
   EvaluationRow negative = evaluation();
-  negative.score = -0.0;
+  negative.measured.score = -0.0;
   EXPECT_TRUE(same_answer(zero, negative));
 }
 
 TEST(Answer, TellsARejectionFromAScoreOfZero) {
   EvaluationRow zero = evaluation();
-  zero.score = 0;
+  zero.measured.score = 0;
   EvaluationRow rejected = zero;
   rejected.status = EvaluationStatus::Rejected;
   EXPECT_FALSE(same_answer(zero, rejected));

@@ -39,7 +39,8 @@ Addition imported(std::int64_t design, double score) {
                          .reason = "imported"},
           PairRow{
               .design = {design}, .purpose = Purpose::Score, .number = 1, .instance = 1, .seed = 5},
-          EvaluationRow{.key = {winner, Purpose::Score, 1}, .score = score, .source = "real"}}};
+          EvaluationRow{
+              .key = {winner, Purpose::Score, 1}, .measured = {.score = score}, .source = "real"}}};
 }
 
 struct AtRestTest : testing::Test {
@@ -97,7 +98,7 @@ TEST_F(AtRestTest, KeepsWhatIsThereUntilItIsRemoved) {
   ASSERT_TRUE(store);
   ASSERT_TRUE((*store)->add(imported(1, 1)));
   const EvaluationRow other{
-      .key = {candidate_id({1}, 1), Purpose::Score, 1}, .score = 9, .source = "real"};
+      .key = {candidate_id({1}, 1), Purpose::Score, 1}, .measured = {.score = 9}, .source = "real"};
   ASSERT_TRUE((*store)->add({.campaign = {}, .designs = {}, .removed = {}, .rows = {other}}));
   EXPECT_THAT(all("SELECT score FROM v_design_scores"), ElementsAre(Cells{"1"}));
   ASSERT_TRUE(

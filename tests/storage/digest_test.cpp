@@ -32,7 +32,7 @@ Batches as_they_arrived_elsewhere(Batches batches, Rng rng) {
       if (evaluation != nullptr) {
         evaluation->worker = rng.uniform_int(1, 90);
         evaluation->attempt = rng.uniform_int(1, 3);
-        evaluation->wall_us = rng.uniform_int(1, 1000000);
+        evaluation->measured.wall_us = rng.uniform_int(1, 1000000);
       }
       (evaluation != nullptr ? evaluations : others).push_back(row);
     }
@@ -118,9 +118,11 @@ TEST(Digest, ChangesWithEveryPartOfTheAnswer) {
       alteration<CandidateRow>("machine", [](CandidateRow& r) { r.machine += " "; }),
       alteration<CandidateRow>("modules", [](CandidateRow& r) { r.modules = "{}"; }),
       alteration<PairRow>("seed", [](PairRow& r) { ++r.seed; }),
-      alteration<EvaluationRow>("score",
-                                [](EvaluationRow& r) { r.score = std::nextafter(r.score, 1e9); }),
-      alteration<EvaluationRow>("state digest", [](EvaluationRow& r) { ++r.state_digest; }),
+      alteration<EvaluationRow>(
+          "score",
+          [](EvaluationRow& r) { r.measured.score = std::nextafter(r.measured.score, 1e9); }),
+      alteration<EvaluationRow>("state digest",
+                                [](EvaluationRow& r) { ++r.measured.state_digest; }),
       alteration<EvaluationRow>("source", [](EvaluationRow& r) { r.source = "argos3"; }),
       alteration<EvaluationRow>("use", [](EvaluationRow& r) { r.iteration = 0; }),
       alteration<IterationRow>("model", [](IterationRow& r) { ++r.model_digest; }),

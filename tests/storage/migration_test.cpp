@@ -92,7 +92,7 @@ TEST_P(MigrationTest, AMigratedStoreTakesTheRowsOfTargets) {
   EvaluationRow row;
   row.key = {candidate_id({1}, 1), Purpose::Evaluator, 1};
   row.source = "command";
-  row.time = 2;
+  row.measured.time = 2;
   EliminationRow again{.candidate = candidate_id({1}, 1), .iteration = 99, .reason = "test"};
   FailureRow failure{.key = row.key, .reason = "no output"};
   store->append({Row(row), Row(again), Row(failure)});

@@ -36,8 +36,8 @@ struct StoreTest : testing::Test {
     EvaluationRow row;
     row.key = {.candidate = {1}, .purpose = Purpose::Race, .pair = 1};
     row.iteration = 1;
-    row.score = score;
-    row.state_digest = 0xfedcba9876543210U;
+    row.measured.score = score;
+    row.measured.state_digest = 0xfedcba9876543210U;
     row.source = "rvr";
     return row;
   }
@@ -131,8 +131,9 @@ TEST_F(StoreTest, KeepsTheBitsOfScoresAndDigests) {
     store->flush();
     const auto scores = store->scores();
     ASSERT_EQ(scores.size(), 1U);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(scores[0].score), std::bit_cast<std::uint64_t>(score));
-    EXPECT_EQ(scores[0].state_digest, 0xfedcba9876543210U);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(scores[0].measured.score),
+              std::bit_cast<std::uint64_t>(score));
+    EXPECT_EQ(scores[0].measured.state_digest, 0xfedcba9876543210U);
   }
 }
 
@@ -145,7 +146,7 @@ TEST_F(StoreTest, KeepsTheFirstOfTwoDifferentResults) {
   store->append({rejected});
   store->flush();
   ASSERT_EQ(store->scores().size(), 1U);
-  EXPECT_EQ(store->scores()[0].score, 1.0);
+  EXPECT_EQ(store->scores()[0].measured.score, 1.0);
   EXPECT_EQ(store->scores()[0].status, EvaluationStatus::Ok);
 }
 

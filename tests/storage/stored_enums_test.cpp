@@ -45,12 +45,12 @@ struct StoredEnums : testing::Test {
   void add(Store& store, Purpose purpose, EvaluationStatus status) {
     const std::int64_t pair =
         900 + 10 * static_cast<std::int64_t>(purpose) + static_cast<std::int64_t>(status);
-    const EvaluationRow row{.key = {winner, purpose, pair},
-                            .iteration = purpose == Purpose::Race ? 1 : 0,
-                            .status = status,
-                            .score = status == EvaluationStatus::Ok ? 2.5 : 0,
-                            .state_digest = 7,
-                            .source = "rvr"};
+    const EvaluationRow row{
+        .key = {winner, purpose, pair},
+        .iteration = purpose == Purpose::Race ? 1 : 0,
+        .status = status,
+        .measured = {.score = status == EvaluationStatus::Ok ? 2.5 : 0, .state_digest = 7},
+        .source = "rvr"};
     store.append(
         {PairRow{.design = {1}, .purpose = purpose, .number = pair, .instance = 1, .seed = pair},
          row, AttemptRow{.key = row.key}, FailureRow{.key = row.key, .reason = "none"}});

@@ -21,7 +21,7 @@ EvaluationRow run(CandidateId candidate, Purpose purpose, std::int64_t pair, dou
   EvaluationRow row;
   row.key = {candidate, purpose, pair};
   row.iteration = purpose == Purpose::Race ? 1 : 0;
-  row.score = score;
+  row.measured.score = score;
   row.source = "command";
   return row;
 }
@@ -57,7 +57,7 @@ struct TargetsTest : testing::Test {
           EliteRow{.design = kDesign, .iteration = i, .rank = 1, .candidate = kWinner, .mean = -4});
     }
     EvaluationRow timed = run(kWinner, Purpose::Race, 1, -4);
-    timed.time = 1.25;
+    timed.measured.time = 1.25;
     timed.bound = 2.5;
     rows.emplace_back(timed);
     EvaluationRow rejected = run(kLoser, Purpose::Race, 1, 0);
@@ -159,15 +159,15 @@ TEST_F(TargetsTest, RowsComeBackAsTheyWereAndReplayGetsTimesAndBounds) {
   EXPECT_EQ(found, campaign.batches.front().size() - 1);
   const auto scores = reader->scores();
   ASSERT_EQ(scores.size(), 2U);
-  EXPECT_EQ(scores[0].time, 1.25);
+  EXPECT_EQ(scores[0].measured.time, 1.25);
   EXPECT_EQ(scores[0].bound, 2.5);
-  EXPECT_EQ(scores[1].time, 0);
+  EXPECT_EQ(scores[1].measured.time, 0);
 }
 
 TEST_F(TargetsTest, TimesAndBoundsArePartOfTheAnswer) {
   const EvaluationRow plain = run(kWinner, Purpose::Race, 1, -4);
   EvaluationRow timed = plain;
-  timed.time = 1;
+  timed.measured.time = 1;
   EvaluationRow bounded = plain;
   bounded.bound = 1;
   EXPECT_FALSE(same_answer(plain, timed));
@@ -179,7 +179,7 @@ TEST_F(TargetsTest, TimesAndBoundsArePartOfTheAnswer) {
 TEST_F(TargetsTest, ATimeThatIsNoNumberIsNotStored) {
   auto store = open_store(folder / "s.db", campaign);
   EvaluationRow bad = run(kWinner, Purpose::Race, 1, -4);
-  bad.time = NAN;
+  bad.measured.time = NAN;
   EXPECT_THROW(store->append({Row(bad)}), std::invalid_argument);
 }
 

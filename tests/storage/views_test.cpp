@@ -118,12 +118,12 @@ SyntheticCampaign by_hand() {
         EvaluationRow row;
         row.key = {candidate.id, Purpose::Race, static_cast<std::int64_t>(p + 1)};
         row.iteration = 1;
-        row.score = scores[c][p];
+        row.measured.score = scores[c][p];
         row.source = "rvr";
-        row.wall_us = 1500;
+        row.measured.wall_us = 1500;
         rows.emplace_back(row);
         ++totals.runs;
-        totals.score_sum += row.score;
+        totals.score_sum += row.measured.score;
       }
       rows.emplace_back(totals);
     }
@@ -142,7 +142,7 @@ SyntheticCampaign by_hand() {
         .design = {d}, .iteration = 1, .rank = 1, .candidate = best, .mean = 5, .runs = 2});
     EvaluationRow test;
     test.key = {best, Purpose::Test, 1};
-    test.score = static_cast<double>(d);
+    test.measured.score = static_cast<double>(d);
     test.source = "rvr";
     rows.emplace_back(PairRow{
         .design = {d}, .purpose = Purpose::Test, .number = 1, .instance = 1, .seed = 90 + d});

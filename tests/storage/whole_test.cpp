@@ -214,7 +214,8 @@ TEST_F(OfOthers, EachCommitSaysWhatRowsThereAre) {
       expect_said("after a batch");
     }
     // Computed ahead, used, unused, used again.
-    EvaluationRow ahead{.key = {candidate_id({1}, 2), Purpose::Race, 9000}, .score = -0.0};
+    EvaluationRow ahead{.key = {candidate_id({1}, 2), Purpose::Race, 9000},
+                        .measured = {.score = -0.0}};
     ahead.source = "another";
     for (const std::int64_t iteration : {0, 2, 2}) {
       ahead.iteration = iteration;
@@ -236,11 +237,12 @@ TEST_F(OfOthers, EachCommitSaysWhatRowsThereAre) {
   {
     auto store = StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse);
     const EvaluationKey key{candidate_id({1}, 1), Purpose::Score, 1};
-    Addition scored{.rows = {EvaluationRow{.key = key, .score = 2, .source = "real"}}};
+    Addition scored{
+        .rows = {EvaluationRow{.key = key, .measured = {.score = 2}, .source = "real"}}};
     ASSERT_TRUE((*store)->add(scored));
     expect_said("after a score");
     Addition again{.removed = {key},
-                   .rows = {EvaluationRow{.key = key, .score = 3, .source = "real"}}};
+                   .rows = {EvaluationRow{.key = key, .measured = {.score = 3}, .source = "real"}}};
     ASSERT_TRUE((*store)->add(again));
     expect_said("after another score in its place");
     Addition imported{

@@ -18,9 +18,7 @@ class FlatCampaign final : public WorkSource {
     EvaluationRow row;
     row.key = outcome.key;
     row.status = outcome.status;
-    row.score = outcome.score;
-    row.state_digest = outcome.state_digest;
-    row.time = outcome.time;
+    row.measured = outcome.measured;
     rows_.emplace_back(std::move(row));
   }
   std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }

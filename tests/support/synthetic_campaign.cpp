@@ -131,13 +131,14 @@ EvaluationRow SyntheticDesign::evaluation(EvaluationKey key, std::int64_t iterat
   const Rng own =
       rng_.split("evaluation", static_cast<std::uint64_t>(key.candidate.value * 1000 + key.pair));
   Rng draw = own;
-  row.state_digest = draw.next();
-  row.score = draw.uniform() < 0.5 ? draw.normal(3, 1) : static_cast<double>(draw.below(500));
+  row.measured.state_digest = draw.next();
+  row.measured.score =
+      draw.uniform() < 0.5 ? draw.normal(3, 1) : static_cast<double>(draw.below(500));
   if (draw.bernoulli(0.001)) {
     row.status = EvaluationStatus::Rejected;
-    row.score = 0;
+    row.measured.score = 0;
   }
-  row.wall_us = draw.uniform_int(200, 900);
+  row.measured.wall_us = draw.uniform_int(200, 900);
   row.worker = draw.uniform_int(1, 4);
   return row;
 }
@@ -170,8 +171,8 @@ void SyntheticDesign::make_step(std::int64_t of_iteration) {
     CandidateTotalsRow& totals = totals_[id.value];
     totals.candidate = id;
     ++totals.runs;
-    totals.score_sum += row.score;
-    totals.score_squares += row.score * row.score;
+    totals.score_sum += row.measured.score;
+    totals.score_squares += row.measured.score * row.measured.score;
     batch.emplace_back(row);
     batch.emplace_back(totals);
   }

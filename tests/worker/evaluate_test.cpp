@@ -48,8 +48,8 @@ TEST(Evaluate, GivesWhatTheSimulatorGives) {
                                               .seed = seed});
     const Result result = (*evaluator)(item(seed));
     ASSERT_EQ(result.failure, "");
-    EXPECT_EQ(result.score, wanted.score);
-    EXPECT_EQ(result.state_digest, wanted.state_digest);
+    EXPECT_EQ(result.measured.score, wanted.score);
+    EXPECT_EQ(result.measured.state_digest, wanted.state_digest);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
                   .seed = 1});
     LeasedTask work = item(1);
     work.method = static_cast<std::uint32_t>(method);
-    EXPECT_EQ((*evaluator)(work).state_digest, wanted.state_digest);
+    EXPECT_EQ((*evaluator)(work).measured.state_digest, wanted.state_digest);
   }
 }
 
@@ -96,7 +96,7 @@ TEST(Evaluate, RunsATestUnderTheProfileThatItNames) {
                                               .seed = 1});
     LeasedTask work = item(1);
     work.profile = i;
-    EXPECT_EQ((*evaluator)(work).state_digest, wanted.state_digest) << profiles[i].name;
+    EXPECT_EQ((*evaluator)(work).measured.state_digest, wanted.state_digest) << profiles[i].name;
   }
   LeasedTask unknown = item(1);
   unknown.profile = 3;

@@ -18,8 +18,9 @@ Expected<Evaluator> make_obedient(const std::string& scenario) {
   return Evaluator([](const LeasedTask& item) -> Result {
     if (item.machine == "throw") throw std::runtime_error("thrown");
     if (item.machine == "error") return Result{.failure = "an error"};
-    if (item.machine == "nan") return Result{.score = std::numeric_limits<double>::quiet_NaN()};
-    return Result{.score = static_cast<double>(item.seed) * 2, .state_digest = 9};
+    if (item.machine == "nan")
+      return Result{.measured = {.score = std::numeric_limits<double>::quiet_NaN()}};
+    return Result{.measured = {.score = static_cast<double>(item.seed) * 2, .state_digest = 9}};
   });
 }
 
@@ -58,7 +59,7 @@ TEST_F(Pools, EvaluateEveryItem) {
   pool.run(items(500));
   const auto results = wait_for(pool, 500);
   ASSERT_EQ(results.size(), 500U);
-  EXPECT_EQ(results.at(250).score, 500);
+  EXPECT_EQ(results.at(250).measured.score, 500);
   EXPECT_EQ(results.at(250).failure, "");
 }
 
@@ -81,7 +82,7 @@ TEST_F(Pools, GiveBackWhatIsNotStarted) {
         return Evaluator([&](const LeasedTask&) -> Result {
           started.release();
           go.acquire();
-          return Result{.score = 1, .state_digest = 1};
+          return Result{.measured = {.score = 1, .state_digest = 1}};
         });
       },
       [this] { woken.release(); });
@@ -102,7 +103,7 @@ TEST_F(Pools, WakeForTheFirstResultThoughThereIsMuchWorkLeft) {
       [&](const std::string&) -> Expected<Evaluator> {
         return Evaluator([&](const LeasedTask&) -> Result {
           go.acquire();
-          return Result{.score = 1};
+          return Result{.measured = {.score = 1}};
         });
       },
       [this] { woken.release(); });

@@ -79,7 +79,8 @@ class Protocol : public ::testing::Test {
   static PackedKey key(int i) { return pack(i, 0, 0); }
 
   void finish(int i, const std::string& failure = "") {
-    protocol.on_evaluated({.key = key(i), .score = 1.5, .wall_us = 300, .failure = failure}, now);
+    protocol.on_evaluated(
+        {.key = key(i), .measured = {.score = 1.5, .wall_us = 300}, .failure = failure}, now);
     take();
   }
 

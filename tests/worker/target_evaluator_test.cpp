@@ -58,8 +58,8 @@ class TargetEvaluators : public ::testing::Test {
 TEST_F(TargetEvaluators, GiveTheNegativeOfTheCost) {
   const Result result = evaluate(item());
   ASSERT_EQ(result.failure, "");
-  EXPECT_EQ(result.score, -2.5);
-  EXPECT_EQ(result.time, 7);
+  EXPECT_EQ(result.measured.score, -2.5);
+  EXPECT_EQ(result.measured.time, 7);
   EXPECT_FALSE(result.rejected);
   EXPECT_EQ(log(), "[3][2][11][two][-a][1]");
 }
@@ -67,9 +67,9 @@ TEST_F(TargetEvaluators, GiveTheNegativeOfTheCost) {
 TEST_F(TargetEvaluators, DigestWhatWasPrinted) {
   const Result first = evaluate(item());
   ASSERT_EQ(first.failure, "");
-  EXPECT_EQ(evaluate(item()).state_digest, first.state_digest);
+  EXPECT_EQ(evaluate(item()).measured.state_digest, first.measured.state_digest);
   script("target-runner", "echo 2.5 8\n");
-  EXPECT_NE(evaluate(item()).state_digest, first.state_digest);
+  EXPECT_NE(evaluate(item()).measured.state_digest, first.measured.state_digest);
 }
 
 TEST_F(TargetEvaluators, NameTheInstance) {
@@ -97,11 +97,11 @@ TEST_F(TargetEvaluators, CallTheEvaluatorForItsPurpose) {
   script("target-runner", "echo 7\n");
   const Result run = evaluate(item());
   ASSERT_EQ(run.failure, "");
-  EXPECT_EQ(run.score, 0);
-  EXPECT_EQ(run.time, 7);
+  EXPECT_EQ(run.measured.score, 0);
+  EXPECT_EQ(run.measured.time, 7);
   LeasedTask call = item(kEvaluatorPurpose);
   call.alive = {1, 3};
-  EXPECT_EQ(evaluate(call).score, -4);
+  EXPECT_EQ(evaluate(call).measured.score, -4);
   EXPECT_EQ(log(), "[3][2][11][two][2][1][3]");
   call.instance = -1;
   ASSERT_EQ(evaluate(call).failure, "");
@@ -113,7 +113,7 @@ TEST_F(TargetEvaluators, RejectAnInfiniteCost) {
   const Result result = evaluate(item());
   ASSERT_EQ(result.failure, "");
   EXPECT_TRUE(result.rejected);
-  EXPECT_EQ(result.time, 3);
+  EXPECT_EQ(result.measured.time, 3);
 }
 
 TEST_F(TargetEvaluators, KeepTheStoryOfAFailure) {
@@ -187,7 +187,7 @@ TEST_F(TargetEvaluators, RunTheFileThatWasCheckedWhateverALinkMeansThen) {
       const Result result = (*evaluator)(item());
       result.failure.empty() ? ++ran : ++refused;
       if (result.failure.empty()) {
-        ASSERT_EQ(result.score, -2.5);
+        ASSERT_EQ(result.measured.score, -2.5);
       } else {
         ASSERT_TRUE(mentions(result.failure, "may not")) << result.failure;
       }

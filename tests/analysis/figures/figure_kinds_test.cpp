@@ -38,7 +38,7 @@ struct FigureKinds : testing::Test {
     for (const DesignRecord& design : *known) {
       store->append({PairRow{design.design, Purpose::Score, 1, 1, 77},
                      EvaluationRow{.key = {*design.best, Purpose::Score, 1},
-                                   .score = static_cast<double>(design.design.value),
+                                   .measured = {.score = static_cast<double>(design.design.value)},
                                    .source = "real"}});
     }
     store.reset();

@@ -68,13 +68,11 @@ class RunAnswersTest : public testing::Test {
              .design = design, .purpose = Purpose::Race, .number = 2, .instance = 1, .seed = 22},
          EvaluationRow{.key = {candidate, Purpose::Race, 1},
                        .iteration = 1,
-                       .score = truth.score,
-                       .state_digest = truth.state_digest,
+                       .measured = {.score = truth.score, .state_digest = truth.state_digest},
                        .source = "rvr"},
          EvaluationRow{.key = {candidate, Purpose::Race, 2},
                        .iteration = 1,
-                       .score = 0.25,
-                       .state_digest = 1,
+                       .measured = {.score = 0.25, .state_digest = 1},
                        .source = "rvr"}});
     (*store)->flush();
   }

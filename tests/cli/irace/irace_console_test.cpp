@@ -191,7 +191,7 @@ class ConsoleOfTests : public ConsoleOfAStore {
     for (const std::int64_t number : {1, 2}) {
       for (const std::int64_t pair : {1, 2}) {
         EvaluationRow row{.key = {candidate_id(kOne, number), Purpose::Test, pair}, .source = "t"};
-        row.score = static_cast<double>(-10 * number) - 0.5 * static_cast<double>(pair);
+        row.measured.score = static_cast<double>(-10 * number) - 0.5 * static_cast<double>(pair);
         if (number == 2 && pair == 2) row.status = EvaluationStatus::Rejected;
         rows_.emplace_back(row);
       }

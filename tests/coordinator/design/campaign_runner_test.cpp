@@ -28,7 +28,7 @@ double score_of(const Task& task) {
 }
 
 Outcome outcome_of(const Task& task) {
-  return {.key = task.key, .score = score_of(task), .state_digest = 1, .worker = 1};
+  return {.key = task.key, .measured = {.score = score_of(task), .state_digest = 1}, .worker = 1};
 }
 
 std::vector<DesignPlan> small_plans(std::int64_t repetitions) {
@@ -339,8 +339,7 @@ TEST(CampaignRunner, TakesNoScoreThatNoRaceAskedFor) {
   for (const Purpose purpose : {Purpose::LookAhead, Purpose::Audit, Purpose::Score}) {
     const std::vector<StoredScore> scores = {{.key = {key.candidate, purpose, key.pair},
                                               .status = EvaluationStatus::Ok,
-                                              .score = 1e6,
-                                              .state_digest = 1}};
+                                              .measured = {.score = 1e6, .state_digest = 1}}};
     CampaignRunner runner(tiny_plans(), by_design(scores, {}, {}), {});
     EXPECT_EQ(runner.take_tasks().front().key, key);
   }

@@ -6,7 +6,8 @@ namespace swarmsmith {
 namespace {
 
 StoredScore score(Purpose purpose, std::int64_t pair, double value) {
-  return {.key = {candidate_id({2}, 1), purpose, pair}, .score = value, .iteration = 3};
+  return {
+      .key = {candidate_id({2}, 1), purpose, pair}, .measured = {.score = value}, .iteration = 3};
 }
 
 StoredDesign stored(const StoredScore& race, const StoredScore& test) {
@@ -32,8 +33,8 @@ TEST(KnownScores, AScoreOfTheRaceIsHandedOverUntilItIsKeptAgain) {
 TEST(KnownScores, AScoreOfATestStays) {
   const StoredScore test = score(Purpose::Test, 4, 0.7);
   KnownScores scores(stored(score(Purpose::Race, 4, 0.5), test));
-  EXPECT_EQ(scores.take(test.key)->score, 0.7);
-  EXPECT_EQ(scores.take(test.key)->score, 0.7);
+  EXPECT_EQ(scores.take(test.key)->measured.score, 0.7);
+  EXPECT_EQ(scores.take(test.key)->measured.score, 0.7);
   EXPECT_TRUE(scores.unasked().test_scores.empty());
   EXPECT_EQ(scores.discard_race().size(), 1U);
   EXPECT_TRUE(scores.unasked().race_scores.empty());
@@ -42,8 +43,8 @@ TEST(KnownScores, AScoreOfATestStays) {
 TEST(KnownScores, ATestUnderAFurtherProfileIsATest) {
   const StoredScore transfer = score(Purpose::Transfer, 14, 0.7);
   KnownScores scores(stored(score(Purpose::Race, 4, 0.5), transfer));
-  EXPECT_EQ(scores.take(transfer.key)->score, 0.7);
-  EXPECT_EQ(scores.take(transfer.key)->score, 0.7);
+  EXPECT_EQ(scores.take(transfer.key)->measured.score, 0.7);
+  EXPECT_EQ(scores.take(transfer.key)->measured.score, 0.7);
   EXPECT_TRUE(scores.unasked().test_scores.empty());
 }
 

@@ -19,7 +19,7 @@ struct Memory {
   std::vector<StoredScore> scores() const {
     std::vector<StoredScore> found;
     for (const auto& [key, e] : evaluations())
-      found.push_back({key, e.status, e.score, e.state_digest, e.time, e.bound, e.iteration});
+      found.push_back({key, e.status, e.measured, e.bound, e.iteration});
     return found;
   }
   template <class Kind>

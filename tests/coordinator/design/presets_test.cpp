@@ -54,7 +54,8 @@ std::vector<std::size_t> run(CampaignRunner& runner, Memory& memory) {
   for (auto tasks = runner.take_tasks(); !tasks.empty(); tasks = runner.take_tasks()) {
     for (const Task& task : tasks) {
       keep();
-      runner.tell({.key = task.key, .score = score_of(task), .state_digest = 1, .worker = 1});
+      runner.tell(
+          {.key = task.key, .measured = {.score = score_of(task), .state_digest = 1}, .worker = 1});
     }
   }
   keep();

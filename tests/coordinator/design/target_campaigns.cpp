@@ -48,7 +48,9 @@ Outcome honest(const Task& task) {
   Rng quality(digest.value64());
   Rng noise = quality.split("noise", static_cast<std::uint64_t>(task.seed + task.instance));
   const double cost = 10 * quality.uniform() + noise.uniform();
-  return {.key = task.key, .score = -cost, .state_digest = 7, .worker = 1, .time = 1 + cost};
+  return {.key = task.key,
+          .measured = {.score = -cost, .state_digest = 7, .time = 1 + cost},
+          .worker = 1};
 }
 
 std::vector<Task> run(CampaignRunner& runner, Memory& memory, Rng order, const Answer& answer,
@@ -78,7 +80,7 @@ std::vector<Task> run(CampaignRunner& runner, Memory& memory, Rng order, const A
 
 Outcome judged(const Task& task) {
   Outcome outcome = honest(task);
-  if (task.key.purpose != Purpose::Evaluator) outcome.score = 0;
+  if (task.key.purpose != Purpose::Evaluator) outcome.measured.score = 0;
   return outcome;
 }
 
@@ -114,12 +116,12 @@ TargetChoices random_options(Rng& rng) {
 
 Outcome random_target(const Task& task, bool evaluates, double rejects) {
   Outcome outcome = evaluates ? judged(task) : honest(task);
-  if (task.bound > 0) outcome.time = std::min(outcome.time, task.bound);
+  if (task.bound > 0) outcome.measured.time = std::min(outcome.measured.time, task.bound);
   Rng rng(static_cast<std::uint64_t>(number_of(task.key.candidate) * 1'009 + task.key.pair));
   const bool has_cost = !evaluates || task.key.purpose == Purpose::Evaluator;
   if (!has_cost || !rng.bernoulli(rejects)) return outcome;
   outcome.status = EvaluationStatus::Rejected;
-  outcome.score = 0;
+  outcome.measured.score = 0;
   return outcome;
 }
 

@@ -50,7 +50,7 @@ TEST(TargetDesign, AsksForOneTaskAtATime) {
 TEST(TargetDesign, KeepsTimesInTheStore) {
   const Ran ran = undisturbed(campaign_with("max_experiments = 300"));
   for (const EvaluationRow& row : not_empty(ran.memory.only<EvaluationRow>()))
-    EXPECT_EQ(row.time, 1 - row.score);
+    EXPECT_EQ(row.measured.time, 1 - row.measured.score);
 }
 
 TEST(TargetDesign, TestsTheBestOnEachTestInstanceOnce) {
@@ -108,7 +108,7 @@ TEST(TargetDesign, ARejectionIsARejectionAfterAResumeToo) {
     Outcome outcome = honest(task);
     if (number_of(task.key.candidate) % 7 != 3) return outcome;
     outcome.status = EvaluationStatus::Rejected;
-    outcome.score = 0;
+    outcome.measured.score = 0;
     return outcome;
   });
 }
@@ -153,7 +153,7 @@ TEST(TargetDesign, ARejectionByTheEvaluatorIsNotAmongTheCosts) {
     Outcome outcome = judged(task);
     if (task.key.purpose == Purpose::Evaluator && number_of(task.key.candidate) % 7 == 3) {
       outcome.status = EvaluationStatus::Rejected;
-      outcome.score = 0;
+      outcome.measured.score = 0;
       rejected.insert(task.key.candidate);
     }
     return outcome;
@@ -207,7 +207,7 @@ TEST(TargetDesign, ATimeIsABudgetThatStoredTimesReplay) {
   std::int64_t counted = 0;
   for (const EvaluationRow& row : ran.memory.only<EvaluationRow>()) {
     EXPECT_GT(row.iteration, 0);
-    time += row.time;
+    time += row.measured.time;
     ++counted;
   }
   EXPECT_GT(time, 1000);
@@ -246,7 +246,7 @@ TEST(TargetDesign, BoundsReachProgramsAndTheStore) {
   const Campaign campaign = campaign_with("max_time = 2500\nbound_max = 12\ncapping = true\n");
   const auto stops_at_bound = [](const Task& task) {
     Outcome outcome = honest(task);
-    if (task.bound > 0) outcome.time = std::min(outcome.time, task.bound);
+    if (task.bound > 0) outcome.measured.time = std::min(outcome.measured.time, task.bound);
     return outcome;
   };
   const Ran ran = undisturbed(campaign, stops_at_bound);

@@ -19,9 +19,7 @@ class Authority : public Schedulers {
                        std::int64_t attempt = 1) const {
     return {.key = key(candidate),
             .attempt = attempt,
-            .score = 1,
-            .state_digest = 5,
-            .wall_us = 100,
+            .measured = {.score = 1, .state_digest = 5, .wall_us = 100},
             .signature = scheduler.signer().sign(task_of(candidate), attempt, principal)};
   }
 };
@@ -71,7 +69,7 @@ TEST_F(Authority, TakesAResultWhoseLeaseHasExpired) {
   move();
   credit(2, 1);
   ASSERT_EQ(given[2].size(), 1U);
-  answer(1, {.key = key(1), .attempt = 1, .score = 2.5, .signature = signature});
+  answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 2.5}, .signature = signature});
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 1);
 }
@@ -100,7 +98,7 @@ TEST_F(Authority, RefusesALeaseOfAnotherTaskUnderTheSameKey) {
   credit(1, 1);
   answer(1, 1, 3);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  result.score = 99;
+  result.measured.score = 99;
   answer(1, result);
   dispute(1);
   EXPECT_TRUE(all<ConflictFound>().empty());
@@ -209,14 +207,14 @@ TEST_F(Authority, DropsEverythingThatALiarSaidWhenItsFirstWordIsWrong) {
   EXPECT_TRUE(all<StopCampaign>().empty()) << "nothing of it counts";
   // The referee's own score is the outcome of what it made again, and others make the rest.
   EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 1);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 1);
   if (asked()) rule_score(given[1][1]);
   for (int i = 0; i < 4; ++i)
     credit(2, 4);
   for (const std::int64_t i : given[2])
     answer(2, i);
   for (const OutcomeAccepted& accepted : all<OutcomeAccepted>())
-    EXPECT_EQ(accepted.outcome.score, 1);
+    EXPECT_EQ(accepted.outcome.measured.score, 1);
 }
 
 TEST_F(Authority, StopsTheCampaignWhenAWorkerThatWasBelievedLies) {
@@ -271,8 +269,9 @@ TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
   options.campaigns[0].audit_every = 1;
   scheduler = Scheduler(options);
   const auto stored = [](std::int64_t candidate, std::int64_t worker) {
-    return StoredScore{
-        .key = unpack(key(candidate)), .score = 99, .state_digest = 5, .worker = worker};
+    return StoredScore{.key = unpack(key(candidate)),
+                       .measured = {.score = 99, .state_digest = 5},
+                       .worker = worker};
   };
   const std::vector<StoredScore> known{stored(1, 1), stored(2, 1), stored(3, 2)};
   // The second one was made again, and nobody knows whose the third one is.
@@ -576,7 +575,7 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   if (asked()) rule_score(10);
   ASSERT_TRUE(scheduler.principals().all().at("10.0.0.1").taken > 0);
   // The first one comes with a lie.
-  answer(1, {.key = key(10), .attempt = 1, .score = 99, .signature = signature});
+  answer(1, {.key = key(10), .attempt = 1, .measured = {.score = 99}, .signature = signature});
   dispute(10);
   ASSERT_EQ(all<ConflictFound>().size(), 1U);
   ASSERT_EQ(asked(), key(10));
@@ -599,7 +598,10 @@ TEST_F(Authority, StopsWhenAStoredScoreIsWrong) {
   move();
   credit(2, 1);
   answer(2, 1, 99, "", 2);
-  answer(1, {.key = key(1), .attempt = 1, .score = 1, .state_digest = 5, .signature = signature});
+  answer(1, {.key = key(1),
+             .attempt = 1,
+             .measured = {.score = 1, .state_digest = 5},
+             .signature = signature});
   dispute(1);
   rule_score(1);
   ASSERT_EQ(all<StopCampaign>().size(), 1U);

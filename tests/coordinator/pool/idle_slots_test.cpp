@@ -49,7 +49,7 @@ TEST_F(IdleSlots, WaitForAFewTimesTheEstimate) {
   hello(2);
   credit(1, 2);
   want(1, 1);
-  answer(1, {.key = key(1), .attempt = 1, .score = 1, .wall_us = 100'000});
+  answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 1, .wall_us = 100'000}});
   credit(2, 2);
   credit(1, 2);
   want(2, 1);

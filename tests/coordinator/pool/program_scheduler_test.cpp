@@ -43,11 +43,11 @@ TEST_F(ProgramSchedulers, LeaseOneMoreASlotWhenProgramsAreShort) {
   hello(1, 4);
   credit(1, 100);
   want(1, 40);
-  answer(1, {.key = key(1), .attempt = 1, .score = 1, .wall_us = 3000});
+  answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 1, .wall_us = 3000}});
   EXPECT_EQ(given[1].size(), 9U);
   // And no longer when they are not.
   for (std::int64_t i = 2; i <= 9; ++i)
-    answer(1, {.key = key(i), .attempt = 1, .score = 1, .wall_us = 3'600'000'000});
+    answer(1, {.key = key(i), .attempt = 1, .measured = {.score = 1, .wall_us = 3'600'000'000}});
   EXPECT_EQ(scheduler.leases().leased(), 4U);
 }
 
@@ -70,7 +70,7 @@ TEST_F(ProgramSchedulers, LeaveWhatWaitsBehindALongProgram) {
   hello(1, 1);
   credit(1, 4);
   want(1, 4);
-  answer(1, {.key = key(1), .attempt = 1, .score = 1, .wall_us = 3000});
+  answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 1, .wall_us = 3000}});
   ASSERT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3}));
   hello(2, 1);
   run_for(1, seconds(100), {2});  // and 3 waits
@@ -144,7 +144,7 @@ TEST_F(ProgramSchedulers, TakeTheFirstOfTwoResults) {
   want(1, 1);
   answer(1, 1, 2.5);
   resend(1, 1, 2.6);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 2.5);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 2.5);
   EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
   EXPECT_TRUE(all<ConflictFound>().empty());
 }
@@ -153,11 +153,11 @@ TEST_F(ProgramSchedulers, TakeARejectionAndItsTime) {
   hello(1);
   credit(1, 1);
   want(1, 1);
-  answer(1, {.key = key(1), .attempt = 1, .score = 9, .rejected = true, .time = 3});
+  answer(1, {.key = key(1), .attempt = 1, .measured = {.score = 9, .time = 3}, .rejected = true});
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 0) << "a rejection has no score";
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 0) << "a rejection has no score";
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.time, 3);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.time, 3);
   EXPECT_TRUE(all<FailureKept>().empty());
 }
 

@@ -43,7 +43,7 @@ TEST_F(Schedulers, AcceptTheFirstResultAndDropTheSecond) {
   answer(1, 1, 2.5);
   resend(1, 1, 2.5);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 2.5);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 2.5);
   EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
   EXPECT_TRUE(all<ConflictFound>().empty());
 }
@@ -167,7 +167,7 @@ TEST_F(Schedulers, TakeTheRefereesScoreWhereAWorkerDiedByAccident) {
   }
   rule_score(1, 4.5);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 4.5);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 4.5);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 0);
   EXPECT_EQ(scheduler.counters().quarantined, 0U) << "a death is no lie";
 }

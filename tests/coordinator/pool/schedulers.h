@@ -60,7 +60,7 @@ class Schedulers : public ::testing::Test {
     move();
   }
   void rule_score(std::int64_t candidate, double score = 1) {
-    rule({.key = key(candidate), .score = score, .state_digest = 5, .wall_us = 100});
+    rule({.key = key(candidate), .measured = {.score = score, .state_digest = 5, .wall_us = 100}});
   }
   void rule_rejected(std::int64_t candidate) {
     rule({.key = key(candidate), .kind = Ruling::Kind::Rejected, .reason = "not a number"});
@@ -104,9 +104,7 @@ class Schedulers : public ::testing::Test {
               std::int64_t attempt = 1) {
     const Result result{.key = key(candidate),
                         .attempt = attempt,
-                        .score = score,
-                        .state_digest = 5,
-                        .wall_us = 100,
+                        .measured = {.score = score, .state_digest = 5, .wall_us = 100},
                         .failure = std::move(failure)};
     scheduler.on_results({peer, 1, 0}, {&result, 1}, now);
     move();
@@ -116,9 +114,7 @@ class Schedulers : public ::testing::Test {
     answer(peer,
            {.key = key(candidate),
             .attempt = attempt,
-            .score = score,
-            .state_digest = 5,
-            .wall_us = 100,
+            .measured = {.score = score, .state_digest = 5, .wall_us = 100},
             .signature = scheduler.signer().sign(task_of(candidate), attempt, name_of(peer))});
   }
   /// Any result.

@@ -71,12 +71,12 @@ TEST(IraceLog, BecomesTheRowsOfADesign) {
   EXPECT_EQ(candidates[2].iteration, 2);
   const auto evaluations = rows_of<EvaluationRow>(*addition);
   ASSERT_EQ(evaluations.size(), 6U);
-  EXPECT_EQ(evaluations[1].score, -3);
-  EXPECT_EQ(evaluations[1].time, 1.5);
+  EXPECT_EQ(evaluations[1].measured.score, -3);
+  EXPECT_EQ(evaluations[1].measured.time, 1.5);
   EXPECT_EQ(evaluations[1].bound, 9);
   EXPECT_EQ(evaluations[4].status, EvaluationStatus::Rejected);
   EXPECT_EQ(evaluations[5].key.purpose, Purpose::Test);
-  EXPECT_EQ(evaluations[5].score, -6);
+  EXPECT_EQ(evaluations[5].measured.score, -6);
   const auto iterations = rows_of<IterationRow>(*addition);
   EXPECT_FALSE(iterations[0].soft_restart);
   EXPECT_TRUE(iterations[1].soft_restart);
@@ -184,7 +184,7 @@ TEST(IraceLog, OfTheExampleHasItsNineHundredAndEightyOneRuns) {
   EXPECT_THAT(runs, ElementsAre(165, 160, 155, 195, 197, 73, 36));
   const auto evaluations = rows_of<EvaluationRow>(*addition);
   EXPECT_EQ(evaluations.size(), 981U + 220U);
-  EXPECT_EQ(evaluations.front().score, -29098846);  // experiments[1, 1] in R
+  EXPECT_EQ(evaluations.front().measured.score, -29098846);  // experiments[1, 1] in R
   const DesignStateRow state = rows_of<DesignStateRow>(*addition).front();
   EXPECT_EQ(state.used, 981);
   EXPECT_EQ(state.best, CandidateId{155});  // the last of iterationElites in R

@@ -67,8 +67,8 @@ TEST(ScoreImport, FindsWhoByAnyNameThatIsUnique) {
   std::vector<std::string> who;
   for (const EvaluationRow& row : evaluations(*scores)) {
     EXPECT_EQ(row.source, "real");
-    EXPECT_EQ(row.state_digest, 0U);
-    who.push_back(to_string(row.key.candidate) + "=" + std::to_string(int(row.score)));
+    EXPECT_EQ(row.measured.state_digest, 0U);
+    who.push_back(to_string(row.key.candidate) + "=" + std::to_string(int(row.measured.score)));
   }
   EXPECT_THAT(who, ElementsAre("c2=1", "c5=2", "c1000002=3", "c1000002=4", "c1000002=5"));
   EXPECT_EQ(scores->added, 5);
@@ -105,8 +105,8 @@ TEST(ScoreImport, TurnsCostsIntoScores) {
   known.costs_of = {"aggregation"};
   const auto scores = import("mission,repetition,score,cost\nagg,1,3,\nagg,2,,4\n", known);
   ASSERT_TRUE(scores) << to_string(scores.error().front());
-  EXPECT_EQ(evaluations(*scores)[0].score, -3);
-  EXPECT_EQ(evaluations(*scores)[1].score, -4);
+  EXPECT_EQ(evaluations(*scores)[0].measured.score, -3);
+  EXPECT_EQ(evaluations(*scores)[1].measured.score, -4);
 }
 
 TEST(ScoreImport, NamesEveryBadRowByItsLine) {
@@ -142,8 +142,8 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
 TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
   ScoreLedger ledger;
   std::vector<Row> ignored;
-  const EvaluationKey key =
-      ledger.add({.candidate = {2}, .source = "real", .instance = 1, .seed = 7}, 3, 0, ignored);
+  const EvaluationKey key = ledger.add(
+      {.candidate = {2}, .source = "real", .instance = 1, .seed = 7}, {.score = 3}, ignored);
   const auto same = import("design,seed,score\n1,7,3\n", known_store(), ledger);
   ASSERT_TRUE(same);
   EXPECT_EQ(same->known, 1);

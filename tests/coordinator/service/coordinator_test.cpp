@@ -43,7 +43,8 @@ class Coordinators : public ::testing::Test {
         const PackedKey asked = key_of(std::get<AskReferee>(action).task);
         const auto truth = cluster::truth_of(shape, unpack(asked));
         coordinator.on_ruling(
-            {.key = asked, .score = truth.score, .state_digest = truth.state_digest}, now);
+            {.key = asked, .measured = {.score = truth.score, .state_digest = truth.state_digest}},
+            now);
         move();
       }
     }

@@ -190,8 +190,8 @@ TEST_F(Referees, GiveTheScoreOfTheSimulator) {
                                               .seed = task.seed});
     EXPECT_EQ(ruling.kind, Ruling::Kind::Score) << ruling.reason;
     EXPECT_EQ(ruling.key, key_of(task));
-    EXPECT_EQ(ruling.score, wanted.score);
-    EXPECT_EQ(ruling.state_digest, wanted.state_digest);
+    EXPECT_EQ(ruling.measured.score, wanted.score);
+    EXPECT_EQ(ruling.measured.state_digest, wanted.state_digest);
   }
 }
 

@@ -102,8 +102,8 @@ TEST_F(ProgramWorkers, CallTheTargetOnceForEachEvaluation) {
   const auto rows = store.rows_of<EvaluationRow>();
   ASSERT_EQ(rows.size(), 100U);
   for (const EvaluationRow& row : rows) {
-    EXPECT_EQ(row.score, -static_cast<double>(row.key.candidate.value));
-    EXPECT_EQ(row.time, 0.5);
+    EXPECT_EQ(row.measured.score, -static_cast<double>(row.key.candidate.value));
+    EXPECT_EQ(row.measured.time, 0.5);
   }
   const auto lines = log();
   EXPECT_EQ(lines.size(), 100U);
@@ -163,7 +163,7 @@ TEST_F(ProgramWorkers, RunAScriptWithASimulatorBehindIt) {
   ASSERT_TRUE(eventually([&] { return ended.load(); }));
   ASSERT_EQ(store.rows_of<EvaluationRow>().size(), 8U);
   for (const EvaluationRow& row : store.rows_of<EvaluationRow>()) {
-    EXPECT_EQ(row.score, static_cast<double>(row.key.candidate.value) + 0.5);
+    EXPECT_EQ(row.measured.score, static_cast<double>(row.key.candidate.value) + 0.5);
   }
   std::ifstream in(folder / "calls");
   const std::string calls(std::istreambuf_iterator<char>(in), {});

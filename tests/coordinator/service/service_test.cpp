@@ -28,7 +28,7 @@ EvaluatorFactory honest(const CampaignShape& shape, const std::atomic<bool>& pau
       paused.wait(true);
       const cluster::Truth truth = cluster::truth_of(shape, unpack(item.key));
       if (truth.kind != cluster::Truth::Kind::Score) return Result{.failure = "planted"};
-      return Result{.score = truth.score, .state_digest = truth.state_digest};
+      return Result{.measured = {.score = truth.score, .state_digest = truth.state_digest}};
     });
   };
 }
@@ -43,8 +43,7 @@ class HonestReferee final : public Referee {
     const bool has_score = truth.kind == cluster::Truth::Kind::Score;
     rulings_.push_back({.key = key_of(ask.task),
                         .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,
-                        .score = truth.score,
-                        .state_digest = truth.state_digest,
+                        .measured = {.score = truth.score, .state_digest = truth.state_digest},
                         .reason = has_score ? "" : "planted"});
     on_ruling_();
   }

@@ -68,7 +68,7 @@ TEST_F(Telemetries, BeginWithTheCommandsOfTheStore) {
 TEST_F(Telemetries, TestsOfAFinishedDesignSayHowGoodItsBestIs) {
   const CandidateId winner{1'000'001};
   const auto test = [&](std::int64_t number, double score) {
-    return EvaluationRow{.key = {winner, Purpose::Test, number}, .score = score};
+    return EvaluationRow{.key = {winner, Purpose::Test, number}, .measured = {.score = score}};
   };
   const auto state = [&](DesignState now_in) {
     return DesignStateRow{
@@ -90,14 +90,15 @@ TEST_F(Telemetries, TestsOfBeforeCountOn) {
       {.design = {1}, .state = DesignState::Testing, .used = 90, .best = winner, .best_mean = 5}};
   stored.front().tested = {{.winner = winner, .mean = 2, .runs = 3}};
   Telemetry resumed(stored, now);
-  resumed.on_rows(0,
-                  std::vector<Row>{EvaluationRow{.key = {winner, Purpose::Test, 4}, .score = 6},
-                                   DesignStateRow{.design = {1},
-                                                  .state = DesignState::Finished,
-                                                  .used = 90,
-                                                  .best = winner,
-                                                  .best_mean = 5}},
-                  now);
+  resumed.on_rows(
+      0,
+      std::vector<Row>{EvaluationRow{.key = {winner, Purpose::Test, 4}, .measured = {.score = 6}},
+                       DesignStateRow{.design = {1},
+                                      .state = DesignState::Finished,
+                                      .used = 90,
+                                      .best = winner,
+                                      .best_mean = 5}},
+      now);
   const auto campaign = resumed.status(coordinator, now, true).campaigns->front();
   EXPECT_EQ(campaign.designs[0].test_runs, 4);
   EXPECT_DOUBLE_EQ(campaign.designs[0].told_mean(), 3);
