@@ -186,9 +186,12 @@ class Rooms(unittest.TestCase):
             self.assertTrue((SOURCE / room).is_dir(), f"docs/architecture.md: there is no {room}")
         self.assertEqual(upward(rooms, self.texts), [])
 
-    def test_every_source_is_compiled(self):
+    def test_every_file_is_in_a_list(self):
         listed = {file for files, _ in self.libraries.values() for file in files}
         self.assertEqual(sorted({file for file in self.texts if file.endswith(".cpp")} - listed), [])
+        # A kind that is a header alone, such as a condition, is nowhere without its line.
+        self.assertEqual(sorted(file for file in self.texts
+                                if file.endswith(".h") and "/internal/" not in file and file not in listed), [])
 
 
 class Includes(unittest.TestCase):
