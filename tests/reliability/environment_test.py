@@ -148,7 +148,8 @@ class ProcessorTime(Environment):
 
     def test_the_end_of_processor_time_is_a_clean_stop(self):
         run = self.run_local("--workers", "1")
-        # Of the coordinator alone: workers are started again.
+        # Of the coordinator alone: a worker that is started after this has the limit too.
+        self.wait_stored(1)
         resource.prlimit(run.pid, resource.RLIMIT_CPU, (1, resource.RLIM_INFINITY))
         code = run.wait(120)
         if code == 0:

@@ -1,10 +1,18 @@
 """SIGSTOP, a while, SIGCONT: nobody is blamed, nothing is lost, and no storm follows."""
+import pathlib
 import signal
 import time
 import unittest
 
 from beside import Beside
-from rig import events
+from rig import events, wait_for
+
+
+def connections_to(address):
+    """How many TCP connections the port of the address has."""
+    port = f":{int(address.rsplit(':', 1)[1]):04X}"
+    rows = [line.split() for line in pathlib.Path("/proc/net/tcp").read_text().splitlines()[1:]]
+    return sum(local.endswith(port) and state == "01" for _, local, _, state, *_ in rows)
 
 
 class Stopping(Beside):
@@ -27,6 +35,8 @@ class Stopping(Beside):
             self.count(f"{program.name.split('-')[1]} stopped for {seconds} s")
 
     def finish_unblamed(self, serve, workers):
+        # One that waits before it tries again would not hear that the campaign is over.
+        wait_for(lambda: connections_to(serve.address()) == len(workers), "the return of all workers", 60)
         numbers = self.finish(serve, workers)
         self.assert_none(numbers, "failed", "rejected", "conflicts")
         # What was held when it stopped may come twice; more would be a storm.
