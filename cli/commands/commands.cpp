@@ -200,14 +200,15 @@ Examples:
   swarmsmith dashboard demo.db --export demo.html --design d1)";
 
 constexpr std::string_view kLsDetails =
-    R"(Conditions and order are SQL over the columns. --json shows all columns. `ls flavours` lists the
-built-in flavours, and needs no store.
+    R"(Conditions and order are SQL over the columns. --json shows all columns. `ls flavours` and
+`ls robots` list what is built in, and need no store.
 
 Examples:
   swarmsmith ls designs demo.db
   swarmsmith ls candidates demo.db --where "n_states = 2 AND mean > 2.5" --sort "mean DESC" --limit 10
   swarmsmith ls evaluations demo.db --where "status <> 'ok'" --json
-  swarmsmith ls flavours)";
+  swarmsmith ls flavours
+  swarmsmith ls robots)";
 
 constexpr std::string_view kShowDetails = R"(Examples:
   swarmsmith show d1 demo.db
@@ -366,7 +367,8 @@ constexpr std::array kCommands = {
     ProgramCommand{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     ProgramCommand{"dashboard", "Show stores and campaigns in the browser", kDashboardDetails,
                    declare_dashboard},
-    ProgramCommand{"ls", "List designs, candidates, evaluations, elites, workers or flavours",
+    ProgramCommand{"ls",
+                   "List designs, candidates, evaluations, elites, workers, flavours or robots",
                    kLsDetails, declare_ls},
     ProgramCommand{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
     ProgramCommand{"explain", "Show the history of one evaluation or one design", kExplainDetails,

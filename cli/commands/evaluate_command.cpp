@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "analysis/statistics/summary.h"
+#include "base/suggestion.h"
 #include "base/text/json.h"
 #include "cli/commands/commands.h"
 #include "cli/output/progress_text.h"
@@ -12,6 +13,7 @@
 #include "cli/replay/score_keeper.h"
 #include "console/counter.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "storage/answer.h"
 
 namespace swarmsmith::cli {
@@ -262,8 +264,8 @@ CommandRun declare_evaluate(Options& options) {
                  "What turns of exploration are measured in (default: as the candidate or the file "
                  "says, else cycles)");
   options.text("--profile PROFILE|FILE", arguments->profile,
-               "Simulator profile: rvr, argos3, pseudo-reality, thesis-robots or a file (default: "
-               "the candidate's or the file's, else rvr)");
+               "Simulator profile: " + joined(profile_names()) +
+                   " or a file (default: the candidate's or the file's, else rvr)");
   options.text(
       "--mission MISSION|FILE", arguments->mission,
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
@@ -12,6 +13,7 @@
 #include "cli/output/stored_quarantine.h"
 #include "cli/output/stored_stages.h"
 #include "sim/control/flavour.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -79,31 +81,58 @@ std::string statement(const Kind& kind, const LsArguments& arguments, bool all_c
 }
 
 constexpr std::string_view kFlavours = "flavours";
+constexpr std::string_view kRobots = "robots";
+
+using Cell = StoreReader::Cell;
+
+Cell text_cell(const std::string& value) {
+  return {.type = Cell::Type::Text, .text = value};
+}
+Cell count_cell(std::size_t value) {
+  return {.type = Cell::Type::Integer, .text = std::to_string(value)};
+}
+Cell real_cell(double value) {
+  return {.type = Cell::Type::Real, .text = json_number(value)};
+}
 
 /// Those that are built in: what needs no store.
 Rows flavour_rows() {
-  using Cell = StoreReader::Cell;
-  const auto text = [](const std::string& value) {
-    return Cell{.type = Cell::Type::Text, .text = value};
-  };
-  const auto number = [](std::size_t value) {
-    return Cell{.type = Cell::Type::Integer, .text = std::to_string(value)};
-  };
   Rows rows{
       .columns = {"flavour", "reference", "states", "transitions", "behaviours", "conditions"},
       .cells = {}};
   for (const Flavour* flavour : all_flavours()) {
-    rows.cells.push_back({text(flavour->name), text(flavour->reference),
-                          number(static_cast<std::size_t>(flavour->most_states)),
-                          number(static_cast<std::size_t>(flavour->most_transitions)),
-                          number(flavour->behaviours.size()), number(flavour->conditions.size())});
+    rows.cells.push_back({text_cell(flavour->name), text_cell(flavour->reference),
+                          count_cell(static_cast<std::size_t>(flavour->most_states)),
+                          count_cell(static_cast<std::size_t>(flavour->most_transitions)),
+                          count_cell(flavour->behaviours.size()),
+                          count_cell(flavour->conditions.size())});
+  }
+  return rows;
+}
+
+/// The same of robots.
+Rows robot_rows() {
+  Rows rows{.columns = {"robot", "mass_kg", "track_m", "max_speed_mps", "proximity_sensors",
+                        "light_sensors", "ground_points", "neighbours", "neighbours_range_m"},
+            .cells = {}};
+  for (const std::string& name : robot_names()) {
+    const Robot robot = find_robot(name, {}).value();
+    const std::size_t rays = robot.proximity.rays_deg.size();
+    const std::size_t lights = robot.light.angles_deg.size();
+    const bool by_radio = robot.neighbours.source == NeighbourSensor::Source::Radio;
+    rows.cells.push_back(
+        {text_cell(name), real_cell(robot.body.mass_kg), real_cell(robot.drive.track_m),
+         real_cell(robot.drive.max_speed_mps), count_cell(rays),
+         count_cell(lights == 0 ? rays : lights), count_cell(robot.ground.places.size()),
+         text_cell(by_radio ? "radio" : "sight"), real_cell(robot.neighbours.range_m)});
   }
   return rows;
 }
 
 ExitCode run_ls(const LsArguments& arguments, Output& output) {
-  if (arguments.kind == kFlavours) {
-    write_rows(output, flavour_rows(), output.json ? Form::Json : Form::Text);
+  if (arguments.kind == kFlavours || arguments.kind == kRobots) {
+    write_rows(output, arguments.kind == kFlavours ? flavour_rows() : robot_rows(),
+               output.json ? Form::Json : Form::Text);
     return ExitCode::Done;
   }
   constexpr std::int64_t kShown = 100;
@@ -141,6 +170,7 @@ CommandRun declare_ls(Options& options) {
   for (const Kind& kind : kKinds)
     kinds.emplace_back(kind.name);
   kinds.emplace_back(kFlavours);
+  kinds.emplace_back(kRobots);
   options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);
   arguments->store.declare(options);
   options.text("--where SQL", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");

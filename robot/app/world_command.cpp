@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/output_file.h"
+#include "base/suggestion.h"
 #include "base/text/json.h"
 #include "console/counter.h"
 #include "console/seeds.h"
@@ -396,7 +397,7 @@ CommandRun declare_robot_world(Options& options) {
   options.text("--mission MISSION|FILE", words->mission,
                "aggregation, grid_exploration, color_selection or a file", Options::Need::Required);
   options.text("--profile PROFILE|FILE", words->profile,
-               "Simulator profile: rvr, argos3, pseudo-reality or a file (default rvr)");
+               "Simulator profile: " + joined(profile_names()) + " or a file (default rvr)");
   options.text("--seeds SEEDS", words->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1)");
   options.text("--robots ROBOTS", words->robots,
                "Names of the robots, in the order of the mission: 1-3 or rvr1,rvr4 (default rvr1 "

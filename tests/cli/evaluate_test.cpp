@@ -217,6 +217,23 @@ TEST(Flavours, AreListedPrintedAndWrittenButNotOver) {
   EXPECT_THAT(run({"flavour", "chocolat"}).err, HasSubstr("did you mean \"chocolate\"?"));
 }
 
+TEST(Robots, AreListed) {
+  const json rows = json::parse(run({"ls", "robots", "--json"}).out)["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0]["robot"], "rvr");
+  EXPECT_EQ(rows[0]["neighbours"], "sight");
+  EXPECT_EQ(rows[1]["robot"], "epuck");
+  EXPECT_EQ(rows[1]["track_m"], 0.053);
+  EXPECT_EQ(rows[1]["light_sensors"], 8);
+  EXPECT_EQ(rows[1]["neighbours"], "radio");
+}
+
+TEST(Evaluate, NamesAllProfilesInItsHelp) {
+  const std::string help = run({"evaluate", "--help"}).out;
+  for (const std::string& name : profile_names())
+    EXPECT_THAT(help, HasSubstr(name));
+}
+
 TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
   EXPECT_EQ(run({"profile"}).out,
             "rvr\nargos3\npseudo-reality\nthesis-robots\nepuck\nepuck-ideal\n"

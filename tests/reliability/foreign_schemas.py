@@ -35,7 +35,10 @@ def endless(db, name, columns):
 
 
 def text_of(db, name):
-    return db.execute("select sql from sqlite_schema where name = ?", (name,)).fetchone()[0]
+    row = db.execute("select sql from sqlite_schema where name = ?", (name,)).fetchone()
+    if row is None:
+        raise sqlite3.OperationalError(f"no such table: {name}")  # a store that was stopped while it was made
+    return row[0]
 
 
 def made_anew(table, old, new):

@@ -359,6 +359,8 @@ def rename_the_main_file(life):
 def change_the_schema(life):
     life.at_rest()
     name = life.rng.choice(sorted(FOREIGN))
+    if not life.store.exists():
+        return
     life.test.count(name)
     with contextlib.suppress(sqlite3.Error):
         make_foreign(life.store, FOREIGN[name][1])
