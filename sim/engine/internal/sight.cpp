@@ -24,16 +24,6 @@ bool meets_face(const WallPlane& wall, Point from, Point to) {
   return !stretch.empty();
 }
 
-/// Whether a solid may meet the way from a point along a vector: quick, and never wrong in its no.
-bool may_meet(const Form& form, const Body& at, Point from, Point along) {
-  const double radius2 = 1.000001 * form.radius_m * form.radius_m;
-  const Point there = {at.x - from.x, at.y - from.y};
-  const double aside = there.x * along.y - there.y * along.x;
-  if (aside * aside > radius2 * (along.x * along.x + along.y * along.y)) return false;
-  const bool is_behind = there.x * along.x + there.y * along.y < 0;
-  return !is_behind || there.x * there.x + there.y * there.y <= radius2;
-}
-
 bool meets_solid(const Form& form, const Body& at, Point from, Point along) {
   Stretch stretch = stretch_in(form, at, from, along);
   stretch.keep(-1, 1);
@@ -88,9 +78,7 @@ bool Sight::is_hidden(int robot, int other, std::vector<int>& room) const {
   const double distance = std::sqrt(world_->distance2(robot, other));
   world_->visit_near(robot, distance + world_->largest_radius_m(), room, [&](int third) {
     if (hidden || third == other || world_->form(third).height_m < height_m_) return;
-    const Form& form = world_->form(third);
-    const Body& at = world_->body(third);
-    hidden = may_meet(form, at, from, along) && meets_solid(form, at, from, along);
+    hidden = meets_solid(world_->form(third), world_->body(third), from, along);
   });
   return hidden;
 }
