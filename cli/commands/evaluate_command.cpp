@@ -13,6 +13,7 @@
 #include "cli/replay/score_keeper.h"
 #include "console/counter.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "storage/answer.h"
 
@@ -266,10 +267,8 @@ CommandRun declare_evaluate(Options& options) {
   options.text("--profile PROFILE|FILE", arguments->profile,
                "Simulator profile: " + joined(profile_names()) +
                    " or a file (default: the candidate's or the file's, else rvr)");
-  options.text(
-      "--mission MISSION|FILE", arguments->mission,
-      "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "
-      "file's)");
+  options.text("--mission MISSION|FILE", arguments->mission,
+               joined(mission_names()) + " or a file (default: the candidate's or the file's)");
   options.text("--campaign FILE", arguments->campaign,
                "Campaign file or store with flavour, profile and mission");
   options.texts("--design DESIGN", arguments->designs,

@@ -18,6 +18,7 @@
 #include "sim/control/flavour_file.h"
 #include "sim/control/foreign_text.h"
 #include "sim/engine/fitting.h"
+#include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/instance_csv.h"
 
@@ -76,9 +77,8 @@ Expected<Mission> mission_of(const EvaluateArguments& arguments, const NamedMach
                              Output& output) {
   if (arguments.mission.empty()) {
     if (named.mission) return named.mission->mission;
-    return bad_input(
-        "no mission given; add --mission aggregation, grid_exploration, color_selection or a file",
-        "--mission");
+    return bad_input("no mission given; add --mission " + joined(mission_names()) + " or a file",
+                     "--mission");
   }
   if (named.mission && named.mission->mission.name == arguments.mission) {
     return named.mission->mission;

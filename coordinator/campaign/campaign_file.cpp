@@ -280,12 +280,13 @@ CampaignOrErrors read_campaign(const std::filesystem::path& file,
   if (text) {
     auto campaign = parse_campaign(*text, file, budget);
     if (campaign || !parse_mission(*text, file)) return campaign;
-    return tl::unexpected(std::vector<Error>{
-        {ErrorKind::BadInput,
-         "this is a mission, not a campaign: a campaign file names it, [[mission]] with name = \"" +
-             file.filename().string() +
-             "\", and with a method and a budget; `swarmsmith init` writes one",
-         file.string()}});
+    return tl::unexpected(
+        std::vector<Error>{{ErrorKind::BadInput,
+                            "this is a mission, not a campaign: a campaign file names it, "
+                            "[[mission]] with preset = \"" +
+                                file.filename().string() +
+                                "\", and with a method and a budget; `swarmsmith init` writes one",
+                            file.string()}});
   }
   Error error = std::move(text.error());
   if (error.kind == ErrorKind::NotFound) error.message += "; `swarmsmith init` writes one";

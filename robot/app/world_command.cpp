@@ -394,8 +394,8 @@ ExitCode run(const WorldWords& words, Output& output) {
 
 CommandRun declare_robot_world(Options& options) {
   auto words = std::make_shared<WorldWords>();
-  options.text("--mission MISSION|FILE", words->mission,
-               "aggregation, grid_exploration, color_selection or a file", Options::Need::Required);
+  options.text("--mission MISSION|FILE", words->mission, joined(mission_names()) + " or a file",
+               Options::Need::Required);
   options.text("--profile PROFILE|FILE", words->profile,
                "Simulator profile: " + joined(profile_names()) + " or a file (default rvr)");
   options.text("--seeds SEEDS", words->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1)");

@@ -67,7 +67,8 @@ std::optional<MissionEntry> read_base(TableReader& table, const std::string& nam
     table.complain(
         "name",
         "mission \"" + name + "\" is not built in" + did_you_mean(name, mission_names()) +
-            ", so it needs a `preset` or a `score`; built in are: " + joined(mission_names()));
+            ", so it needs a `preset` or a `score`; built in are: " + joined(mission_names()) +
+            (names_a_file(name) ? "; a file is named by `preset`" : ""));
     return empty_mission(name);
   }
   const std::string preset = given.value_or(name);

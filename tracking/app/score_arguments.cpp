@@ -1,5 +1,8 @@
 #include "tracking/app/score_arguments.h"
 
+#include "base/suggestion.h"
+#include "sim/files/mission_file.h"
+
 namespace swarmsmith {
 
 std::string store_word(const std::string& option) {
@@ -14,7 +17,7 @@ void ScoreArguments::declare(Options& options) {
   options.text("--arena FILE", arena, "Arena file", Options::Need::Required);
   options.text("--run FILE", run, "Run log; options win over it");
   options.text("--mission MISSION|FILE", mission,
-               "aggregation, grid_exploration, color_selection or a file (default: the design's)");
+               joined(mission_names()) + " or a file (default: the design's)");
   options.text("--design DESIGN", design, "Design of the store whose winner ran: d3");
   options.text("--candidate CANDIDATE", candidate, "Candidate of the store that ran: c812");
   options.text("--start TIME", start, "Start of the run on the clock of the first video: 12.4 s");

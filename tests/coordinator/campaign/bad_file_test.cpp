@@ -339,7 +339,8 @@ TEST(BadCampaign, AMissionFileIsToldToBeOne) {
   ASSERT_FALSE(campaign);
   ASSERT_EQ(campaign.error().size(), 1U);
   EXPECT_THAT(to_string(campaign.error().front()),
-              HasSubstr("this is a mission, not a campaign: a campaign file names it"));
+              HasSubstr("this is a mission, not a campaign: a campaign file names it, "
+                        "[[mission]] with preset = "));
 }
 
 }  // namespace
