@@ -16,6 +16,7 @@
 #include "cli/replay/real_replay.h"
 #include "cli/replay/recording.h"
 #include "cli/replay/stored_runs.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/score.h"
 
@@ -272,6 +273,15 @@ JsonPiece objects_json(const std::vector<Track>& tracks, const Arena& arena) {
   return {"[" + text + "]"};
 }
 
+/// The built-in profiles that say how this robot falls short.
+std::vector<std::string> profiles_of(const Robot& robot) {
+  std::vector<std::string> names = profile_names();
+  std::erase_if(names, [&](const std::string& name) {
+    return misfit(built_in_profile(name).value(), robot).has_value();
+  });
+  return names;
+}
+
 Answer simulated_answer(const Question& question, const StoredRun& run) {
   const Arena arena = arena_of(run.mission, run.instance);
   std::vector<RobotColumns> robots(run.instance.starts.size());
@@ -322,6 +332,7 @@ Answer simulated_answer(const Question& question, const StoredRun& run) {
           .add("engine", engine_version_of(run.mission, run.profile))
           .add("stored_engine", run.engine_version)
           .add("rejected", run.rejected)
+          .add("profiles", profiles_of(run.mission.robot))
           .add("unit", unit_of(run.mission.rule))
           .add("arena", arena_json(arena))
           .add("body", outline_json(run.mission.robot.body.outline))

@@ -70,6 +70,7 @@ export interface Trajectory {
   verdict?: string;
   checks?: Check[] | null; ///< of a real run; null: not recorded
   name?: string;
+  profiles?: string[];  // not of real runs
 }
 
 /// Okabe-Ito, in the order of the figures: state or robot 0 is blue in all of them.

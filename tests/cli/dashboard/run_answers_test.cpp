@@ -91,6 +91,7 @@ TEST_F(RunAnswersTest, ARunHasTheStoredBits) {
   EXPECT_EQ(run["seed"], kSeed);
   EXPECT_EQ(run["source"], "rvr");
   EXPECT_EQ(run["mission"], "aggregation");
+  EXPECT_EQ(run["profiles"], json::array({"rvr", "argos3", "pseudo-reality", "thesis-robots"}));
   EXPECT_EQ(Asking(store_).json("c1/runs/e100002/trajectory")["same_bits"], false);
 }
 

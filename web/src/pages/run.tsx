@@ -17,7 +17,6 @@ const kSpeeds = [0.25, 0.5, 1, 2, 5, 10, 30];
 const kUsualSpeed = 5;
 /// Lengths in cycles.
 const kTrails: Record<string, number> = { none: 0, "10 s": 100, "30 s": 300, all: 1e9 };
-const kProfiles = ["rvr", "argos3", "pseudo-reality"];
 const kTints: [string, Tint][] = [["state", "state"], ["robot", "robot"], ["LEDs", "leds"]];
 
 interface State {
@@ -62,6 +61,8 @@ function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: numbe
       const attributes = { class: "here", x, y: y - radius > 4 ? y - radius - 1 : y + radius + 3, "font-size": 2.6, "text-anchor": "middle" };
       for (const [name, value] of Object.entries(attributes)) text.setAttribute(name, String(value));
       part.append(text);
+      const box = svg.viewBox.baseVal;  // a machine of one row has no room below it
+      box.height = Math.max(box.height, attributes.y + 1 - box.y);
     }
     if (text) text.textContent = here.length > 6 ? `${here.length} robots` : here.length ? `robot ${here.join(", ")}` : "";
   });
@@ -375,7 +376,7 @@ class Player extends Component<PageProps, State> {
     </details>;
   }
 
-  #beside({ id, verdict, candidate, source, design, seed: own_seed }: Trajectory) {
+  #beside({ id, verdict, candidate, source, design, profiles, seed: own_seed }: Trajectory) {
     const seed = own_seed ?? 1;
     const put = (one: string) => this.#put_beside([...this.#ids().slice(1), one]);
     /// Of pairs of a run and its name, those that do not stand there.
@@ -385,7 +386,7 @@ class Player extends Component<PageProps, State> {
     };
     return <Panel title="Put another run beside it">
       {verdict ? candidate && offer("Simulated from the same starts:", [1, 2, 3].map((n) => [`${id}-${n}`, `seed ${n}`]))
-        : offer("The same under:", kProfiles.filter((name) => name !== source).map((name) => [`${candidate}-${seed}@${name}`, name]))}
+        : offer("The same under:", (profiles ?? []).filter((name) => name !== source).map((name) => [`${candidate}-${seed}@${name}`, name]))}
       {design && !verdict && <Get<DesignAnswer> path={`${this.props.params.c}/designs/${design}`} render={({ elites }) => {
         const last = Math.max(0, ...elites.map((one) => one.iteration));
         return offer("On the same seed, elites:", elites.filter((one) => one.iteration === last && "c" + one.candidate !== candidate).slice(0, 4)
