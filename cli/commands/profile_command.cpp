@@ -23,8 +23,10 @@ tl::expected<std::string, std::vector<Error>> whole_profile(const std::string& w
   const std::string root = "profile";
   std::string text = "format = 1\n";
   for (Section& section : profile_sections(*profile, root)) {
-    if (section.header == "[" + root + "]") continue;  // its name is the file's
-    section.header.erase(1, root.size() + 1);
+    const bool is_top = section.header == "[" + root + "]";
+    section.header = is_top ? "" : "[" + section.header.substr(root.size() + 2);
+    if (is_top)  // the file gives the name
+      std::erase_if(section.lines, [](const SectionLine& line) { return line.key == "name"; });
     text += text_of({section});
   }
   return text;

@@ -247,6 +247,19 @@ TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
   EXPECT_THAT(run({"profile", "rvx"}).err, HasSubstr("did you mean \"rvr\"?"));
 }
 
+TEST(Profiles, OfAFileArePrintedWhole) {
+  const TemporaryFolder folder;
+  for (const std::string& name : profile_names()) {
+    const std::filesystem::path mine = folder / "mine.toml";
+    write_file(mine, "format = 1\nbase = \"" + name + "\"\ncontacts = \"box2d\"\n");
+    const auto printed = parse_profile(run({"profile", mine.string()}).out, mine);
+    const auto read = find_profile(mine.string(), "");
+    ASSERT_TRUE(printed && read) << name;
+    EXPECT_EQ(*printed, *read) << name;
+    EXPECT_EQ(printed->contacts, ContactModel::Box2d);
+  }
+}
+
 TEST(Evaluate, WritesARunDown) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", kExploreText + "\n");
