@@ -376,7 +376,8 @@ class IraceRdata(unittest.TestCase):
         again = self.exported("again.db", "again")
         # Options are the same numbers in other words.
         numbers = {"1e-04": "0.0001"}
-        tables["scenario"] = [[numbers.get(cell, cell) for cell in row] for row in tables["scenario"]]
+        tables["scenario"] = [[numbers.get(cell, cell) for cell in row] for row in tables["scenario"]
+                              if row != ["cappingAfterFirstTest", "FALSE"]]  # irace 4 refuses it: left out
         self.assert_same(tables, again)
         for sql in ["SELECT number, iteration, parent, parameters, fsm_config, runs, mean FROM v_candidates",
                     "SELECT candidate, purpose, pair, instance, seed, iteration, status, score, "
