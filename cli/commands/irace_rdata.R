@@ -270,10 +270,11 @@ scenario$forbiddenExps <- forbidden_code
 scenario$parameters <- space
 
 version <- head_value("irace_version")
-# irace 4 refuses options that it does not know: its digits are those of each parameter.
+# irace 4 refuses options that it does not know: digits are those of each parameter, and what is forbidden is the space's.
 number_of <- numeric_version(sub("^([0-9]+(\\.[0-9]+)*).*", "\\1", version), strict = FALSE)
 if (!isTRUE(number_of < "3.9")) {
   scenario$digits <- NULL
+  scenario$forbiddenExps <- NULL
   if (isFALSE(scenario$cappingAfterFirstTest)) scenario$cappingAfterFirstTest <- NULL
 }
 used <- length(runs$instance)

@@ -158,7 +158,7 @@ for (name in names(own)) {
   if (!isTRUE(same)) { print(name); print(same); quit(status = 1) }
 }
 stopifnot(identical(names(own), names(log$parameters)))
-code <- log$scenario$forbiddenExps
+code <- log$scenario$parameters$forbidden
 stopifnot(length(code) == 2,
           identical(attr(code[[1]], "source"), "alpha == 0 & ants > 50"),
           !eval(code[[1]], list(alpha = 0, ants = 60)), eval(code[[1]], list(alpha = 1, ants = 60)),
