@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// Whether anything in the arena, or the robots themselves, can stand between two robots at the height
-/// of their NeighbourSensor.
+/// Whether anything in the arena, or the robots themselves, can stand between two robots at the
+/// height of their NeighbourSensor.
 bool can_hide(const Arena& arena, const Robot& robot);
 
 /// Who can be seen, or heard, from a robot, at the height of its NeighbourSensor.
