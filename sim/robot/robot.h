@@ -67,11 +67,12 @@ struct ProximityRing {
 /// Light sensors around the robot.
 struct LightRing {
   enum class Reading {
-    Lux,  ///< I / d^2 from the sensor's place, times the cosine of the horizontal angle to the light
+    /// I / d^2 from the sensor's place, times the cosine of the horizontal angle to the light.
+    Lux,
     /// exp(-2 rho) (1 - 2 angle / pi), rho = d / I up to 2.5, within [0, 1]
     Strength,
   };
-  RingAngles angles_deg;  ///< empty: as the proximity rays
+  RingAngles angles_deg;              ///< empty: as the proximity rays
   double out_m = kLightSensorsOut_m;  ///< where light is looked for: so far from the robot's axis
   double height_m = kLightSensorsHeight_m;
   Reading reading = Reading::Lux;
@@ -111,8 +112,8 @@ struct NeighbourSensor {
   /// Of camera or antenna. What stands as high between two robots hides them from each other, be it
   /// a third one.
   double height_m = kCameraHeight_m;
-  double less_m = 0;         ///< what a distance is less than that of the centres
-  int memory_ticks = 1;      ///< of Radio, the present one included
+  double less_m = 0;     ///< what a distance is less than that of the centres
+  int memory_ticks = 1;  ///< of Radio, the present one included
 
   friend bool operator==(const NeighbourSensor&, const NeighbourSensor&) = default;
 };
