@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -21,8 +22,8 @@ std::vector<std::string> name_lines(const ModuleSpec& spec) {
     words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
     return {std::move(words)};
   }
-  for (const auto line : std::views::split(label_of(spec.module), '\n'))
-    lines.emplace_back(line.begin(), line.end());
+  for (const std::string_view line : split(label_of(spec.module), '\n'))
+    lines.emplace_back(line);
   return lines;
 }
 
