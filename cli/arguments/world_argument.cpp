@@ -5,6 +5,7 @@
 #include "sim/control/flavour_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -35,6 +36,13 @@ Expected<Profile> find_profile_or_complain(const std::string& word, const std::s
 Expected<Flavour> find_flavour_or_complain(const std::string& word, const std::string& flag,
                                            Output& output) {
   auto found = find_flavour_file(word, {});
+  if (!found) return complain(found.error(), flag, output);
+  return std::move(*found);
+}
+
+Expected<Robot> find_robot_or_complain(const std::string& word, const std::string& flag,
+                                       Output& output) {
+  auto found = find_robot(word, {});
   if (!found) return complain(found.error(), flag, output);
   return std::move(*found);
 }

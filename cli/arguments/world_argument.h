@@ -10,8 +10,8 @@
 
 namespace swarmsmith::cli {
 
-/// The mission, profile or flavour of a flag: built in, or a file. All that is wrong with a file
-/// but the last thing is printed, the last is the error; `flag` is where, when the file has no
+/// The mission, profile, flavour or robot of a flag: built in, or a file. All that is wrong with a
+/// file but the last thing is printed, the last is the error; `flag` is where, when the file has no
 /// place for it.
 Expected<Mission> find_mission_or_complain(const std::string& word, const std::string& flag,
                                            Output& output);
@@ -19,5 +19,7 @@ Expected<Profile> find_profile_or_complain(const std::string& word, const std::s
                                            Output& output);
 Expected<Flavour> find_flavour_or_complain(const std::string& word, const std::string& flag,
                                            Output& output);
+Expected<Robot> find_robot_or_complain(const std::string& word, const std::string& flag,
+                                       Output& output);
 
 }  // namespace swarmsmith::cli

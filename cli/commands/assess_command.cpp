@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "cli/arguments/world_argument.h"
 #include "cli/commands/assessment_text.h"
 #include "cli/commands/commands.h"
 #include "console/counter.h"
 #include "sim/engine/fitting.h"
+#include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -13,24 +17,43 @@ using assessment::Report;
 
 struct AssessArguments {
   std::string flavour = "watermelon";
-  std::string profile = "rvr";
+  std::string profile;
+  std::string robot;
 };
+
+/// The first built-in robot that the flavour fits; the RVR if there is none.
+std::string robot_for(const Flavour& flavour) {
+  for (const std::string& name : robot_names())
+    if (!misfit(flavour, find_robot(name, {}).value())) return name;
+  return rvr().name;
+}
+
+/// The profile of the robot's name, or the RVR's.
+std::string profile_for(const Robot& robot) {
+  const std::vector<std::string> names = profile_names();
+  return std::ranges::count(names, robot.name) > 0 ? robot.name : rvr().name;
+}
 
 ExitCode run_assess(const AssessArguments& arguments, Output& output) {
   const auto flavour = find_flavour_or_complain(arguments.flavour, "--flavour", output);
   if (!flavour) return fail(output, ExitCode::Usage, flavour.error());
-  const auto profile = find_profile_or_complain(arguments.profile, "--profile", output);
+  const auto robot = find_robot_or_complain(
+      arguments.robot.empty() ? robot_for(*flavour) : arguments.robot, "--robot", output);
+  if (!robot) return fail(output, ExitCode::Usage, robot.error());
+  const auto profile = find_profile_or_complain(
+      arguments.profile.empty() ? profile_for(*robot) : arguments.profile, "--profile", output);
   if (!profile) return fail(output, ExitCode::Usage, profile.error());
-  // What modules promise is checked with RVRs.
-  if (const auto why = misfit(*flavour, rvr()))
+  if (const auto why = misfit(*flavour, *robot))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--flavour"});
-  if (const auto why = misfit(*profile, rvr()))
+  if (const auto why = misfit(*profile, *robot))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--profile"});
+  if (const auto why = assessment::too_big(*robot))
+    return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--robot"});
   Counter counter(output, "assessed", "modules");
-  const Report report = assessment::assess(
-      *flavour, *profile, [&counter](int done, int of) { counter.tell(done, of); });
-  output.out << (output.json ? assessment_json(report, flavour->name, profile->name)
-                             : assessment_text(report, flavour->name, profile->name));
+  const assessment::Subject subject{*flavour, *profile, *robot};
+  const Report report =
+      assessment::assess(subject, [&counter](int done, int of) { counter.tell(done, of); });
+  output.out << (output.json ? assessment_json(report, subject) : assessment_text(report, subject));
   return report.passes() && output.out.good() ? ExitCode::Done : ExitCode::Failed;
 }
 
@@ -40,7 +63,10 @@ CommandRun declare_assess(Options& options) {
   auto arguments = std::make_shared<AssessArguments>();
   options.text("--flavour FLAVOUR|FILE", arguments->flavour,
                "Flavour of the modules (default watermelon)");
-  options.text("--profile PROFILE|FILE", arguments->profile, "Simulator profile (default rvr)");
+  options.text("--profile PROFILE|FILE", arguments->profile,
+               "Simulator profile (default: that of the robot's name, or rvr)");
+  options.text("--robot ROBOT|FILE", arguments->robot,
+               "The robot (default: the first of `ls robots` that the flavour fits)");
   return [arguments](Output& output) { return run_assess(*arguments, output); };
 }
 

@@ -13,6 +13,7 @@ using assessment::Check;
 using assessment::ModuleReport;
 using assessment::Rate;
 using assessment::Report;
+using assessment::Subject;
 
 constexpr std::size_t kColumns = 100;
 
@@ -112,8 +113,7 @@ JsonObject module_json(const ModuleReport& module) {
 
 }  // namespace
 
-std::string assessment_text(const Report& report, std::string_view flavour,
-                            std::string_view profile) {
+std::string assessment_text(const Report& report, const Subject& subject) {
   std::string text = fmt::format("{:<24}  {:<22}  {:>4}  {:<7}  {:<20}  {}\n", "module", "setting",
                                  "runs", "verdict", "measured", "expected");
   for (const ModuleReport& module : report.modules) {
@@ -121,15 +121,16 @@ std::string assessment_text(const Report& report, std::string_view flavour,
       text += check_line(id_of(module.module), check);
   }
   return text + notes(report) + rates(report) +
-         fmt::format("\n{} of {} modules pass: flavour {}, profile {}\n", report.passed(),
-                     report.modules.size(), flavour, profile);
+         fmt::format("\n{} of {} modules pass: flavour {}, profile {}, robot {}\n", report.passed(),
+                     report.modules.size(), subject.flavour.name, subject.profile.name,
+                     subject.robot.name);
 }
 
-std::string assessment_json(const Report& report, std::string_view flavour,
-                            std::string_view profile) {
+std::string assessment_json(const Report& report, const Subject& subject) {
   return JsonObject()
-             .add("flavour", flavour)
-             .add("profile", profile)
+             .add("flavour", subject.flavour.name)
+             .add("profile", subject.profile.name)
+             .add("robot", subject.robot.name)
              .add("passed", report.passed())
              .add("modules", json_list(report.modules, module_json))
              .text() +

@@ -13,6 +13,7 @@
 #include "sim/control/flavour_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 #include "storage/store.h"
 
 namespace swarmsmith::cli {
@@ -76,6 +77,7 @@ void offer_built_in(std::string_view kind, Offer& offer) {
   if (kind == "PROFILE") offer_names(profile_names(), offer);
   if (kind == "BEST") offer.words.push_back({"best", "the winners of the finished designs"});
   if (kind == "FLAVOUR") offer_names(flavour_names(), offer);
+  if (kind == "ROBOT") offer_names(robot_names(), offer);
 }
 
 }  // namespace

@@ -1,9 +1,15 @@
 #include "sim/assessment/assessment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/math.h"
 #include "sim/assessment/internal/checks.h"
 #include "sim/assessment/internal/condition_test.h"
+#include "sim/assessment/internal/settings.h"
+#include "sim/engine/fitting.h"
+#include "sim/mission/footprint.h"
 
 namespace swarmsmith::assessment {
 namespace {
@@ -16,12 +22,11 @@ Profile with_nominal_clock(Profile profile) {
   return profile;
 }
 
-ModuleReport assess_condition(const ModuleSpec& spec, const Flavour& flavour,
-                              const Profile& profile) {
+ModuleReport assess_condition(const ModuleSpec& spec, const Subject& subject) {
   ModuleReport report{.module = spec.module, .checks = {}, .rates = {}};
-  for (const ConditionTest& test : tests_of(spec, flavour)) {
-    report.checks.push_back(check_condition(test, flavour, profile));
-    std::ranges::move(rates_of(test, flavour, profile), std::back_inserter(report.rates));
+  for (const ConditionTest& test : tests_of(spec, subject.flavour)) {
+    report.checks.push_back(check_condition(test, subject));
+    std::ranges::move(rates_of(test, subject), std::back_inserter(report.rates));
   }
   return report;
 }
@@ -40,8 +45,23 @@ bool Report::passes() const {
   return std::ranges::all_of(modules, &ModuleReport::passes);
 }
 
-Report assess(const Flavour& flavour, const Profile& profile, const Progress& progress) {
+std::optional<std::string> too_big(const Robot& robot) {
+  const Footprint body(robot.body.outline, {});
+  double reach_m = body.radius_m();
+  for (const Point& corner : body.corners())
+    reach_m = std::max(reach_m, hypot(corner.x, corner.y));
+  const double room_m = pairs_of(robot).nearest_m;
+  if (2 * reach_m < room_m) return std::nullopt;
+  return fmt::format(
+      "modules are assessed with robots that start {:.2g} m apart, so that they see each other, "
+      "and "
+      "`{}` is {:.2g} m wide",
+      room_m, robot.name, 2 * reach_m);
+}
+
+Report assess(const Subject& subject, const Progress& progress) {
   Report report;
+  const Flavour flavour = fitted(subject.flavour, subject.robot);
   const auto runs = [](const ModuleSpec& spec) { return !is_external(spec.module); };
   const auto of = static_cast<int>(std::ranges::count_if(flavour.behaviours, runs) +
                                    std::ranges::count_if(flavour.conditions, runs));
@@ -51,11 +71,13 @@ Report assess(const Flavour& flavour, const Profile& profile, const Progress& pr
   };
   for (const ModuleSpec& spec : flavour.behaviours) {
     if (runs(spec))
-      add({.module = spec.module, .checks = check_behaviour(spec, flavour, profile), .rates = {}});
+      add({.module = spec.module,
+           .checks = check_behaviour(spec, {flavour, subject.profile, subject.robot}),
+           .rates = {}});
   }
-  const Profile nominal = with_nominal_clock(profile);
+  const Profile nominal = with_nominal_clock(subject.profile);
   for (const ModuleSpec& spec : flavour.conditions)
-    if (runs(spec)) add(assess_condition(spec, flavour, nominal));
+    if (runs(spec)) add(assess_condition(spec, {flavour, nominal, subject.robot}));
   return report;
 }
 

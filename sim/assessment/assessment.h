@@ -2,18 +2,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/control/flavour.h"
 #include "sim/control/module.h"
 #include "sim/engine/profile.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith::assessment {
 
 /// Does each module of a flavour do in the simulator what it promises (thesis 6.2; its measurable
-/// form: thesis facts, section 10)? Three robots in the thesis' arena, 120 s a run; behaviours with
-/// tau = 10 and alpha = 3 on seeds 1 to 5, conditions on seeds 1 to 10.
+/// form: thesis facts, section 10)? Three robots of a kind in the thesis' arena, 120 s a run;
+/// behaviours with tau = 10 and alpha = 3 on seeds 1 to 5, conditions on seeds 1 to 10.
 
 /// One quantity of a module, measured in several runs, against what is expected of it.
 struct Check {
@@ -54,13 +56,24 @@ struct Report {
   bool passes() const;
 };
 
+/// Why modules cannot be assessed with the robot, as a sentence; nothing when they can: three of
+/// them must have room in a group.
+std::optional<std::string> too_big(const Robot& robot);
+
 /// Receives the number of finished modules and their total.
 using Progress = std::function<void(int done, int of)>;
 
-/// Assesses all modules of the flavour. Pure: the same flavour and profile give the same report.
+/// What is assessed: a flavour and a profile that fit the robot (`misfit`).
+struct Subject {
+  const Flavour& flavour;
+  const Profile& profile;
+  const Robot& robot;
+};
+
+/// Assesses all modules of the flavour. Pure: the same subject gives the same report.
 ///
 /// Conditions are tested with the profile's sensors, but with control cycles of exactly 0.1 s:
 /// they are judged cycle by cycle, and a recorder sees the world every 0.1 s.
-Report assess(const Flavour& flavour, const Profile& profile, const Progress& progress = {});
+Report assess(const Subject& subject, const Progress& progress = {});
 
 }  // namespace swarmsmith::assessment

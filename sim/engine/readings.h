@@ -88,6 +88,7 @@ struct Readings {
   ProximityReadings proximity_m{};    ///< thesis 4.2.9
   std::vector<double> lidar_m;        ///< thesis 4.2.10, 719 rays, counter-clockwise from the head
   std::vector<Neighbour> neighbours;  ///< thesis 5.1
+  int neighbour_count = 0;            ///< those that were seen or heard in this very cycle
 };
 
 /// What a simulated robot senses in a control cycle: what control software may ask for, and all the

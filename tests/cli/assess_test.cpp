@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/assessment_text.h"
+#include "sim/files/profile_file.h"
 #include "tests/cli/cli_support.h"
 
 namespace swarmsmith::cli {
@@ -18,7 +19,8 @@ TEST(Assess, PrintsChecksRatesAndASummaryWithinAHundredColumns) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, ContainsRegex("\nexploration +gray arena +5  passes +[0-9]+ to [0-9]+ til"));
   EXPECT_THAT(ran.out, ContainsRegex("\nblack_floor +black spot, p = 0.3 +[0-9]+ +0\\.[0-9]+ +0"));
-  EXPECT_THAT(ran.out, HasSubstr("\n11 of 11 modules pass: flavour watermelon, profile rvr\n"));
+  EXPECT_THAT(ran.out,
+              HasSubstr("\n11 of 11 modules pass: flavour watermelon, profile rvr, robot rvr\n"));
   std::istringstream lines(ran.out);
   for (std::string line; std::getline(lines, line);)
     EXPECT_LE(line.size(), 100U) << line;
@@ -27,8 +29,8 @@ TEST(Assess, PrintsChecksRatesAndASummaryWithinAHundredColumns) {
 TEST(Assess, ExitsWithOneWhenAModuleFailsAndSaysWhy) {
   const Ran ran = run({"assess", "--flavour", "watermelon-argos3", "--profile", "argos3"});
   EXPECT_EQ(ran.code, 1);
-  EXPECT_THAT(ran.out, ContainsRegex("\nattraction +a group, 0.5 to 0.7 m +5  FAILS"));
-  EXPECT_THAT(ran.out, HasSubstr("\nattraction (a group, 0.5 to 0.7 m) fails: "));
+  EXPECT_THAT(ran.out, ContainsRegex("\nattraction +group, 0.5 to 0.7 m +5  FAILS"));
+  EXPECT_THAT(ran.out, HasSubstr("\nattraction (group, 0.5 to 0.7 m) fails: "));
   EXPECT_THAT(ran.out, HasSubstr("\n10 of 11 modules pass"));
 }
 
@@ -38,6 +40,7 @@ TEST(Assess, AnswersInJson) {
   const json report = json::parse(ran.out);
   EXPECT_EQ(report["flavour"], "watermelon");
   EXPECT_EQ(report["profile"], "argos3");
+  EXPECT_EQ(report["robot"], "rvr");
   EXPECT_EQ(report["passed"], 11);
   ASSERT_EQ(report["modules"].size(), 11U);
   const json& exploration = report["modules"][0];
@@ -51,6 +54,21 @@ TEST(Assess, AnswersInJson) {
   EXPECT_EQ(count["expected"], 0.5);
   EXPECT_GT(count["measured"], count["low"]);
   EXPECT_LT(count["measured"], count["high"]);
+}
+
+// The flavour says which robot, the robot which profile.
+TEST(Assess, TakesTheRobotThatTheFlavourFits) {
+  const Ran ran = run({"assess", "--flavour", "chocolate-epuck"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("\n12 of 12 modules pass: flavour chocolate-epuck, profile epuck, "
+                                 "robot epuck\n"));
+  const std::string turtlebot = SWARMSMITH_SOURCE_DIR "/examples/missions/robots/turtlebot4.toml";
+  const Ran own = run({"assess", "--flavour", "chocolate", "--robot", turtlebot});
+  EXPECT_THAT(own.out,
+              HasSubstr(" modules pass: flavour chocolate, profile rvr, robot turtlebot4\n"));
+  const Ran misfit = run({"assess", "--robot", "epuck"});
+  EXPECT_EQ(misfit.code, 2);
+  EXPECT_THAT(misfit.err, HasSubstr("--flavour: the flavour `watermelon` takes distances"));
 }
 
 TEST(Assess, RefusesWhatItDoesNotKnow) {
@@ -75,11 +93,13 @@ TEST(AssessmentText, MarksARateOutsideOfItsIntervalAndOneWithoutTrials) {
                   .low = 0.05,
                   .high = 0.2},
                  {.setting = "never", .expected = 0.3}}});
-  const std::string text = assessment_text(report, "watermelon", "rvr");
+  const Profile profile = *built_in_profile("rvr");
+  const Robot robot = rvr();
+  const assessment::Subject subject{watermelon(), profile, robot};
+  const std::string text = assessment_text(report, subject);
   EXPECT_THAT(text, ContainsRegex("far off +100 +0.1000  0.0500 to 0.2000  0.3000 outside\n"));
   EXPECT_THAT(text, ContainsRegex("never +0 +-  - +0.3000\n"));
-  const json rates =
-      json::parse(assessment_json(report, "watermelon", "rvr"))["modules"][0]["rates"];
+  const json rates = json::parse(assessment_json(report, subject))["modules"][0]["rates"];
   EXPECT_EQ(rates[0]["measured"], 0.1);
   EXPECT_TRUE(rates[1]["measured"].is_null());
 }

@@ -19,13 +19,6 @@ namespace {
 
 using Robots = std::span<const RobotRecord>;
 
-/// What a behaviour of the flavour is tried with.
-struct Subject {
-  const Machine& machine;
-  const Flavour& flavour;
-  const Profile& profile;
-};
-
 /// The tiles of grid exploration: 10 x 10 over a square of 2.50001 m (rvr-automode facts, 8).
 constexpr int kTiles = 10;
 constexpr double kTilesSide_m = 2.50001;
@@ -40,8 +33,8 @@ int tile_at(Point point) {
   return index(point.y) * kTiles + index(point.x);
 }
 
-std::vector<Check> check_exploration(const Subject& subject) {
-  const Mission mission = mission_in(dodecagon_of_the_thesis());
+std::vector<Check> check_exploration(const Machine& machine, const Subject& subject) {
+  const Mission mission = mission_in(dodecagon_of_the_thesis(), subject.robot);
   std::vector<double> tiles;
   std::vector<double> contact;
   for (int seed = 1; seed <= kBehaviourRuns; ++seed) {
@@ -54,10 +47,9 @@ std::vector<Check> check_exploration(const Subject& subject) {
         poses.push_back(robot.pose);
         entered.insert(tile_at(robot.pose.position()));
       }
-      touching += any_contact(poses, mission.arena) ? 1 : 0;
+      touching += any_contact(subject.robot.body.outline, poses, mission.arena) ? 1 : 0;
     };
-    watch({subject.machine, subject.flavour, subject.profile, mission},
-          starts_anywhere(mission, seed), seed, observe);
+    watch({machine, subject, mission}, starts_anywhere(mission, seed), seed, observe);
     tiles.push_back(static_cast<double>(entered.size()));
     contact.push_back(static_cast<double>(touching) / kCycles);
   }
@@ -86,8 +78,8 @@ std::vector<Check> check_exploration(const Subject& subject) {
 
 constexpr double kFarthestRest_m = 0.001;
 
-std::vector<Check> check_stop(const Subject& subject) {
-  const Mission mission = mission_in(dodecagon_of_the_thesis());
+std::vector<Check> check_stop(const Machine& machine, const Subject& subject) {
+  const Mission mission = mission_in(dodecagon_of_the_thesis(), subject.robot);
   std::vector<double> moves_mm;
   for (int seed = 1; seed <= kBehaviourRuns; ++seed) {
     const std::vector<Pose> starts = starts_anywhere(mission, seed);
@@ -98,7 +90,7 @@ std::vector<Check> check_stop(const Subject& subject) {
         farthest = std::max(farthest, hypot(pose.x - starts[i].x, pose.y - starts[i].y));
       }
     };
-    watch({subject.machine, subject.flavour, subject.profile, mission}, starts, seed, observe);
+    watch({machine, subject, mission}, starts, seed, observe);
     moves_mm.push_back(1000 * farthest);
   }
   return {{.setting = "from rest",
@@ -167,8 +159,9 @@ struct Steering {
   }
 };
 
-std::vector<Check> check_distance(const DistanceTest& test, const Subject& subject) {
-  Mission mission = mission_in(dodecagon_of_the_thesis());
+std::vector<Check> check_distance(const DistanceTest& test, const Machine& machine,
+                                  const Subject& subject) {
+  Mission mission = mission_in(dodecagon_of_the_thesis(), subject.robot);
   if (test.with_light) mission.arena.lights.push_back(kLight);
   std::vector<double> changes;
   Steering steering;
@@ -182,13 +175,16 @@ std::vector<Check> check_distance(const DistanceTest& test, const Subject& subje
       for (const RobotRecord& robot : now.robots)
         steering.add(robot);
     };
-    watch({subject.machine, subject.flavour, subject.profile, mission}, starts_in_a_group(seed),
-          seed, Recorder(observe, Sensor::Neighbours));
+    watch({machine, subject, mission}, starts_in_a_group(subject.robot, seed), seed,
+          Recorder(observe, Sensor::Neighbours));
     changes.push_back(end - start);
   }
   const bool passes = std::ranges::all_of(
       changes, [&](double change) { return test.falls ? change < 0 : change > 0; });
-  return {{.setting = test.with_light ? "a light at the wall" : "a group, 0.5 to 0.7 m",
+  const PairDistances pairs = pairs_of(subject.robot);
+  return {{.setting = test.with_light ? "a light at the wall"
+                                      : fmt::format("group, {:.2g} to {:.2g} m", pairs.nearest_m,
+                                                    pairs.farthest_m),
            .runs = kBehaviourRuns,
            .quantity = test.with_light ? "change_of_light_distance_m" : "change_of_pair_distance_m",
            .values = changes,
@@ -208,33 +204,32 @@ double parameter_value(const ParameterSpec& parameter) {
 
 }  // namespace
 
-std::vector<Check> check_behaviour(const ModuleSpec& spec, const Flavour& flavour,
-                                   const Profile& profile) {
+std::vector<Check> check_behaviour(const ModuleSpec& spec, const Subject& subject) {
   std::vector<double> parameters;
   for (const ParameterSpec& parameter : spec.parameters)
     parameters.push_back(parameter_value(parameter));
   const Behaviour behaviour = make_behaviour(spec.module, parameters);
   const Machine machine{{{behaviour, {}}}};
-  const Subject subject{machine, flavour, profile};
   // A behaviour promises what only a person can say: each has its case here.
-  return std::visit(Overloaded{[&](const Exploration&) { return check_exploration(subject); },
-                               [&](const RandomWalk&) { return check_exploration(subject); },
-                               [&](const LevyWalk&) { return check_exploration(subject); },
-                               [&](const Stop&) { return check_stop(subject); },
-                               [&](const Attraction&) {
-                                 return check_distance({pair_distance, true}, subject);
-                               },
-                               [&](const Repulsion&) {
-                                 return check_distance({pair_distance, false}, subject);
-                               },
-                               [&](const Phototaxis&) {
-                                 return check_distance({light_distance, true, true}, subject);
-                               },
-                               [&](const AntiPhototaxis&) {
-                                 return check_distance({light_distance, false, true}, subject);
-                               },
-                               [](const ExternalBehaviour&) { return std::vector<Check>(); }},
-                    behaviour);
+  return std::visit(
+      Overloaded{[&](const Exploration&) { return check_exploration(machine, subject); },
+                 [&](const RandomWalk&) { return check_exploration(machine, subject); },
+                 [&](const LevyWalk&) { return check_exploration(machine, subject); },
+                 [&](const Stop&) { return check_stop(machine, subject); },
+                 [&](const Attraction&) {
+                   return check_distance({pair_distance, true}, machine, subject);
+                 },
+                 [&](const Repulsion&) {
+                   return check_distance({pair_distance, false}, machine, subject);
+                 },
+                 [&](const Phototaxis&) {
+                   return check_distance({light_distance, true, true}, machine, subject);
+                 },
+                 [&](const AntiPhototaxis&) {
+                   return check_distance({light_distance, false, true}, machine, subject);
+                 },
+                 [](const ExternalBehaviour&) { return std::vector<Check>(); }},
+      behaviour);
 }
 
 }  // namespace swarmsmith::assessment

@@ -34,18 +34,17 @@ struct FloorRun {
 using FloorRuns = std::array<FloorRun, kConditionRuns>;
 
 FloorRuns run_over_floor(const ConditionTest& test, const Condition& condition,
-                         const Flavour& flavour, const Profile& profile) {
+                         const Subject& subject) {
   FloorRuns runs;
-  for_each_cycle(test, one_way(condition), flavour, profile, [&](const ObservedCycle& cycle) {
+  for_each_cycle(test, one_way(condition), subject, [&](const ObservedCycle& cycle) {
     FloorRun& run = runs[static_cast<std::size_t>(cycle.seed - 1)];
     const bool tested = cycle.state == kExploring && cycle.tested;
     const double probability =
-        tested ? due_probability(test, condition, 1, *cycle.record.readings, flavour) : 0;
+        tested ? due_probability(test, condition, 1, *cycle.record.readings, subject.flavour) : 0;
     const bool due = probability > 0;
-    const Point place = ground_sensor_place(cycle.record.pose);
-    const bool over =
-        tested &&
-        (test.trigger == Trigger::Readings ? due : floor_at(test.arena, place) == test.wanted);
+    const bool over = tested && (test.trigger == Trigger::Readings
+                                     ? due
+                                     : is_over_wanted(test, subject, cycle.record.pose));
     run.over += over ? 1 : 0;
     run.read += over && due ? 1 : 0;
     run.fired_over += over && due && cycle.fired ? 1 : 0;
@@ -120,9 +119,9 @@ std::string note_about(const ConditionTest& test, const FloorRuns& runs, const F
   return note;
 }
 
-Check check_floor(const ConditionTest& test, const Condition& condition, const Flavour& flavour,
-                  const Profile& profile) {
-  const FloorRuns runs = run_over_floor(test, condition, flavour, profile);
+Check check_floor(const ConditionTest& test, const Condition& condition, const Subject& subject) {
+  const FloorModel& floor = subject.flavour.floor;
+  const FloorRuns runs = run_over_floor(test, condition, subject);
   std::vector<double> fired;
   for (const FloorRun& run : runs)
     fired.push_back(run.fired_over);
@@ -131,17 +130,16 @@ Check check_floor(const ConditionTest& test, const Condition& condition, const F
           .runs = kConditionRuns,
           .quantity = "robots_fired_over_the_floor",
           .values = fired,
-          .passes = good == kConditionRuns && misread_floor(test, flavour.floor).empty(),
+          .passes = good == kConditionRuns && misread_floor(test, floor).empty(),
           .measured = fmt::format("{} of {} as expected", good, kConditionRuns),
           .expected = fmt::format("{} of {}", kConditionRuns, kConditionRuns),
-          .note = note_about(test, runs, flavour.floor)};
+          .note = note_about(test, runs, floor)};
 }
 
 /// With eta = 0 the sigmoid is one half whatever the number of neighbours: one firing a robot.
-Check check_count(const ConditionTest& test, const Condition& condition, const Flavour& flavour,
-                  const Profile& profile) {
+Check check_count(const ConditionTest& test, const Condition& condition, const Subject& subject) {
   std::array<std::array<int, kRobots>, kConditionRuns> tests{};
-  for_each_cycle(test, one_way(condition), flavour, profile, [&](const ObservedCycle& cycle) {
+  for_each_cycle(test, one_way(condition), subject, [&](const ObservedCycle& cycle) {
     if (cycle.state != kExploring || !cycle.tested) return;
     ++tests[static_cast<std::size_t>(cycle.seed - 1)][static_cast<std::size_t>(cycle.robot)];
   });
@@ -161,13 +159,12 @@ Check check_count(const ConditionTest& test, const Condition& condition, const F
 
 }  // namespace
 
-Check check_condition(const ConditionTest& test, const Flavour& flavour, const Profile& profile) {
+Check check_condition(const ConditionTest& test, const Subject& subject) {
   const Condition condition =
-      make_condition(test, *flavour.find(test.module), {.beta = 1, .eta = 0, .xi = 1});
+      make_condition(test, *subject.flavour.find(test.module), {.beta = 1, .eta = 0, .xi = 1});
   const bool counts =
       test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
-  return counts ? check_count(test, condition, flavour, profile)
-                : check_floor(test, condition, flavour, profile);
+  return counts ? check_count(test, condition, subject) : check_floor(test, condition, subject);
 }
 
 }  // namespace swarmsmith::assessment

@@ -33,15 +33,16 @@ Rate rate_of(std::string setting, const Tally& tally, double expected) {
           .high = interval.high};
 }
 
-/// Eq. 5.7 of the thesis.
-double sigmoid(int neighbours) {
+/// Eq. 5.7 of the thesis; with counts without sign, xi - n is huge where it would be negative.
+double sigmoid(int neighbours, bool unsigned_count) {
+  if (unsigned_count && neighbours > kXi) return 0;
   return 1 / (1 + exp(kEta * (kXi - neighbours)));
 }
 
 }  // namespace
 
-std::vector<Rate> rates_of(const ConditionTest& test, const Flavour& flavour,
-                           const Profile& profile) {
+std::vector<Rate> rates_of(const ConditionTest& test, const Subject& subject) {
+  const Flavour& flavour = subject.flavour;
   const Condition condition =
       make_condition(test, *flavour.find(test.module), {.beta = kBeta, .eta = kEta, .xi = kXi});
   const Machine machine{
@@ -49,12 +50,12 @@ std::vector<Rate> rates_of(const ConditionTest& test, const Flavour& flavour,
   const bool counts =
       test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
   std::array<Tally, kRobots> tallies{};  // by number of neighbours; else all in the first one
-  for_each_cycle(test, machine, flavour, profile, [&](const ObservedCycle& cycle) {
+  for_each_cycle(test, machine, subject, [&](const ObservedCycle& cycle) {
     const Readings& readings = *cycle.record.readings;
     if (!cycle.tested) return;
     const double probability = due_probability(test, condition, kBeta, readings, flavour);
     if (probability == 0) return;
-    const std::size_t neighbours = counts ? readings.neighbours.size() : 0;
+    const std::size_t neighbours = counts ? static_cast<std::size_t>(readings.neighbour_count) : 0;
     if (neighbours >= tallies.size()) return;  // a lidar may see more of them than there are
     ++tallies[neighbours].trials;
     tallies[neighbours].firings += cycle.fired ? 1 : 0;
@@ -68,7 +69,7 @@ std::vector<Rate> rates_of(const ConditionTest& test, const Flavour& flavour,
   if (!counts) return {rate_of(fmt::format("{}, p = {}", test.floor, kBeta), tallies[0], kBeta)};
   std::vector<Rate> rates;
   for (int n = 0; n < kRobots; ++n) {
-    const double z = sigmoid(n);
+    const double z = sigmoid(n, flavour.neighbours.unsigned_count);
     rates.push_back(rate_of(fmt::format("eta = {}, xi = {}, n = {}", kEta, kXi, n),
                             tallies[static_cast<std::size_t>(n)],
                             test.trigger == Trigger::Neighbours ? z : 1 - z));

@@ -128,6 +128,7 @@ class RecordedSenses final : public Senses {
   const ProximityReadings& proximity() override { return readings_.proximity_m; }
   const Rgb& ground_color() override { return readings_.ground_color; }
   std::span<const Neighbour> neighbours() override { return readings_.neighbours; }
+  int neighbour_count() override { return readings_.neighbour_count; }
   const LightReadings& light() override { return readings_.light_lux; }
   double time_s() override {
     SWARMSMITH_ASSERT(false, "no condition asks for the time");
@@ -175,8 +176,10 @@ std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavo
 bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor) {
   switch (test.trigger) {
     case Trigger::Gray: {
-      const int gray = 299 * reading.r + 587 * reading.g + 114 * reading.b;
-      return test.gray.low <= gray && gray <= test.gray.high;
+      const auto is_in = [&](int gray) { return test.gray.low <= gray && gray <= test.gray.high; };
+      if (floor.any_channel)
+        return is_in(1000 * reading.r) || is_in(1000 * reading.g) || is_in(1000 * reading.b);
+      return is_in(299 * reading.r + 587 * reading.g + 114 * reading.b);
     }
     case Trigger::Label:
       return is_seen_as(reading, test.label, floor);
@@ -217,15 +220,21 @@ double due_probability(const ConditionTest& test, const Condition& condition, do
   return satisfies(test, readings.ground_color, flavour.floor) ? probability : 0;
 }
 
-Point ground_sensor_place(const Pose& pose) {
-  constexpr double kAhead_m = 0.05;
+bool is_over_wanted(const ConditionTest& test, const Subject& subject, const Pose& pose) {
   const SinCos heading = sin_cos(pose.theta);
-  return {pose.x + kAhead_m * heading.cos, pose.y + kAhead_m * heading.sin};
+  const auto is_wanted = [&](const Point& place) {
+    const Point seen = {pose.x + heading.cos * place.x - heading.sin * place.y,
+                        pose.y + heading.sin * place.x + heading.cos * place.y};
+    return floor_at(test.arena, seen) == test.wanted;
+  };
+  const std::vector<Point>& places = subject.robot.ground.places;
+  return subject.flavour.floor.any_channel ? std::ranges::any_of(places, is_wanted)
+                                           : std::ranges::all_of(places, is_wanted);
 }
 
-void for_each_cycle(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
-                    const Profile& profile, const std::function<void(const ObservedCycle&)>& tell) {
-  const Mission mission = mission_in(test.arena);
+void for_each_cycle(const ConditionTest& test, const Machine& machine, const Subject& subject,
+                    const std::function<void(const ObservedCycle&)>& tell) {
+  const Mission mission = mission_in(test.arena, subject.robot);
   Sensors sensors = Sensor::GroundColor | Sensor::Neighbours;
   if (test.trigger == Trigger::Readings) sensors = sensors | Sensor::Proximity | Sensor::LightRing;
   for (int seed = 1; seed <= kConditionRuns; ++seed) {
@@ -247,7 +256,7 @@ void for_each_cycle(const ConditionTest& test, const Machine& machine, const Fla
         entered[i] = fired;
       }
     };
-    watch({machine, flavour, profile, mission}, starts_anywhere(mission, seed), seed,
+    watch({machine, subject, mission}, starts_anywhere(mission, seed), seed,
           Recorder(observe, sensors));
   }
 }

@@ -51,8 +51,9 @@ Condition make_condition(const ConditionTest& test, const ModuleSpec& spec,
 double due_probability(const ConditionTest& test, const Condition& condition, double probability,
                        const Readings& readings, const Flavour& flavour);
 
-/// Where the ground sensor looks (thesis facts, section 3).
-Point ground_sensor_place(const Pose& pose);
+/// Whether the places of the floor that the robot's ground sensors look at are of the wanted
+/// colour: all of them, or any where that is enough for the flavour.
+bool is_over_wanted(const ConditionTest& test, const Subject& subject, const Pose& pose);
 
 /// One robot's control cycle as the recorder saw it.
 struct ObservedCycle {
@@ -66,7 +67,7 @@ struct ObservedCycle {
 
 /// Runs the test's arena on each seed with the machine and tells of all control cycles, robot by
 /// robot within an instant. Needs a profile whose control period is 0.1 s, one cycle an instant.
-void for_each_cycle(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
-                    const Profile& profile, const std::function<void(const ObservedCycle&)>& tell);
+void for_each_cycle(const ConditionTest& test, const Machine& machine, const Subject& subject,
+                    const std::function<void(const ObservedCycle&)>& tell);
 
 }  // namespace swarmsmith::assessment

@@ -1,57 +1,56 @@
 #include "sim/assessment/internal/contact.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/math.h"
-#include "sim/robot/rvr.h"
 
 namespace swarmsmith::assessment {
 namespace {
 
-/// Half the extent of the robot's square along a unit vector.
-double half_extent(const SinCos& heading, Point along) {
-  return 0.5 * kBodySide_m *
-         (std::fabs(heading.cos * along.x + heading.sin * along.y) +
-          std::fabs(heading.cos * along.y - heading.sin * along.x));
-}
-
-}  // namespace
-
-double body_gap(const Pose& a, const Pose& b) {
-  const SinCos heading_a = sin_cos(a.theta);
-  const SinCos heading_b = sin_cos(b.theta);
-  const std::array<Point, 4> axes = {{{heading_a.cos, heading_a.sin},
-                                      {-heading_a.sin, heading_a.cos},
-                                      {heading_b.cos, heading_b.sin},
-                                      {-heading_b.sin, heading_b.cos}}};
+/// The widest gap that a face of `a` has before it, up to all of `b`.
+double gap_before_faces(const Footprint& a, const Footprint& b) {
+  const auto corners = a.corners();
   double widest = -std::numeric_limits<double>::infinity();
-  for (const Point& axis : axes) {
-    const double distance = std::fabs((b.x - a.x) * axis.x + (b.y - a.y) * axis.y);
-    widest =
-        std::max(widest, distance - half_extent(heading_a, axis) - half_extent(heading_b, axis));
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point& from = corners[i];
+    const Point& to = corners[(i + 1) % corners.size()];
+    const double length = hypot(to.x - from.x, to.y - from.y);
+    const Point out = {(to.y - from.y) / length, (from.x - to.x) / length};
+    widest = std::max(widest, b.along(out.x, out.y).least - (from.x * out.x + from.y * out.y));
   }
   return widest;
 }
 
-double wall_gap(const Pose& robot, const Wall& wall) {
+}  // namespace
+
+double body_gap(const Footprint& a, const Footprint& b) {
+  if (a.corners().empty() && b.corners().empty()) {
+    return hypot(b.centre().x - a.centre().x, b.centre().y - a.centre().y) - a.radius_m() -
+           b.radius_m();
+  }
+  return std::max(gap_before_faces(a, b), gap_before_faces(b, a));
+}
+
+double wall_gap(const Footprint& robot, const Wall& wall) {
   const double along_x = wall.to.x - wall.from.x;
   const double along_y = wall.to.y - wall.from.y;
   const double length = hypot(along_x, along_y);
   const Point inward = {-along_y / length, along_x / length};
-  const double distance = (robot.x - wall.from.x) * inward.x + (robot.y - wall.from.y) * inward.y;
-  return distance - half_extent(sin_cos(robot.theta), inward);
+  return robot.along(inward.x, inward.y).least - (wall.from.x * inward.x + wall.from.y * inward.y);
 }
 
-bool any_contact(std::span<const Pose> robots, const Arena& arena) {
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    for (std::size_t j = i + 1; j < robots.size(); ++j) {
-      if (body_gap(robots[i], robots[j]) <= kContactGap_m) return true;
+bool any_contact(const Outline& outline, std::span<const Pose> robots, const Arena& arena) {
+  std::vector<Footprint> bodies;
+  for (const Pose& pose : robots)
+    bodies.emplace_back(outline, pose);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+      if (body_gap(bodies[i], bodies[j]) <= kContactGap_m) return true;
     }
     for (const Wall& wall : arena.walls) {
-      if (wall_gap(robots[i], wall) <= kContactGap_m) return true;
+      if (wall_gap(bodies[i], wall) <= kContactGap_m) return true;
     }
   }
   return false;

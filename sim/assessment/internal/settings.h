@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/control/flavour.h"
+#include "sim/assessment/assessment.h"
 #include "sim/control/machine.h"
-#include "sim/engine/profile.h"
 #include "sim/engine/simulate.h"
 #include "sim/mission/mission.h"
 
@@ -24,22 +23,26 @@ inline constexpr int kRobots = 3;
 inline constexpr int kCycles = 1200;
 
 /// Three robots for 120 s in this arena. Its score is of no interest.
-Mission mission_in(Arena arena);
+Mission mission_in(Arena arena, const Robot& robot);
 
 /// Starts anywhere in the arena, as the missions have them.
 std::vector<Pose> starts_anywhere(const Mission& mission, std::int64_t seed);
 
-inline constexpr double kNearestPair_m = 0.5;
-inline constexpr double kFarthestPair_m = 0.7;
+/// How far the robots of a group are apart: 0.5 to 0.7 m where a robot sees others up to 0.75 m or
+/// farther, and these shares of the range where it is shorter.
+struct PairDistances {
+  double nearest_m = 0;
+  double farthest_m = 0;
+};
+PairDistances pairs_of(const Robot& robot);
 
 /// Starts around the centre, all pairs that far apart, any heading.
-std::vector<Pose> starts_in_a_group(std::int64_t seed);
+std::vector<Pose> starts_in_a_group(const Robot& robot, std::int64_t seed);
 
 /// One run under the eyes of a recorder.
 struct Trial {
   const Machine& machine;
-  const Flavour& flavour;
-  const Profile& profile;
+  const Subject& subject;
   const Mission& mission;
 };
 void watch(const Trial& trial, std::vector<Pose> starts, std::int64_t seed,

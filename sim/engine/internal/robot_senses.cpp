@@ -266,13 +266,13 @@ std::span<const Neighbour> RobotSenses::neighbours() {
     cluster_lidar(turret_ranges_m_, readings_.neighbours);
   }
   if (neighbour_miss_rate_ > 0) drop_missed_neighbours();
+  readings_.neighbour_count = static_cast<int>(readings_.neighbours.size());
   return readings_.neighbours;
 }
 
 int RobotSenses::neighbour_count() {
   neighbours();
-  const bool by_radio = world_->robot().neighbours.source == NeighbourSensor::Source::Radio;
-  return by_radio ? heard_ : static_cast<int>(readings_.neighbours.size());
+  return readings_.neighbour_count;
 }
 
 /// Of each robot within range one packet is sent in a cycle; it is lost, or met on its way, or
@@ -283,7 +283,7 @@ void RobotSenses::receive_packets() {
   if (packets_.empty()) packets_.resize(static_cast<std::size_t>(radio.memory_ticks));
   int& oldest = packets_[static_cast<std::size_t>(cycle_.number) % packets_.size()];
   known.erase(known.begin(), known.begin() + oldest);
-  heard_ = 0;
+  int heard_now = 0;
   const auto take = [&](int other) {
     if (other == robot_ || world_->distance2(robot_, other) >= radio.range_m * radio.range_m)
       return;
@@ -292,7 +292,7 @@ void RobotSenses::receive_packets() {
     // The e-puck's reference model takes a bearing of exactly 0 for no packet (epuck facts, 4.1).
     if (heard.direction_y == 0 && heard.direction_x > 0) return;
     known.push_back(heard);
-    ++heard_;
+    ++heard_now;
   };
   // Sixteen bits of the stream decide on a packet, so that four senders share one of its numbers.
   const auto lost_below = static_cast<std::uint64_t>(std::lround(neighbour_miss_rate_ * 65'536));
@@ -306,7 +306,8 @@ void RobotSenses::receive_packets() {
       if ((bits & 0xffffU) >= lost_below) take(other);
     }
   }
-  oldest = heard_;
+  oldest = heard_now;
+  readings_.neighbour_count = heard_now;
 }
 
 void RobotSenses::drop_missed_neighbours() {

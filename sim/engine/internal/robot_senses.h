@@ -146,7 +146,6 @@ class RobotSenses final : public SimulatedSenses {
   Votes vote_;
   /// How many of the packets in `readings_.neighbours` came in each of the last cycles.
   std::vector<int> packets_;
-  int heard_ = 0;  ///< in this cycle
 };
 
 }  // namespace swarmsmith

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/mission/arena.h"
-#include "sim/mission/internal/footprint.h"
+#include "sim/mission/footprint.h"
 
 namespace swarmsmith {
 

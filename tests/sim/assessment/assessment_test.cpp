@@ -1,5 +1,6 @@
 #include "sim/assessment/assessment.h"
 #include "sim/files/profile_file.h"
+#include "sim/files/robot_file.h"
 
 #include <gmock/gmock.h>
 
@@ -14,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 Report assessed(const char* flavour, const char* profile) {
-  return assess(**find_flavour(flavour), *built_in_profile(profile));
+  return assess({**find_flavour(flavour), *built_in_profile(profile), rvr()});
 }
 
 /// Ids of the modules that fail.
@@ -76,6 +77,35 @@ TEST(Assessment, TellsWhatGroundNoiseDoesToTheThresholdsOfThePublishedProgram) {
               HasSubstr("were over other floor that the ground sensor read for it"));
 }
 
+// The same of a robot that is a disc, senses strengths, votes on the floor and hears of others.
+TEST(Assessment, AllModulesOfTheEPuckPass) {
+  const Robot epuck = find_robot("epuck", {}).value();
+  for (const char* flavour : {"chocolate-epuck", "chocolate-epuck-2018"}) {
+    for (const char* profile : {"epuck", "epuck-ideal"}) {
+      const Report report = assess({**find_flavour(flavour), *built_in_profile(profile), epuck});
+      EXPECT_EQ(report.modules.size(), 12U);
+      EXPECT_THAT(failing(report), IsEmpty()) << flavour << " " << profile;
+    }
+  }
+}
+
+// Its robots turn where a reading is above 0.5, the others' above 0.1: so near to walls that they
+// scrape along them.
+TEST(Assessment, TheExplorationOfMapleOf2020TouchesTooMuch) {
+  const Robot epuck = find_robot("epuck", {}).value();
+  const Report report = assess({**find_flavour("maple-epuck"), *built_in_profile("epuck"), epuck});
+  EXPECT_THAT(failing(report), ElementsAre("exploration"));
+}
+
+TEST(Assessment, HasRoomForRobotsUpToHalfAMetre) {
+  EXPECT_EQ(too_big(rvr()), std::nullopt);
+  EXPECT_EQ(too_big(rvr_with(CircleOutline{0.249})), std::nullopt);
+  EXPECT_THAT(too_big(rvr_with(CircleOutline{0.25})).value_or(""), HasSubstr("is 0.5 m wide"));
+  Robot blind = rvr();
+  blind.neighbours.range_m = 0;
+  EXPECT_NE(too_big(blind), std::nullopt);
+}
+
 TEST(Assessment, RunsEachBehaviourFiveAndEachConditionTenTimes) {
   const Report report = assessed("watermelon", "argos3");
   for (const ModuleReport& module : report.modules) {
@@ -115,7 +145,8 @@ TEST(Assessment, TellsItsProgressModuleByModule) {
   Flavour two = watermelon();
   two.behaviours.resize(1);
   two.conditions.resize(1);
-  assess(two, *built_in_profile("argos3"), [&](int done, int of) { told.emplace_back(done, of); });
+  assess({two, *built_in_profile("argos3"), rvr()},
+         [&](int done, int of) { told.emplace_back(done, of); });
   EXPECT_THAT(told, ElementsAre(std::pair(1, 2), std::pair(2, 2)));
 }
 
@@ -126,7 +157,7 @@ TEST(Assessment, TestsConditionsOnANominalClock) {
   drifting.timing.jitter = 0.05;
   Flavour conditions = watermelon();
   conditions.behaviours.clear();
-  EXPECT_THAT(failing(assess(conditions, drifting)), IsEmpty());
+  EXPECT_THAT(failing(assess({conditions, drifting, rvr()})), IsEmpty());
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct Failures {
 
 Failures failures_of(const Flavour& flavour, const char* profile = "argos3") {
   Failures failures;
-  for (const ModuleReport& module : assess(flavour, *built_in_profile(profile)).modules) {
+  for (const ModuleReport& module : assess({flavour, *built_in_profile(profile), rvr()}).modules) {
     if (module.passes()) continue;
     failures.modules.emplace_back(id_of(module.module));
     for (const Check& check : module.checks)
@@ -64,7 +64,7 @@ TEST(BrokenFlavour, ANoiseThatHidesTheSpotFailsBlackFloorWithTheReason) {
   Flavour flavour = watermelon();
   flavour.behaviours.clear();
   flavour.conditions.resize(1);
-  const Report report = assess(flavour, noisy);
+  const Report report = assess({flavour, noisy, rvr()});
   EXPECT_THAT(report.modules.at(0).checks.at(0).note, HasSubstr("the reading satisfied it in "));
   EXPECT_THAT(report.modules.at(0).checks.at(0).note, HasSubstr("did not fire over the black"));
   EXPECT_FALSE(report.passes());
@@ -87,7 +87,7 @@ TEST(BrokenFlavour, AnExplorationThatSeesNothingFailsByContact) {
   flavour.exploration.threshold = 2;  // no reading is that high
   flavour.behaviours.resize(1);
   flavour.conditions.clear();
-  const Report report = assess(flavour, *built_in_profile("argos3"));
+  const Report report = assess({flavour, *built_in_profile("argos3"), rvr()});
   EXPECT_FALSE(report.modules.at(0).checks.at(1).passes);
   EXPECT_EQ(report.modules.at(0).checks.at(1).quantity, "contact_share");
 }
@@ -97,7 +97,7 @@ TEST(BrokenFlavour, AnExplorationThatCrawlsFailsByTiles) {
   flavour.speed_mps = 0.01;
   flavour.behaviours.resize(1);
   flavour.conditions.clear();
-  const Report report = assess(flavour, *built_in_profile("argos3"));
+  const Report report = assess({flavour, *built_in_profile("argos3"), rvr()});
   EXPECT_FALSE(report.modules.at(0).checks.at(0).passes);
   EXPECT_EQ(report.modules.at(0).checks.at(0).quantity, "tiles_entered");
 }
@@ -106,9 +106,9 @@ TEST(BrokenFlavour, AModuleInTheWrongTableIsRefused) {
   Flavour flavour = watermelon();
   flavour.behaviours.clear();
   flavour.conditions = {{.module = Module::Stop, .number = 0, .parameters = {}}};
-  EXPECT_THROW(assess(flavour, *built_in_profile("argos3")), std::invalid_argument);
+  EXPECT_THROW(assess({flavour, *built_in_profile("argos3"), rvr()}), std::invalid_argument);
   flavour.behaviours = {{.module = Module::FixedProbability, .number = 0, .parameters = {}}};
-  EXPECT_THROW(assess(flavour, *built_in_profile("argos3")), std::invalid_argument);
+  EXPECT_THROW(assess({flavour, *built_in_profile("argos3"), rvr()}), std::invalid_argument);
 }
 
 TEST(BrokenFlavour, AProbabilityThatIsNotSetFails) {

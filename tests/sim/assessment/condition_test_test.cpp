@@ -62,12 +62,13 @@ TEST(Satisfies, AgreesWithTheControlSoftwareOnLabels) {
 
 TEST(ForEachCycle, TestsNothingInTheFirstCycleOfAState) {
   const Profile profile = *built_in_profile("argos3");
+  const Robot robot = rvr();
   const ConditionTest test = test_of(Module::FixedProbability, watermelon());
   const Condition always = FixedProbability{1};
   const Machine machine{{{Exploration{10}, {{always, 1}}}, {Stop{}, {{always, 0}}}}};
   // Two cycles in each state: one that tests nothing, one that fires.
   std::array<int, kRobots> cycles{};
-  for_each_cycle(test, machine, watermelon(), profile, [&](const ObservedCycle& cycle) {
+  for_each_cycle(test, machine, {watermelon(), profile, robot}, [&](const ObservedCycle& cycle) {
     const int number = cycles[static_cast<std::size_t>(cycle.robot)]++;
     ASSERT_EQ(cycle.tested, number % 2 == 1);
     ASSERT_EQ(cycle.fired, number % 2 == 1);
@@ -82,9 +83,10 @@ TEST(CheckCondition, OfOtherReadingsIsThatTheMachineActsOnThem) {
   const Profile profile = *built_in_profile("argos3");
   ConditionTest test = test_of(Module::BlackFloor, watermelon());
   test.trigger = Trigger::Readings;
-  const Check check = check_condition(test, watermelon(), profile);
+  const Robot robot = rvr();
+  const Check check = check_condition(test, {watermelon(), profile, robot});
   EXPECT_TRUE(check.passes) << check.note;
-  const std::vector<Rate> rates = rates_of(test, watermelon(), profile);
+  const std::vector<Rate> rates = rates_of(test, {watermelon(), profile, robot});
   ASSERT_EQ(rates.size(), 1U);
   EXPECT_GT(rates[0].trials, 100);
   EXPECT_NEAR(rates[0].expected, 0.3, 1e-12);
@@ -92,7 +94,7 @@ TEST(CheckCondition, OfOtherReadingsIsThatTheMachineActsOnThem) {
   EXPECT_GE(rates[0].high, 0.3);
   // Over gray floor alone it never fires, which is not as expected.
   test.arena.patches.clear();
-  EXPECT_FALSE(check_condition(test, watermelon(), profile).passes);
+  EXPECT_FALSE(check_condition(test, {watermelon(), profile, robot}).passes);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 TEST(StartsInAGroup, AreHalfAMetreToSevenTenthsApartAroundTheCentre) {
   for (int seed = 1; seed <= 100; ++seed) {
-    const std::vector<Pose> starts = starts_in_a_group(seed);
+    const std::vector<Pose> starts = starts_in_a_group(rvr(), seed);
     ASSERT_EQ(starts.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
       const Pose& a = starts[i];
@@ -19,10 +19,24 @@ TEST(StartsInAGroup, AreHalfAMetreToSevenTenthsApartAroundTheCentre) {
       EXPECT_GE(hypot(a.x - b.x, a.y - b.y), 0.5);
       EXPECT_LE(hypot(a.x - b.x, a.y - b.y), 0.7);
     }
-    EXPECT_FALSE(any_contact(starts, dodecagon_of_the_thesis()));
+    EXPECT_FALSE(any_contact(rvr().body.outline, starts, dodecagon_of_the_thesis()));
   }
-  EXPECT_NE(starts_in_a_group(1), starts_in_a_group(2));
-  EXPECT_EQ(starts_in_a_group(1), starts_in_a_group(1));
+  EXPECT_NE(starts_in_a_group(rvr(), 1), starts_in_a_group(rvr(), 2));
+  EXPECT_EQ(starts_in_a_group(rvr(), 1), starts_in_a_group(rvr(), 1));
+}
+
+TEST(StartsInAGroup, OfRobotsThatSeeLessFarAreNearer) {
+  Robot robot = rvr();
+  robot.neighbours.range_m = 0.375;
+  const std::vector<Pose> starts = starts_in_a_group(robot, 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pose& a = starts[i];
+    const Pose& b = starts[(i + 1) % 3];
+    EXPECT_GE(hypot(a.x - b.x, a.y - b.y), 0.25);
+    EXPECT_LE(hypot(a.x - b.x, a.y - b.y), 0.35);
+  }
+  robot.neighbours.range_m = 10;
+  EXPECT_EQ(starts_in_a_group(robot, 1), starts_in_a_group(rvr(), 1));
 }
 
 TEST(RangeText, IsOneNumberWhereBothEndsReadAlike) {

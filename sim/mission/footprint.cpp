@@ -1,4 +1,4 @@
-#include "sim/mission/internal/footprint.h"
+#include "sim/mission/footprint.h"
 
 #include <algorithm>
 #include <cmath>
