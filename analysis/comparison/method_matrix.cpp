@@ -188,8 +188,8 @@ std::vector<MethodMatrix> method_matrices(const Comparison& comparison) {
     if (std::ranges::find(sources, group.source) == sources.end()) sources.push_back(group.source);
   }
   // The world that the designs were made in, then the others.
-  std::ranges::stable_partition(
-      sources, [&](const std::string& source) { return source == comparison.tested; });
+  std::stable_partition(sources.begin(), sources.end(),
+                        [&](const std::string& source) { return source == comparison.tested; });
   std::vector<MethodMatrix> matrices;
   for (const std::string& source : sources)
     matrices.push_back(matrix_of(comparison, source));
