@@ -213,9 +213,9 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
     return unexpected(ErrorKind::NotFound, "there is nothing to rank: " + why);
   }
   // The source of the campaign's tests first, as in other figures.
-  std::vector<ComparedRanks>& ranks = comparison->ranks;
-  std::stable_partition(ranks.begin(), ranks.end(),
-                        [&](const ComparedRanks& of) { return of.source == comparison->tested; });
+  std::stable_partition(
+      comparison->ranks.begin(), comparison->ranks.end(),
+      [&](const ComparedRanks& ranks) { return ranks.source == comparison->tested; });
   RankPlot plot{.title = fmt::format("Ranks by {}", name_of(comparison->options.by)),
                 .width_mm = options.width_mm};
   const bool alone = comparison->ranks.size() == 1;
