@@ -1,7 +1,9 @@
 #include "cli/commands/export_formats.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -18,6 +20,7 @@
 #include "coordinator/campaign/argos_experiment.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/results/imported_world.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -49,39 +52,45 @@ Expected<std::string> picture_of(const MachineRecord& candidate, const StoredCon
   return drawing.svg.finish();
 }
 
-/// The mission as the store's campaign has it.
-Expected<Mission> mission_of(StoreReader& store, DesignId design, const std::string& name) {
+struct World {
+  Mission mission;
+  Profile profile;
+};
+
+/// The mission and the profile as the store's campaign has them. Where it has no profile, it is the
+/// one of the mission's robot.
+Expected<World> world_of(StoreReader& store, DesignId design, const std::string& name) {
   const auto stored = store.campaign_of(design);
   if (!stored) return Unexpected(stored.error());
   if (stored->row.file.empty() || is_imported_text(stored->row.file)) {
     const auto world = read_imported_world(stored->row.file);
     if (!world) return Unexpected(world.error());
+    const Profile published = built_in_profile("epuck").value();
+    const Profile profile = world->profile.value_or(published);
     for (const MissionEntry& entry : world->missions)
-      if (entry.mission.name == name) return entry.mission;
-    return built_in_mission(name);
+      if (entry.mission.name == name) return World{entry.mission, profile};
+    const auto mission = built_in_mission(name);
+    if (!mission) return Unexpected(mission.error());
+    return World{*mission, profile};
   }
   const auto campaign = parse_campaign(stored->row.file, "campaign.toml");
   if (!campaign) return Unexpected(campaign.error().front());
   const auto found = std::ranges::find_if(
       campaign->missions, [&](const CampaignMission& known) { return known.mission.name == name; });
-  if (found != campaign->missions.end()) return found->mission;
+  if (found != campaign->missions.end()) return World{found->mission, campaign->profile};
   return unexpected(ErrorKind::NotFound,
                     "the store's campaign does not say what the mission " + name + " is");
 }
 
 Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,
                                     const StoredController& stored, const MachineExport& what) {
-  const auto* machine = std::get_if<Machine>(&stored.controller);
-  if (machine == nullptr) {
-    return bad_input(
-        fmt::format("the control software is a {}, and .argos files are of state "
-                    "machines alone",
-                    name_of(architecture_of(stored.controller))));
-  }
-  const auto mission = mission_of(store, candidate.design, candidate.mission);
-  if (!mission) return Unexpected(mission.error());
-  return argos_experiment(
-      {.machine = *machine, .mission = *mission, .seed = what.seed, .title = title_of(candidate)});
+  const auto world = world_of(store, candidate.design, candidate.mission);
+  if (!world) return Unexpected(world.error());
+  return argos_experiment({.controller = stored.controller,
+                           .mission = world->mission,
+                           .profile = world->profile,
+                           .seed = what.seed,
+                           .title = title_of(candidate)});
 }
 
 struct NamedBytes {
@@ -106,13 +115,33 @@ Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineEx
                     std::move(*bytes)};
 }
 
-/// Behaviours of another flavour do something else with the same numbers.
-void remark_flavours(StoreReader& store, CandidateId first, Output& output) {
-  const auto record = candidate(store, first);
-  if (!record || record->flavour == watermelon_argos3().name) return;
-  print_note(output, "the machines were designed for the flavour " + record->flavour +
-                         "; the original's modules are those of watermelon-argos3, so scores will "
-                         "differ (docs/flavours.md)");
+/// Of the original's modules: on the RVR, of the e-puck's machines and trees.
+constexpr std::array<std::string_view, 3> kOriginalFlavours = {"watermelon-argos3",
+                                                               "chocolate-epuck", "maple-epuck"};
+
+/// Whether the candidate is of a flavour for e-pucks.
+bool is_of_epucks(const MachineRecord& candidate) {
+  const auto flavour = find_flavour(candidate.flavour);
+  return flavour && (*flavour)->reference != kRvrModel;
+}
+
+/// Behaviours of another flavour do something else with the same numbers. Each flavour is named
+/// once.
+void remark_flavours(StoreReader& store, const std::vector<CandidateId>& candidates,
+                     Output& output) {
+  std::set<std::string> remarked(kOriginalFlavours.begin(), kOriginalFlavours.end());
+  for (const CandidateId id : candidates) {
+    const auto record = candidate(store, id);
+    if (!record || !remarked.insert(record->flavour).second) continue;
+    const bool is_tree = architecture_of_text(record->machine) == Architecture::Tree;
+    const std::string_view original = kOriginalFlavours.at(!is_of_epucks(*record) ? 0
+                                                           : is_tree              ? 2
+                                                                                  : 1);
+    print_note(output, fmt::format("the machines were designed for the flavour {}; the original's "
+                                   "modules are those of {}, so scores will differ "
+                                   "(docs/flavours.md)",
+                                   record->flavour, original));
+  }
 }
 
 ExitCode code_of(const Error& error) {
@@ -120,15 +149,18 @@ ExitCode code_of(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
 }
 
-/// Only machines have experiment files. Where some are among others, the others are left out.
+/// Only machines have experiment files, and trees of e-pucks. Where some are among others, the
+/// others are left out.
 Expected<std::vector<CandidateId>> with_experiments(StoreReader& store,
                                                     const std::vector<CandidateId>& candidates) {
   std::vector<CandidateId> machines;
   for (const CandidateId id : candidates) {
     const auto record = candidate(store, id);
     if (!record) return Unexpected(record.error());
-    if (architecture_of_text(record->machine).value_or(Architecture::Machine) ==
-        Architecture::Machine)
+    const Architecture architecture =
+        architecture_of_text(record->machine).value_or(Architecture::Machine);
+    if (architecture == Architecture::Machine ||
+        (architecture == Architecture::Tree && is_of_epucks(*record)))
       machines.push_back(id);
   }
   return machines.empty() ? candidates : machines;
@@ -181,11 +213,11 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& cho
     }
   }
   if (const std::size_t left_out = chosen.size() - candidates.size(); left_out > 0) {
-    print_note(output, fmt::format("{} of {} are left out: they are trees or networks, and .argos "
-                                   "files are of state machines alone",
+    print_note(output, fmt::format("{} of {} are left out: .argos files are of state machines, and "
+                                   "of trees for e-pucks",
                                    left_out, chosen.size()));
   }
-  if (what.format == "argos") remark_flavours(store, candidates.front(), output);
+  if (what.format == "argos") remark_flavours(store, candidates, output);
   if (!output.json) return ExitCode::Done;
   output.out << JsonObject().add("files", files).text() << "\n";
   return ExitCode::Done;

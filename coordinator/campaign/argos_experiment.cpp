@@ -1,10 +1,12 @@
 #include "coordinator/campaign/argos_experiment.h"
 
 #include <array>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "base/shown_text.h"
+#include "coordinator/campaign/internal/argos_parts.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
 
@@ -68,24 +70,6 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
       "arena, floor, placement or score differ, and the original has no loop functions for it");
 }
 
-/// Within a comment of XML two hyphens must not meet.
-std::string comment_text(std::string_view text) {
-  std::string result;
-  for (const char letter : as_shown(text, Layout::Escaped)) {
-    if (letter == '-' && !result.empty() && result.back() == '-') result += ' ';
-    result += letter;
-  }
-  return result;
-}
-
-std::string framework_text(const ArgosExperiment& experiment) {
-  return fmt::format(
-      "  <framework>\n"
-      "    <experiment length=\"{}\" ticks_per_second=\"10\" random_seed=\"{}\"/>\n"
-      "  </framework>\n",
-      experiment.mission.cycles / 10.0, experiment.seed);
-}
-
 /// Settings of the files that the thesis' machines ran with: range 0.4 m, 30 cm/s, no noise.
 std::string controllers_text(const std::string& machine) {
   return fmt::format(
@@ -130,26 +114,24 @@ std::string arena_text(int robots) {
       "    <floor id=\"floor\" source=\"loop_functions\" pixels_per_meter=\"300\"/>\n"
       "    <light id=\"light\" position=\"0,-4.25,0.75\" orientation=\"0,0,0\" color=\"yellow\""
       " intensity=\"0.0\" medium=\"leds\"/>\n";
-  for (std::size_t i = 0; i < kWalls.size(); ++i) {
-    text += fmt::format(
-        "    <box id=\"wall_{}\" size=\"0.01,0.66,0.08\" movable=\"false\">\n"
-        "      <body position=\"{},{},0\" orientation=\"{},0,0\"/>\n"
-        "    </box>\n",
-        i + 1, kWalls[i].x, kWalls[i].y, kWalls[i].turn_deg);
-  }
-  return text + robots_text(robots) + "  </arena>\n";
+  return text + argos_walls() + robots_text(robots) + "  </arena>\n";
 }
 
-}  // namespace
-
-Expected<std::string> argos_experiment(const ArgosExperiment& experiment) {
+Expected<std::string> experiment_of_rvrs(const ArgosExperiment& experiment) {
   const Mission& mission = experiment.mission;
+  const auto* machine = std::get_if<Machine>(&experiment.controller);
+  if (machine == nullptr) {
+    return bad_input(
+        fmt::format("the control software is a {}, and .argos files of RVRs are of state machines "
+                    "alone",
+                    name_of(architecture_of(experiment.controller))));
+  }
   const auto functions = loop_functions_of(mission);
   if (!functions) return Unexpected(functions.error());
   if (mission.robots > kMostRobots) {
     return bad_input(fmt::format("an experiment file has at most {} robots", kMostRobots));
   }
-  if (const auto wrong = check(experiment.machine, watermelon_argos3())) {
+  if (const auto wrong = check(*machine, watermelon_argos3())) {
     return unexpected(wrong->kind,
                       "the original AutoMoDe cannot run this machine: " + wrong->message,
                       wrong->where);
@@ -173,10 +155,45 @@ Expected<std::string> argos_experiment(const ArgosExperiment& experiment) {
       "    <led id=\"leds\"/>\n"
       "  </media>\n"
       "</argos-configuration>\n",
-      comment_text(experiment.title), framework_text(experiment), functions->library,
+      argos_comment(experiment.title), argos_framework(experiment), functions->library,
       functions->label, mission.robots,
-      controllers_text(print_machine(experiment.machine, watermelon_argos3())),
-      arena_text(mission.robots));
+      controllers_text(print_machine(*machine, watermelon_argos3())), arena_text(mission.robots));
+}
+
+}  // namespace
+
+std::string argos_comment(std::string_view text) {
+  std::string result;
+  for (const char letter : as_shown(text, Layout::Escaped)) {
+    if (letter == '-' && !result.empty() && result.back() == '-') result += ' ';
+    result += letter;
+  }
+  return result;
+}
+
+std::string argos_framework(const ArgosExperiment& experiment) {
+  return fmt::format(
+      "  <framework>\n"
+      "    <experiment length=\"{}\" ticks_per_second=\"10\" random_seed=\"{}\"/>\n"
+      "  </framework>\n",
+      experiment.mission.cycles / 10.0, experiment.seed);
+}
+
+std::string argos_walls() {
+  std::string text;
+  for (std::size_t i = 0; i < kWalls.size(); ++i) {
+    text += fmt::format(
+        "    <box id=\"wall_{}\" size=\"0.01,0.66,0.08\" movable=\"false\">\n"
+        "      <body position=\"{},{},0\" orientation=\"{},0,0\"/>\n"
+        "    </box>\n",
+        i + 1, kWalls[i].x, kWalls[i].y, kWalls[i].turn_deg);
+  }
+  return text;
+}
+
+Expected<std::string> argos_experiment(const ArgosExperiment& experiment) {
+  return experiment.mission.robot == rvr() ? experiment_of_rvrs(experiment)
+                                           : argos_experiment_of_epucks(experiment);
 }
 
 }  // namespace swarmsmith

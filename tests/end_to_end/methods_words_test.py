@@ -124,11 +124,11 @@ class Words(ProgramTest):
 
     def test_experiment_files_are_of_machines_alone(self):
         store = self.store()
-        self.refused("the control software is a network, and .argos files are of state machines "
+        self.refused("the control software is a network, and .argos files of RVRs are of state machines "
                      "alone", "export", store, "--design", "d3", "--format", "argos")
         done = call("export", store, "--format", "argos", "-o", self.folder / "experiments")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("2 of 5 are left out: they are trees or networks", done.stderr)
+        self.assertIn("2 of 5 are left out: .argos files are of state machines, and of trees for e-pucks", done.stderr)
         written = sorted(path.name[:2] for path in (self.folder / "experiments").iterdir())
         self.assertEqual(written, ["d1", "d2", "d5"])
 

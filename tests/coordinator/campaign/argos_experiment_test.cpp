@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <regex>
 
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
+#include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -22,7 +25,7 @@ Machine explorer() {
 
 std::string text_for(const std::string& mission) {
   const auto text = argos_experiment(
-      {.machine = explorer(), .mission = *built_in_mission(mission), .seed = 7, .title = "t"});
+      {.controller = explorer(), .mission = *built_in_mission(mission), .seed = 7, .title = "t"});
   EXPECT_TRUE(text) << (text ? "" : to_string(text.error()));
   return text.value_or("");
 }
@@ -65,7 +68,7 @@ TEST(ArgosExperiment, NumbersModulesAsTheOriginalDoes) {
       chocolate());
   ASSERT_TRUE(machine);
   const auto text = argos_experiment(
-      {.machine = *machine, .mission = *built_in_mission("aggregation"), .title = "t"});
+      {.controller = *machine, .mission = *built_in_mission("aggregation"), .title = "t"});
   ASSERT_TRUE(text);
   EXPECT_THAT(*text,
               HasSubstr("fsm-config=\"--nstates 2 --s0 2 --att0 2.5 --n0 1 --n0x0 0 --c0x0 3 "
@@ -75,7 +78,7 @@ TEST(ArgosExperiment, NumbersModulesAsTheOriginalDoes) {
 TEST(ArgosExperiment, RefusesModulesThatTheOriginalLacks) {
   const Machine machine{{State{.behaviour = Phototaxis{}, .transitions = {}}}};
   const auto text =
-      argos_experiment({.machine = machine, .mission = *built_in_mission("aggregation")});
+      argos_experiment({.controller = machine, .mission = *built_in_mission("aggregation")});
   ASSERT_FALSE(text);
   EXPECT_THAT(text.error().message, HasSubstr("original AutoMoDe cannot run this machine"));
   EXPECT_THAT(text.error().message, HasSubstr("no module phototaxis"));
@@ -87,23 +90,108 @@ TEST(ArgosExperiment, TakesNameDurationAndRobotsAndNothingElseOfAMission) {
   mission.name = "mine";
   mission.cycles = 605;
   mission.robots = 5;
-  const auto text = argos_experiment({.machine = explorer(), .mission = mission});
+  const auto text = argos_experiment({.controller = explorer(), .mission = mission});
   ASSERT_TRUE(text);
   EXPECT_THAT(*text, HasSubstr("length=\"60.5\""));
   EXPECT_THAT(*text, HasSubstr("<rvr id=\"rvr_05_55\">"));
   EXPECT_THAT(*text, Not(HasSubstr("rvr_06")));
   mission.arena.floor = {1, 2, 3};
-  const auto other = argos_experiment({.machine = explorer(), .mission = mission});
+  const auto other = argos_experiment({.controller = explorer(), .mission = mission});
   ASSERT_FALSE(other);
   EXPECT_THAT(other.error().message, HasSubstr("mine is not one of the thesis' three"));
   mission = *built_in_mission("aggregation");
   mission.robots = 10;
-  EXPECT_FALSE(argos_experiment({.machine = explorer(), .mission = mission}));
+  EXPECT_FALSE(argos_experiment({.controller = explorer(), .mission = mission}));
+}
+
+class ArgosExperimentOfEPucks : public testing::Test {
+ protected:
+  static ArgosExperiment experiment(const std::string& file) {
+    const auto read = read_mission_file(SWARMSMITH_SOURCE_DIR "/examples/missions/epuck/" + file);
+    return {.controller = explorer(),
+            .mission = read.value().mission,
+            .profile = *built_in_profile("epuck"),
+            .seed = 7,
+            .title = "t"};
+  }
+};
+
+// As the files of Results-Transferability have them.
+TEST_F(ArgosExperimentOfEPucks, HasThePublishedDevicesAndNoise) {
+  const std::string text = argos_experiment(experiment("rt-aac.toml")).value();
+  for (const char* line :
+       {"library=\"libchocolate_aac_loopfunc.so\" label=\"chocolate_aac_loop_functions\"",
+        "functions of experiments-loop-functions. ARGOS_PLUGIN_PATH",
+        "<params dist_radius=\"1.2\" number_robots=\"20\"/>",
+        "<epuck_wheels implementation=\"default\" noise_std_dev=\"0.05\"/>",
+        "medium=\"rab\" data_size=\"4\" range=\"0.5\"/>", "loss_probability=\"0.85\"",
+        "<epuck_proximity implementation=\"default\" show_rays=\"false\" noise_level=\"0.05\"",
+        "position=\"0,-1.25,0.75\" orientation=\"0,0,0\" color=\"yellow\" intensity=\"5\"",
+        "<entity quantity=\"20\" max_trials=\"100\">", "<e-puck id=\"epuck\">",
+        "<params fsm-config=\"--nstates 2 --s0 0 --rwm0 20 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.5 "
+        "--s1 4 --att1 2.5\"/>"}) {
+    EXPECT_THAT(text, HasSubstr(line));
+  }
+}
+
+TEST_F(ArgosExperimentOfEPucks, HasTheLoopFunctionsOfEachMission) {
+  const std::array<std::array<const char*, 2>, 5> missions = {
+      {{"oc-aac.toml", "chocolate_aac_loop_functions"},
+       {"oc-sca.toml", "chocolate_sca_loop_functions"},
+       {"rt-for.toml", "foraging_loop_functions"},
+       {"rt-grid.toml", "grid_exploration"},
+       {"na-xor2.toml", "aggregation_xor2"}}};
+  for (const auto& [file, label] : missions) {
+    EXPECT_THAT(argos_experiment(experiment(file)).value(),
+                HasSubstr("label=\"" + std::string(label) + "\""));
+  }
+  EXPECT_THAT(argos_experiment(experiment("rt-grid.toml")).value(), HasSubstr("intensity=\"0\""));
+  EXPECT_THAT(argos_experiment(experiment("na-xor2.toml")).value(), HasSubstr("range=\"0.6\""));
+}
+
+TEST_F(ArgosExperimentOfEPucks, TakesTreesAndTheNoiseOfAProfile) {
+  ArgosExperiment tree = experiment("rt-for.toml");
+  tree.profile = *built_in_profile("epuck-pseudo-reality");
+  tree.controller = parse_controller(
+                        "--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 "
+                        "--p00 0.28 --n01 5 --a01 0 --rwm01 5 --p01 0",
+                        *find_flavour("maple-epuck").value())
+                        .value();
+  const auto text = argos_experiment(tree);
+  ASSERT_TRUE(text) << to_string(text.error());
+  EXPECT_THAT(*text, HasSubstr("<automode_controller_bt id=\"automode\" "
+                               "library=\"libautomode_bt.so\">"));
+  EXPECT_THAT(*text, HasSubstr("<params bt-config=\"--nroot 3"));
+  EXPECT_THAT(*text, HasSubstr("noise_std_dev=\"0.15\""));
+  EXPECT_THAT(*text, HasSubstr("loss_probability=\"0.9\""));
+}
+
+TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
+  const auto refusal = [](const ArgosExperiment& experiment) {
+    const auto text = argos_experiment(experiment);
+    return text ? "" : text.error().message;
+  };
+  EXPECT_THAT(refusal(experiment("mp-agg.toml")), HasSubstr("has loop functions for"));
+  ArgosExperiment changed = experiment("rt-aac.toml");
+  changed.mission.arena.patches[0].color = {1, 2, 3};
+  EXPECT_THAT(refusal(changed), HasSubstr("rt-aac is none that the original has loop functions"));
+  changed = experiment("rt-aac.toml");
+  changed.mission.robot.drive.track_m = 0.06;
+  EXPECT_THAT(refusal(changed), HasSubstr("has loop functions for"));
+  changed = experiment("rt-aac.toml");
+  changed.mission.arena.lights.push_back({});
+  EXPECT_THAT(refusal(changed), HasSubstr("has one light"));
+  changed = experiment("rt-aac.toml");
+  changed.controller = Network{};
+  EXPECT_THAT(refusal(changed), HasSubstr("is a network"));
+  changed.controller = Machine{{State{.behaviour = LevyWalk{}, .transitions = {}}}};
+  EXPECT_THAT(refusal(changed), HasSubstr("the original AutoMoDe cannot run this machine"));
 }
 
 TEST(ArgosExperiment, KeepsItsCommentWellFormed) {
-  const auto text = argos_experiment(
-      {.machine = explorer(), .mission = *built_in_mission("aggregation"), .title = "a--b---c\n"});
+  const auto text = argos_experiment({.controller = explorer(),
+                                      .mission = *built_in_mission("aggregation"),
+                                      .title = "a--b---c\n"});
   ASSERT_TRUE(text);
   EXPECT_THAT(*text, HasSubstr("<!-- a- -b- - -c\\n\n     For"));
 }
