@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "embedded/kViews.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -22,6 +23,31 @@ std::vector<std::string> rows_of(const Flavour& flavour) {
   for (const LabelSpec& spec : flavour.floor.labels)
     rows.push_back(fmt::format("'l', {}, '{}'", spec.number, name_of(spec.label)));
   return rows;
+}
+
+/// Replaces the one place of `name` in the views.
+void put(std::string& views, std::string_view name, const std::string& text) {
+  const std::size_t at = views.find(name);
+  SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has a place for what is made");
+  views.replace(at, name.size(), text);
+}
+
+/// Replaces each NAME(COLUMN) by what stored_enums.h says of the purpose in the column.
+void replace_purposes(std::string& views, std::string_view name,
+                      std::string_view PurposeFacts::*field) {
+  const std::string call = std::string(name) + "(";
+  std::string whens;
+  for (const Purpose purpose : all_purposes()) {
+    whens +=
+        fmt::format(" WHEN {} THEN '{}'", static_cast<int>(purpose), (*facts_of(purpose)).*field);
+  }
+  for (std::size_t at = 0; (at = views.find(call, at)) != std::string::npos;) {
+    const std::size_t column = at + call.size();
+    const std::size_t end = views.find(')', column);
+    const std::string text =
+        fmt::format("CASE {}{} END", views.substr(column, end - column), whens);
+    views.replace(at, end + 1 - at, text);
+  }
 }
 
 }  // namespace
@@ -55,11 +81,14 @@ std::string flavour_view(const std::vector<const Flavour*>& own) {
 }
 
 std::string our_views(const std::vector<const Flavour*>& own) {
-  constexpr std::string_view kPlace = "-- flavour_name\n";
   std::string views(kViews);
-  const std::size_t at = views.find(kPlace);
-  SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has the place of flavour_name");
-  return views.replace(at, kPlace.size(), flavour_view(own));
+  put(views, "-- flavour_name\n", flavour_view(own));
+  put(views, "PURPOSES_THAT_COUNT",
+      numbers_in_sql([](const PurposeFacts& facts) { return !facts.counts_as.empty(); }));
+  replace_purposes(views, "PURPOSE_LETTER", &PurposeFacts::letter);
+  replace_purposes(views, "PURPOSE_WORD", &PurposeFacts::word);
+  replace_purposes(views, "PURPOSE_COUNTS_AS", &PurposeFacts::counts_as);
+  return views;
 }
 
 }  // namespace swarmsmith

@@ -1,5 +1,6 @@
 -- The public schema: documented column by column in docs/storage.md, fixed by
--- tests/storage/views_test.cpp. A change is a new schema version.
+-- tests/storage/views_test.cpp. A change is a new schema version. PURPOSE_... stand for what
+-- storage/stored_enums.h says of purposes.
 
 -- Not public: what acts of `extend` have added to designs' budgets.
 CREATE VIEW design_extension AS
@@ -115,12 +116,9 @@ LEFT JOIN real_override AS o
 -- the view where a query joins it.
 CREATE VIEW v_evaluations AS
 SELECT 'e' || (e.candidate * 100000 + e.pair)
-           || CASE e.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
-                             WHEN 4 THEN 's' WHEN 5 THEN 'v' ELSE 'p' END AS id,
+           || PURPOSE_LETTER(e.purpose) AS id,
        d.id AS design, e.candidate,
-       CASE e.purpose WHEN 0 THEN 'race' WHEN 1 THEN 'look-ahead' WHEN 2 THEN 'test'
-                      WHEN 3 THEN 'audit' WHEN 4 THEN 'score' WHEN 5 THEN 'evaluator'
-                      ELSE 'transfer' END AS purpose,
+       PURPOSE_WORD(e.purpose) AS purpose,
        e.pair, p.instance, nullif(p.seed, 0) AS seed, e.iteration,
        CASE e.status WHEN 0 THEN 'ok' WHEN 1 THEN 'rejected' END AS status,
        e.score, e.time, e.bound, e.wall_us / 1000.0 AS wall_ms, nullif(e.worker, 0) AS worker, e.attempt,
@@ -144,10 +142,10 @@ WHERE r.counts;
 -- Where a targetEvaluator says the costs, its calls for test instances have negative instances.
 CREATE VIEW design_score AS
 SELECT d.id AS design, d.mission, d.method, d.repetition, d.best AS candidate,
-       s.name AS source, CASE e.purpose WHEN 2 THEN 'test' ELSE 'score' END AS purpose, e.pair, p.instance, nullif(p.seed, 0) AS seed,
+       s.name AS source, PURPOSE_COUNTS_AS(e.purpose) AS purpose, e.pair, p.instance, nullif(p.seed, 0) AS seed,
        iif(v.pair IS NULL, e.score, v.score) AS score
 FROM design AS d
-JOIN evaluation AS e ON e.candidate = d.best AND e.purpose IN (2, 4, 6) AND e.score IS NOT NULL
+JOIN evaluation AS e ON e.candidate = d.best AND e.purpose IN PURPOSES_THAT_COUNT AND e.score IS NOT NULL
 JOIN source AS s ON s.id = e.source
 LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = e.pair
 LEFT JOIN pair AS q
@@ -371,8 +369,7 @@ FROM worker;
 
 CREATE VIEW v_attempts AS
 SELECT 'e' || (a.candidate * 100000 + a.pair)
-           || CASE a.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
-                             WHEN 4 THEN 's' WHEN 5 THEN 'v' ELSE 'p' END AS id,
+           || PURPOSE_LETTER(a.purpose) AS id,
        (a.candidate - 1) / 1000000 + 1 AS design, a.candidate, a.pair, a.attempt,
        nullif(a.worker, 0) AS worker, w.host, a.held_ms, a.outcome, a.time AS at
 FROM attempt AS a
@@ -396,12 +393,9 @@ WITH failed (candidate, purpose, pair, attempt, worker, reason, command, output,
                     AND f.purpose = e.purpose AND f.pair = e.pair)
 )
 SELECT 'e' || (f.candidate * 100000 + f.pair)
-           || CASE f.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
-                             WHEN 4 THEN 's' WHEN 5 THEN 'v' ELSE 'p' END AS id,
+           || PURPOSE_LETTER(f.purpose) AS id,
        (f.candidate - 1) / 1000000 + 1 AS design, f.candidate,
-       CASE f.purpose WHEN 0 THEN 'race' WHEN 1 THEN 'look-ahead' WHEN 2 THEN 'test'
-                      WHEN 3 THEN 'audit' WHEN 4 THEN 'score' WHEN 5 THEN 'evaluator'
-                      ELSE 'transfer' END AS purpose,
+       PURPOSE_WORD(f.purpose) AS purpose,
        f.pair, p.instance, p.seed, e.iteration, f.attempt, nullif(f.worker, 0) AS worker, w.host,
        f.reason, f.command, f.output, f.errors, f.time AS at
 FROM failed AS f
