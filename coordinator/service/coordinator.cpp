@@ -670,12 +670,12 @@ std::vector<QuarantineStatus> Coordinator::quarantine(TimePoint now) const {
       add(principal, principal.cause, 0, here);
       continue;
     }
-    for (const auto& [identity, cause] : principal.liars) {
+    for (const auto& liar : principal.liars) {
       const auto one = std::ranges::find_if(principal.workers, [&](WorkerNumber number) {
-        return hexadecimal(workers.at(number).hello.identity) == identity;
+        return hexadecimal(workers.at(number).hello.identity) == liar.first;
       });
       const bool is_known = one != principal.workers.end();
-      add(principal, cause, is_known ? *one : 0, is_known && workers.at(*one).connected ? 1 : 0);
+      add(principal, liar.second, is_known ? *one : 0, is_known && workers.at(*one).connected ? 1 : 0);
     }
   }
   return all;
