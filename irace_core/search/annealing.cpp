@@ -92,6 +92,7 @@ class Annealing final : public Strategy {
   }
 
   Verdict take(std::span<const double> costs) override {
+    SWARMSMITH_ASSERT(costs.size() == runs_.size(), "a cost for each run");
     used_ += static_cast<std::int64_t>(costs.size());
     if (phase_ == Phase::Scale) return take_scale(costs);
     if (phase_ == Phase::Final) return take_final(costs);
@@ -129,6 +130,8 @@ class Annealing final : public Strategy {
   std::int64_t scale_runs() const { return scale_runs_of(options_); }
   std::int64_t most_runs() const { return most_runs_of(options_); }
 
+  /// A temperature is told in standard deviations of the costs of random configurations, so that
+  /// it means the same in each mission (docs/methods.md).
   Expected<std::optional<Round>> scale_round(std::int64_t next_id) {
     Round round;
     Rng rng = rng_.split("scale");
@@ -166,6 +169,8 @@ class Annealing final : public Strategy {
             .alive = {incumbent_.id}};
   }
 
+  /// The window of pairs moves on by `moved`: the incumbent and the best are run on the new pairs
+  /// alone, the candidate on all of the window, so that all three are compared on the same pairs.
   Expected<std::optional<Round>> step_round(std::int64_t next_id) {
     step_rng_ = rng_.split("perturb", static_cast<std::uint64_t>(++steps_));
     auto perturbed = neighbourhood_.perturb(incumbent_.configuration, step_rng_);
@@ -190,6 +195,8 @@ class Annealing final : public Strategy {
       }
     }
     runs_ = round.runs;
+    SWARMSMITH_ASSERT(static_cast<std::int64_t>(runs_.size()) <= most_runs(),
+                      "an iteration costs what walks_on() leaves for it");
     return round;
   }
 
@@ -229,6 +236,8 @@ class Annealing final : public Strategy {
     return scale_ * options_.start_temperature * cooled(options_, budget_, used_);
   }
 
+  /// The published schedule halves after each three iterations, and at its end begins again from
+  /// the best (docs/methods.md, `cooling`).
   void cool() {
     if (options_.cooling != Cooling::Published) return;
     if (steps_ % kPublishedHold == 0) published_temperature_ /= 2;
@@ -237,11 +246,13 @@ class Annealing final : public Strategy {
     incumbent_ = best_;
   }
 
+  /// Incumbent and best, on pairs behind the last window: the lower mean wins.
   Expected<std::optional<Round>> final_round() {
     phase_ = Phase::Final;
     Round round;
     const std::vector<std::int64_t> ids = elite_ids();
     const std::int64_t runs = (budget_ - used_) / static_cast<std::int64_t>(ids.size());
+    SWARMSMITH_ASSERT(runs >= options_.final_runs, "walks_on() leaves runs for the final stage");
     const std::int64_t first = window_begin_ + options_.window;
     round.runs = all_on(ids, first, std::min(runs, 2 * options_.final_runs));
     round.start = Round::Start{

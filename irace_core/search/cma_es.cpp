@@ -22,12 +22,14 @@ std::size_t at(std::size_t n, std::size_t row, std::size_t column) {
   return row * n + column;
 }
 
-/// One rotation that makes the element (p, q) zero.
+/// One rotation that makes the element (p, q) zero (Jacobi's method; Golub and Van Loan, Matrix
+/// Computations, section 8.5). Matrix and vectors are n x n, row by row.
 void rotate(std::vector<double>& matrix, std::vector<double>& vectors, std::size_t n, std::size_t p,
             std::size_t q) {
   const double off = matrix[at(n, p, q)];
   if (off == 0) return;
   const double theta = (matrix[at(n, q, q)] - matrix[at(n, p, p)]) / (2 * off);
+  // The smaller of the two angles that do it: the other elements change least.
   const double sign = theta < 0 ? -1 : 1;
   const double t = sign / (std::abs(theta) + std::sqrt(square(theta) + 1));
   const double c = 1 / std::sqrt(square(t) + 1);
@@ -56,9 +58,11 @@ std::vector<double> eigenvalues(std::vector<double> matrix, std::size_t n,
                                 std::vector<double>& vectors) {
   constexpr int kMostSweeps = 50;
   constexpr double kSmall = 1e-30;  ///< squared, beside the diagonal
+  SWARMSMITH_ASSERT(matrix.size() == n * n, "a square matrix");
   vectors.assign(n * n, 0);
   for (std::size_t i = 0; i < n; ++i)
     vectors[at(n, i, i)] = 1;
+  // Sweeps over all pairs until nothing is left beside the diagonal; it shrinks quadratically.
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double off = 0;
     double diagonal = 0;
@@ -84,6 +88,8 @@ CmaEs::CmaEs(std::vector<double> mean, double step, std::int64_t population)
   const auto n = static_cast<double>(dimensions());
   const auto half = static_cast<std::size_t>(population / 2);
   SWARMSMITH_ASSERT(half > 0 && dimensions() > 0, "CMA-ES has two points and a dimension or more");
+  SWARMSMITH_ASSERT(step > 0, "the first step size spreads the first generation");
+  // Only the better half counts, the best most: weights by the logarithm of the rank (table 1).
   double sum = 0;
   for (std::size_t i = 1; i <= half; ++i) {
     weights_.push_back(log((static_cast<double>(population) + 1) / 2) -
@@ -113,6 +119,7 @@ CmaEs::CmaEs(std::vector<double> mean, double step, std::int64_t population)
 }
 
 void CmaEs::decompose() {
+  // Rounding may make the shortest axis a little negative.
   constexpr double kLeast = 1e-20;
   lengths_ = eigenvalues(covariance_, dimensions(), axes_);
   for (double& length : lengths_)
@@ -121,6 +128,8 @@ void CmaEs::decompose() {
 
 std::vector<double> CmaEs::point_of(std::span<const double> normals) const {
   const std::size_t n = dimensions();
+  SWARMSMITH_ASSERT(normals.size() == n, "a normal number for each dimension");
+  // mean + step B D z (equations 38 to 40).
   std::vector<double> point(mean_);
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0;
@@ -207,6 +216,7 @@ class CmaEsBreeder final : public Breeder {
       Configuration configuration = box_.to_configuration(point);
       // What was run is what is learned from, but for points that had to be moved inside.
       if (is_inside(point)) point = box_.to_point(configuration);
+      SWARMSMITH_ASSERT(point.size() == box_.dimensions(), "a point has the box's dimensions");
       points_.emplace(next_id + i, std::move(point));
       brood.newcomers.push_back({std::move(configuration), 0});
     }
@@ -216,6 +226,9 @@ class CmaEsBreeder final : public Breeder {
   Expected<Brood> finalists(std::int64_t count, std::int64_t,
                             std::span<const Scored> last) override {
     learn(last);
+    // The mean of the distribution, its estimate of the best point, takes part in place of the
+    // worst (docs/methods.md).
+    SWARMSMITH_ASSERT(static_cast<std::int64_t>(last.size()) >= count - 1, "finalists were run");
     Brood brood;
     for (const Scored& one : last.first(static_cast<std::size_t>(count - 1)))
       brood.known.push_back(one.id);
@@ -243,6 +256,8 @@ class CmaEsBreeder final : public Breeder {
         point, [](double x) { return x >= -RealBox::kHalfWidth && x <= RealBox::kHalfWidth; });
   }
 
+  /// A point outside of the box is drawn again. After a hundred times it stays outside, and its
+  /// configuration is on the border: the distribution may have left the box.
   std::vector<double> draw(Rng& rng) {
     constexpr int kTries = 100;
     std::vector<double> point;

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/text/toml_text.h"
 #include "irace_core/search/generations.h"
 #include "irace_core/search/real_box.h"
@@ -18,6 +19,8 @@ struct Shares {
   double replaced = 0;
 };
 
+/// NEAT's mutation of weights (NEAT 1.2.1; docs/methods.md, `evolution`): half of the genomes
+/// change severely; of the others the last fifth changes more than the rest.
 void mutate_neat(std::vector<double>& weights, double step, Rng& rng) {
   constexpr Shares kSevere{0.1, 0.3};
   constexpr Shares kTail{0.3, 0.5};
@@ -81,6 +84,7 @@ class EvolutionBreeder final : public Breeder {
     return std::clamp<std::size_t>(count, 1, population);
   }
 
+  /// Weights in [-1, 1], and what the user gave before them.
   Brood first(std::int64_t size, std::int64_t next_id, Rng& rng) {
     Brood brood;
     for (std::int64_t i = 0; i < size; ++i) {
@@ -94,9 +98,14 @@ class EvolutionBreeder final : public Breeder {
     return brood;
   }
 
+  /// The elites go on as they are, and are run again with their children, on the same pairs; all
+  /// else are mutated children of parents drawn uniformly, without crossover, as in EvoStick
+  /// (docs/methods.md).
   Brood next(std::int64_t size, std::int64_t next_id, std::span<const Scored> last, Rng& rng) {
     const std::size_t parents = count_of(options_.parents, last.size());
     const std::size_t elites = std::min(parents, count_of(options_.elites, last.size()));
+    SWARMSMITH_ASSERT(1 <= elites && elites <= parents && parents <= last.size(),
+                      "an elite is a parent, and a parent was run");
     Brood brood;
     std::map<std::int64_t, std::vector<double>> before = std::exchange(members_, {});
     for (const Scored& elite : last.first(elites)) {
@@ -109,6 +118,8 @@ class EvolutionBreeder final : public Breeder {
       mutate(weights, options_.mutation, options_.step, rng);
       add(std::move(weights), parent, next_id, brood);
     }
+    SWARMSMITH_ASSERT(brood.known.size() + brood.newcomers.size() == members_.size(),
+                      "each member is an elite or new");
     return brood;
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/assert.h"
+
 namespace swarmsmith::search {
 namespace {
 
@@ -24,7 +26,9 @@ Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t popu
   // With a small budget the first generation comes first.
   if (is_automatic) final_runs = std::min(final_runs, (budget - population * runs) / population);
   const std::int64_t generations = (budget - population * final_runs) / (population * runs);
+  // What is less than a generation makes the final stage longer: the budget is used.
   const std::int64_t left = budget - generations * population * runs;
+  SWARMSMITH_ASSERT(generations >= 1 && left >= population, "there is a generation, and an end");
   return GenerationPlan{.generations = generations,
                         .population = population,
                         .configurations = generations * population,
@@ -47,6 +51,9 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
   for (std::size_t i = 0; i < brood->newcomers.size(); ++i)
     ids.push_back(next_id + static_cast<std::int64_t>(i));
   round.newcomers = std::move(brood->newcomers);
+  SWARMSMITH_ASSERT(static_cast<std::int64_t>(ids.size()) == size, "a brood has its size");
+  // The final stage is on pairs that no generation has seen: the winner is not the one that was
+  // lucky on its own.
   const std::int64_t pairs = is_final() ? plan_.final_runs : plan_.runs;
   const std::int64_t first_pair = plan_.fresh_pairs || is_final() ? next_pair_ : 1;
   next_pair_ = std::max(next_pair_, first_pair + pairs);
@@ -59,6 +66,7 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
 }
 
 Verdict Generations::take(std::span<const double> costs) {
+  SWARMSMITH_ASSERT(costs.size() == runs_.size(), "a cost for each run");
   std::vector<Scored> order = ranked(runs_, costs);
   over_ = is_final();
   const std::vector<Scored> elites = is_final() ? order : breeder_->elites(order);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/plain_text.h"
 #include "irace_core/internal/sampling.h"
 #include "irace_core/search/generations.h"
@@ -42,7 +43,8 @@ class RandomBreeder final : public Breeder {
     return brood;
   }
 
-  Expected<Brood> finalists(std::int64_t, std::int64_t, std::span<const Scored>) override {
+  Expected<Brood> finalists(std::int64_t count, std::int64_t, std::span<const Scored>) override {
+    SWARMSMITH_ASSERT(static_cast<std::int64_t>(best_.size()) == count, "finalists were run");
     Brood brood;
     for (const Scored& one : best_)
       brood.known.push_back(one.id);
