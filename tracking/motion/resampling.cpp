@@ -10,6 +10,11 @@
 #include "base/assert.h"
 #include "base/math.h"
 
+// A robot's coordinates move by a velocity that wanders like white noise. The best estimate of them
+// from samples of before and after is a Kalman filter forwards (Kalman 1960) and the smoother of
+// Rauch, Tung and Striebel (1965) backwards, for each coordinate on its own; between two samples it
+// is their bridge.
+
 namespace swarmsmith {
 namespace {
 
@@ -48,6 +53,7 @@ double variance(double sigma) {
 
 /// Of a position and its velocity, when the position was seen with this variance. Returns the gain.
 Eigen::Vector2d see(Matrix2d& covariance, double variance) {
+  SWARMSMITH_ASSERT(covariance(0, 0) >= 0 && variance > 0, "variances are not negative");
   const Eigen::Vector2d gain = covariance.col(0) / (covariance(0, 0) + variance);
   // The position's part is written as a product, which no rounding makes negative.
   const double left = variance / (covariance(0, 0) + variance);
@@ -67,6 +73,7 @@ struct Bridge {
 };
 
 Bridge bridge(double since_s, double until_s) {
+  SWARMSMITH_ASSERT(since_s >= 0 && until_s >= 0 && since_s + until_s > 0, "a time lies between");
   const Matrix2d wandered = wandering(since_s);
   const Matrix2d onward = coasting(until_s);
   const Matrix2d at_end = onward * wandered * onward.transpose() + wandering(until_s);
@@ -188,6 +195,8 @@ void Motion::smooth(std::size_t first, std::size_t last) {
     State state;
     Covariance covariance;
   };
+  SWARMSMITH_ASSERT(first <= last && last < track_.size(), "a stretch has a sample");
+  // Forwards: what is known before each sample, then with it.
   std::vector<Prediction> predicted(last - first + 1);
   for (std::size_t i = first; i <= last; ++i) {
     Prediction& now = predicted[i - first];
@@ -219,6 +228,7 @@ void Motion::smooth(std::size_t first, std::size_t last) {
     // Turns go on as they went: so headings are unwrapped.
     knot.state.col(2) += turn_gain * wrap_angle(seen.pose.theta - now.state(0, 2));
   }
+  // Backwards: what the later samples tell about each one, by as much as the forecast missed them.
   for (std::size_t i = last; i-- > first;) {
     Knot& knot = knots_[i];
     const Knot& next = knots_[i + 1];

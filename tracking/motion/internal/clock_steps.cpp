@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/median.h"
 
 namespace swarmsmith {
@@ -52,6 +53,7 @@ class Film {
   /// By how much the time between a picture and the one before is longer than the clock says, in
   /// the eyes of one robot; nothing when it does not move steadily.
   std::optional<double> lost_s(const TagWay& tag, std::size_t i) const {
+    SWARMSMITH_ASSERT(0 < i && i < size(), "a picture with one before");
     const auto before = velocity(tag, i - 1, -1);
     const auto after = velocity(tag, i, 1);
     if (!before || !after || !seen(tag, i) || !seen(tag, i - 1)) return std::nullopt;
@@ -70,6 +72,7 @@ class Film {
     if (mean.norm() / 2 * usual_s_ < kLeastStep_px ||
         (*after - *before).norm() > kBend * mean.norm())
       return std::nullopt;
+    // How long the way takes at the velocity of before and after; what is left is beside it.
     const double time_s = moved.dot(mean) / mean.squaredNorm();
     const double aside = (moved - time_s * mean).norm() / 2;
     if (aside > kLeastStep_px + kSteady * std::fabs(time_s) * mean.norm() / 2) return std::nullopt;
@@ -147,7 +150,7 @@ class Film {
  private:
   const Sighting* seen(const TagWay& tag, std::size_t i) const { return tag.seen[frames_[i]]; }
 
-  /// Over at least two intervals on one side.
+  /// Of all corners, pixels a second, over at least two intervals on one side: one alone is noise.
   std::optional<Corners> velocity(const TagWay& tag, std::size_t i, int side) const {
     std::size_t far = i;
     while (std::fabs(time(far) - time(i)) < kWindow_s) {
