@@ -66,7 +66,7 @@ Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnC
     auto connected = connect_for_reading(store);
     if (!connected) return Unexpected(connected.error());
     Connection& original = *connected;
-    const Snapshot snapshot(original);
+    const ReadTransaction snapshot(original);
     const std::int64_t schema = schema_of(original);  // the snapshot begins with the first reading
     Connection copy(to.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
     const bool is_ours = foreign_objects(original, schema).empty();
@@ -86,7 +86,7 @@ Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnC
     upgrade(copy, migrations());
     forget_secret(copy);  // copies are given away while the campaign goes on
     if (const auto faults = faults_of(copy); !faults.empty()) return damaged(store, faults.front());
-    const Snapshot of_copy(copy);
+    const ReadTransaction of_copy(copy);
     made.digest = digest_of_store(copy);
     if (made.digest != digest_of_store(original)) {
       return damaged(store, "what was read and what was copied differ");

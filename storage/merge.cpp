@@ -205,7 +205,7 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
                         into.string());
     }
     merged.campaigns = read_campaigns(connection);
-    const Snapshot snapshot(connection);
+    const ReadTransaction snapshot(connection);
     merged.digest = digest_of_store(connection);
   } catch (const SqliteError& error) {
     return copying_failed(error, into, into);

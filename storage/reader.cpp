@@ -32,7 +32,7 @@ Unexpected no_such_run(RealRunId id, const std::vector<RealRunHead>& known) {
                   known.size(), to_string(known.front().id), to_string(known.back().id)));
 }
 
-/// Within a Snapshot.
+/// Within a ReadTransaction.
 std::string changes_since_closed(const Connection& connection) {
   return is_as_closed(connection) ? "" : changed_rows(connection);
 }
@@ -101,7 +101,7 @@ Part SqliteReader::part() {
 }
 
 void SqliteReader::each_answer_row(const std::function<void(const Row&)>& on_row) {
-  const Snapshot snapshot(*connection_);
+  const ReadTransaction snapshot(*connection_);
   read_answer(*connection_, part(), on_row);
 }
 
@@ -112,7 +112,7 @@ std::vector<RealRunHead> SqliteReader::real_runs() {
 
 Expected<RealRunRows> SqliteReader::real_run(RealRunId id) {
   show_views();
-  const Snapshot snapshot(*connection_);
+  const ReadTransaction snapshot(*connection_);
   const std::vector<RealRunHead> known = read_real_runs(*connection_, part());
   const auto head = std::ranges::find(known, id, &RealRunHead::id);
   auto rows = head == known.end() ? std::nullopt : read_real_run(*connection_, id);
@@ -122,7 +122,7 @@ Expected<RealRunRows> SqliteReader::real_run(RealRunId id) {
 }
 
 std::string SqliteReader::digest() {
-  const Snapshot snapshot(*connection_);
+  const ReadTransaction snapshot(*connection_);
   if (!*is_whole_) {
     const std::string changed = changes_since_closed(*connection_);
     if (!changed.empty()) connection_->fail(SQLITE_CORRUPT, changed);
@@ -149,7 +149,7 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
 }
 
 std::vector<std::string> SqliteReader::integrity() {
-  const Snapshot snapshot(*connection_);
+  const ReadTransaction snapshot(*connection_);
   return faults_of(*connection_);
 }
 
@@ -221,7 +221,7 @@ Expected<void> check_rows(const fs::path& store) {
         !check_tables(*connection, path)) {
       return {};
     }
-    const Snapshot snapshot(*connection);
+    const ReadTransaction snapshot(*connection);
     if (is_as_closed(*connection)) return {};
     std::string fault = changed_rows(*connection);
     if (fault.empty()) fault = lost_texts(*connection);

@@ -440,7 +440,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
                         "the recovered rows are not a whole store: " + faults.front());
     }
     {
-      const Snapshot snapshot(connection_);
+      const ReadTransaction snapshot(connection_);
       end.digest = digest_of_store(connection_);
       end.evaluations = sqlite::integer_of(connection_, "SELECT count(*) FROM evaluation");
       end.orphans = orphans_;

@@ -14,7 +14,7 @@ namespace swarmsmith {
 /// Adds the parameters one by one and remembers where they are.
 class MachineSpace::Builder : public ModuleParameters {
  public:
-  Builder(const Method& method, const Flavour& flavour, Words words)
+  Builder(const Method& method, const Flavour& flavour, Wording words)
       : ModuleParameters(method, flavour, words), method_(method) {}
 
   /// All states, in the order of the original's file: NumStates first.
@@ -81,7 +81,7 @@ class MachineSpace::Builder : public ModuleParameters {
   Expression last_target() const {
     Expression last = Expression::call(Operation::Subtract,
                                        {Expression::parameter("NumStates"), Expression::number(2)});
-    if (words() == Words::Names) return last;
+    if (words() == Wording::Names) return last;
     return Expression::call(Operation::Max, {Expression::number(0), std::move(last)});
   }
 
@@ -90,7 +90,7 @@ class MachineSpace::Builder : public ModuleParameters {
 
 Expected<MachineSpace> MachineSpace::make(const Method& method, const Flavour& flavour,
                                           int digits) {
-  Builder builder(method, flavour, Words::Names);
+  Builder builder(method, flavour, Wording::Names);
   builder.build();
   auto space = ParameterSpace::make(builder.take(), {}, digits);
   if (!space) return Unexpected(space.error());
@@ -103,7 +103,7 @@ Expected<MachineSpace> MachineSpace::make(const Method& method, const Flavour& f
 
 Expected<ParameterSpace> MachineSpace::in_grammar(const Method& method, const Flavour& flavour,
                                                   int digits) {
-  Builder builder(method, flavour, Words::Grammar);
+  Builder builder(method, flavour, Wording::Grammar);
   builder.build();
   return ParameterSpace::make(builder.take(), {}, digits);
 }

@@ -38,7 +38,7 @@ TreeSpace::TreeSlot TreeSpace::build(const Method& method, ModuleParameters& par
 }
 
 Expected<TreeSpace> TreeSpace::make(const Method& method, const Flavour& flavour, int digits) {
-  ModuleParameters parameters(method, flavour, Words::Names);
+  ModuleParameters parameters(method, flavour, Wording::Names);
   TreeSlot slot = build(method, parameters);
   auto space = ParameterSpace::make(parameters.take(), {}, digits);
   if (!space) return Unexpected(space.error());
@@ -47,7 +47,7 @@ Expected<TreeSpace> TreeSpace::make(const Method& method, const Flavour& flavour
 
 Expected<ParameterSpace> TreeSpace::in_grammar(const Method& method, const Flavour& flavour,
                                                int digits) {
-  ModuleParameters parameters(method, flavour, Words::Grammar);
+  ModuleParameters parameters(method, flavour, Wording::Grammar);
   build(method, parameters);
   return ParameterSpace::make(parameters.take(), {}, digits);
 }

@@ -17,23 +17,23 @@ bool cannot_make_files(const std::filesystem::path& path);
 Expected<sqlite::Connection> connect_for_reading(const std::filesystem::path& path);
 
 /// One state of the store for several statements; a reader's transaction only ever reads.
-class Snapshot {
+class ReadTransaction {
  public:
-  explicit Snapshot(sqlite::Connection& connection) : connection_(connection) {
+  explicit ReadTransaction(sqlite::Connection& connection) : connection_(connection) {
     connection_.execute("BEGIN");
   }
-  Snapshot(const Snapshot&) = delete;
-  Snapshot& operator=(const Snapshot&) = delete;
-  ~Snapshot() { sqlite3_exec(connection_.handle(), "ROLLBACK", nullptr, nullptr, nullptr); }
+  ReadTransaction(const ReadTransaction&) = delete;
+  ReadTransaction& operator=(const ReadTransaction&) = delete;
+  ~ReadTransaction() { sqlite3_exec(connection_.handle(), "ROLLBACK", nullptr, nullptr, nullptr); }
 
  private:
   sqlite::Connection& connection_;
 };
 
-/// The digest of one campaign, which has the ids of a store of its own. Within a Snapshot.
+/// The digest of one campaign, which has the ids of a store of its own. Within a ReadTransaction.
 std::string digest_of_campaign(const sqlite::Connection& connection,
                                const StoredCampaign& campaign);
-/// StoreReader::digest of the whole store. Within a Snapshot.
+/// StoreReader::digest of the whole store. Within a ReadTransaction.
 std::string digest_of_store(const sqlite::Connection& connection);
 
 /// Says after two seconds, while it lives, that a store is being checked (set_check_listener).

@@ -1,5 +1,6 @@
 #include "storage/internal/row_reader.h"
 
+#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -244,6 +245,16 @@ std::vector<StoredCampaign> read_campaigns(const sqlite::Connection& connection)
                          .state = row.text(6),
                          .designs_before = row.integer(7),
                          .designs = row.integer(8)});
+  }
+  // Ids of candidates are made of those of designs.
+  constexpr std::int64_t kMostDesigns =
+      std::numeric_limits<std::int64_t>::max() / kCandidatesPerDesign - 1;
+  for (const StoredCampaign& campaign : campaigns) {
+    if (campaign.designs_before >= 0 && campaign.designs_before <= kMostDesigns - campaign.designs)
+      continue;
+    connection.fail(SQLITE_CORRUPT, fmt::format("the table campaign says that there are {} designs "
+                                                "before those of campaign {}",
+                                                campaign.designs_before, campaign.id));
   }
   if (campaigns.empty()) connection.fail(SQLITE_CORRUPT, "the table campaign has no row");
   return campaigns;

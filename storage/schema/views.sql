@@ -178,10 +178,9 @@ FROM (SELECT d.mission, d.id AS design, d.method, d.repetition, d.best AS candid
 
 CREATE VIEW v_convergence AS
 SELECT e.design, e.iteration, e.rank, e.candidate, e.mean, e.runs AS n,
-       s.used AS experiments_used
-FROM elite AS e
-LEFT JOIN (SELECT design, iteration, max(used) AS used FROM race_step GROUP BY design, iteration)
-  AS s ON s.design = e.design AND s.iteration = e.iteration;
+       (SELECT max(s.used) FROM race_step AS s
+        WHERE s.design = e.design AND s.iteration = e.iteration) AS experiments_used
+FROM elite AS e;
 
 -- Who raced in an iteration: its new candidates, the elites of the one before, and, once it has
 -- ended, all whom it dropped or kept (postselection takes candidates from anywhere). A candidate is

@@ -11,7 +11,7 @@ import sys
 import tempfile
 import unittest
 
-from rig import SWARMSMITH, WORKER, FaultTest, call, need, need_root, stored, wait_for
+from rig import SANITIZED, SWARMSMITH, WORKER, FaultTest, call, need, need_root, stored, wait_for
 
 REFUSED = 1  # exit code: the environment has too little
 #: Between a limit and the program: `python3 -c LIMITED NAME SOFT HARD PROGRAM...`
@@ -94,6 +94,7 @@ class Limits(Environment):
         self.assertEqual(code, 0, words)
         self.assert_same_answer()
 
+    @unittest.skipIf(SANITIZED, "a sanitizer reserves address space of its own")
     def test_address_space_is_counted_before_there_is_a_store(self):
         for mib in (80, 200):
             with self.subTest(mib=mib):

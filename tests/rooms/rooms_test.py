@@ -166,6 +166,22 @@ def not_included(text_of):
     return lines
 
 
+def told_twice(text_of):
+    """Classes of one full name in several files, a line each: the linker takes one of their functions for both."""
+    found = {}
+    for file, text in sorted(text_of.items()):
+        spaces = []
+        for line in text.splitlines():
+            if opened := re.match(r"namespace(?:\s+([\w:]+))?\s*\{", line):
+                spaces.append(opened[1] or "")
+            elif re.match(r"\}\s*// namespace", line):
+                spaces.pop()
+            elif (made := re.match(r"(?:struct|class|enum class|enum|union) (\w+)(?: final)?(?: :[^:;][^;]*)? \{", line)) \
+                    and "" not in spaces:
+                found.setdefault("::".join([*spaces, made[1]]), []).append(file)
+    return [f"{name} is in {' and '.join(files)}" for name, files in sorted(found.items()) if len(files) > 1]
+
+
 class Rooms(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -192,6 +208,10 @@ class Rooms(unittest.TestCase):
         # A kind that is a header alone, such as a condition, is nowhere without its line.
         self.assertEqual(sorted(file for file in self.texts
                                 if file.endswith(".h") and "/internal/" not in file and file not in listed), [])
+
+
+    def test_each_class_is_one(self):
+        self.assertEqual(told_twice(self.texts), [])
 
 
 class Includes(unittest.TestCase):
@@ -225,6 +245,12 @@ class TheChecks(unittest.TestCase):
         self.assertEqual(upward(["a", "b", "b/c"], texts),
                          ["a/x.h (a) includes b/y.h of a later room (b)", "b/y.h (b) includes b/c/z.h of a later room (b/c)",
                           "d/w.h is in no room of docs/architecture.md"])
+
+    def test_of_classes(self):
+        texts = {"a.h": "namespace s {\nstruct X {\n};\nclass Y final : public Z {\n};\n}  // namespace s\n",
+                 "b.h": "namespace s {\nnamespace {\nstruct X {\n};\n}  // namespace\nenum class Y : int {\n};\n"
+                        "struct Y::Part {\n};\n}  // namespace s\nnamespace t {\nstruct X {\n};\n}  // namespace t\n"}
+        self.assertEqual(told_twice(texts), ["s::Y is in a.h and b.h"])
 
     def test_of_variables(self):
         lists = {pathlib.PurePosixPath("a"): "set(one b.cpp)\nset(one c.cpp)\nswarmsmith_component(a\n  SOURCES a.cpp ${one})"}

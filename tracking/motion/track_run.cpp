@@ -255,10 +255,10 @@ bool is_seen_early(const RobotSamples& samples) {
 }
 
 /// All tags of all robots that were seen, with their own samples.
-std::vector<SeenTag> seen_tags(const std::vector<TaggedRobot>& robots,
-                               const std::vector<std::vector<OneOfTags>>& several,
-                               const TrackedRun& run) {
-  std::vector<SeenTag> tags;
+std::vector<TrackedTag> seen_tags(const std::vector<TaggedRobot>& robots,
+                                  const std::vector<std::vector<OneOfTags>>& several,
+                                  const TrackedRun& run) {
+  std::vector<TrackedTag> tags;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const TrackedRobot& tracked = run.robots[i];
     if (several[i].empty()) tags.push_back({&robots[i], i, tracked.samples, tracked.mean_scale});
@@ -397,7 +397,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   std::ranges::move(of_speeds.issues, std::back_inserter(run.issues));
   std::ranges::move(of_speeds.checks, std::back_inserter(run.checks));
   judge_lenses(rig, arena, run);
-  const std::vector<SeenTag> tags = seen_tags(robots, several, run);
+  const std::vector<TrackedTag> tags = seen_tags(robots, several, run);
   const std::vector<TagEvidence> evidence =
       judge_tags(tags, observations, *cameras, rig, options.limits, run);
   judge_travel(robots, tracks, arena, options, run);

@@ -41,7 +41,7 @@ SearchRange range_of(const Method& method, const ModuleSpec& module,
   return {parameter.low, parameter.high};
 }
 
-ModuleParameters::ModuleParameters(const Method& method, const Flavour& flavour, Words words)
+ModuleParameters::ModuleParameters(const Method& method, const Flavour& flavour, Wording words)
     : method_(method),
       words_(words),
       behaviours_(chosen(flavour.behaviours, method.behaviours)),
@@ -56,13 +56,13 @@ std::size_t ModuleParameters::add(std::string name, const std::string& token, Do
 
 void ModuleParameters::add_fixed(std::string name, const std::string& token, int value,
                                  std::optional<Expression> condition) {
-  if (words_ == Words::Names) return;
+  if (words_ == Wording::Names) return;
   add(std::move(name), token, Categorical{{std::to_string(value)}}, std::move(condition));
 }
 
 /// A module as a value of the space.
 std::string ModuleParameters::word_of(const ModuleSpec& module) const {
-  return words_ == Words::Names ? module.id : std::to_string(module.number);
+  return words_ == Wording::Names ? module.id : std::to_string(module.number);
 }
 
 Categorical ModuleParameters::choice_of(const std::vector<const ModuleSpec*>& modules) const {

@@ -17,7 +17,7 @@ namespace swarmsmith {
 inline constexpr std::size_t kNoParameter = std::numeric_limits<std::size_t>::max();
 
 /// How a space's values are written.
-enum class Words {
+enum class Wording {
   Names,    ///< modules by name, nothing that has one value alone
   Grammar,  ///< as the text grammar wants them
 };
@@ -31,7 +31,7 @@ struct ModuleSlot {
 /// The parameters of a space that is put together from a flavour's modules, added one by one.
 class ModuleParameters {
  public:
-  ModuleParameters(const Method& method, const Flavour& flavour, Words words);
+  ModuleParameters(const Method& method, const Flavour& flavour, Wording words);
 
   /// Adds one parameter; returns where it is.
   std::size_t add(std::string name, const std::string& token, Domain domain,
@@ -49,7 +49,7 @@ class ModuleParameters {
 
   const std::vector<const ModuleSpec*>& behaviours() const { return behaviours_; }
   const std::vector<const ModuleSpec*>& conditions() const { return conditions_; }
-  Words words() const { return words_; }
+  Wording words() const { return words_; }
   std::vector<Parameter> take() { return std::move(parameters_); }
 
  private:
@@ -61,7 +61,7 @@ class ModuleParameters {
                           const std::string& chooser) const;
 
   const Method& method_;
-  Words words_;
+  Wording words_;
   std::vector<const ModuleSpec*> behaviours_;
   std::vector<const ModuleSpec*> conditions_;
   std::vector<Parameter> parameters_;

@@ -67,11 +67,12 @@ std::string message(int channel, const std::string& content) {
       5, le(static_cast<std::uint64_t>(channel), 2) + le(0, 4) + le(1, 8) + le(1, 8) + content);
 }
 std::string chunk(std::uint64_t says, const std::string& packing, const std::string& packed) {
-  return mcap_record(6, le(0, 16) + le(says, 8) + le(0, 4) + counted_text(packing) +
+  return mcap_record(6, le(0, 8) + le(0, 8) + le(says, 8) + le(0, 4) + counted_text(packing) +
                             le(packed.size(), 8) + packed);
 }
 std::string mcap(const std::string& records) {
-  return kMcapMagic + records + mcap_record(15, le(0, 4)) + mcap_record(2, le(0, 20)) + kMcapMagic;
+  return kMcapMagic + records + mcap_record(15, le(0, 4)) +
+         mcap_record(2, le(0, 8) + le(0, 8) + le(0, 4)) + kMcapMagic;
 }
 
 struct Case {

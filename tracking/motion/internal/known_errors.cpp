@@ -28,7 +28,7 @@ double variance_of(const TaggedRobot& robot, const TagEvidence& evidence,
 
 }  // namespace
 
-void add_known_errors(const std::vector<SeenTag>& tags, const std::vector<TagEvidence>& evidence,
+void add_known_errors(const std::vector<TrackedTag>& tags, const std::vector<TagEvidence>& evidence,
                       std::span<const TrackedCamera> cameras, const Rig& rig, TrackedRun& run) {
   SWARMSMITH_ASSERT(tags.size() == evidence.size(), "each tag has its evidence");
   const int cycles = run.trajectory.instants();

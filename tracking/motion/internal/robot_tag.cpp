@@ -140,14 +140,14 @@ Cause cause_of(std::span<const Sample> samples, double scale,
 /// The robot whose tag is asked about, with what its samples say.
 struct Look {
   const TaggedRobot& robot;
-  const SeenTag& seen;
+  const TrackedTag& seen;
   double scale = 1;     ///< against the floor tags
   double sigma = 0;     ///< of the scale's mean
   double height_m = 0;  ///< of the camera
   double reach_m = 0;   ///< how far it went from the point below the camera
 };
 
-Look look_at(const SeenTag& seen, double floor, std::span<const TrackedCamera> cameras) {
+Look look_at(const TrackedTag& seen, double floor, std::span<const TrackedCamera> cameras) {
   Look look{.robot = *seen.tag, .seen = seen, .scale = seen.mean_scale / floor};
   double squares = 0;
   double count = 0;
@@ -308,13 +308,13 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
                  2 * strain_sigma / place / std::sqrt(std::min(count, kDegreesOfFreedom))};
 }
 
-std::vector<TagEvidence> judge_tags(const std::vector<SeenTag>& tags,
+std::vector<TagEvidence> judge_tags(const std::vector<TrackedTag>& tags,
                                     const Observations& observations,
                                     std::span<const TrackedCamera> cameras, const Rig& rig,
                                     const TrackLimits& limits, TrackedRun& run) {
   const double floor = floor_scale(observations, cameras, rig);
   std::vector<Look> looks;
-  for (const SeenTag& tag : tags)
+  for (const TrackedTag& tag : tags)
     looks.push_back(look_at(tag, floor, cameras));
   const bool all_alike = are_alike(looks);
   std::vector<TagEvidence> evidence;

@@ -34,7 +34,7 @@ struct TagEvidence {
 };
 
 /// One tag of one robot, and what was seen of it.
-struct SeenTag {
+struct TrackedTag {
   const TaggedRobot* tag = nullptr;
   std::size_t robot = 0;  ///< its number in the run
   std::span<const Sample> samples;
@@ -43,7 +43,7 @@ struct SeenTag {
 
 /// Asks of each tag whether it has the size that its height makes of it (E_TAG_SIZE,
 /// W_TAG_SIZE) and lies level (W_TILTED).
-std::vector<TagEvidence> judge_tags(const std::vector<SeenTag>& tags,
+std::vector<TagEvidence> judge_tags(const std::vector<TrackedTag>& tags,
                                     const Observations& observations,
                                     std::span<const TrackedCamera> cameras, const Rig& rig,
                                     const TrackLimits& limits, TrackedRun& run);
