@@ -8,6 +8,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/figures/machine_figure.h"
 #include "analysis/machines/controller_drawing.h"
@@ -120,9 +121,9 @@ constexpr std::array<std::string_view, 3> kOriginalFlavours = {"watermelon-argos
                                                                "chocolate-epuck", "maple-epuck"};
 
 /// Whether the candidate is of a flavour for e-pucks.
-bool is_of_epucks(const MachineRecord& candidate) {
-  const auto flavour = find_flavour(candidate.flavour);
-  return flavour && (*flavour)->reference != kRvrModel;
+bool is_of_epucks(const MachineRecord& candidate, StoreReader& store) {
+  const auto stored = controller_of(candidate, store);
+  return stored && stored->flavour->reference != kRvrModel;
 }
 
 /// Behaviours of another flavour do something else with the same numbers. Each flavour is named
@@ -134,13 +135,30 @@ void remark_flavours(StoreReader& store, const std::vector<CandidateId>& candida
     const auto record = candidate(store, id);
     if (!record || !remarked.insert(record->flavour).second) continue;
     const bool is_tree = architecture_of_text(record->machine) == Architecture::Tree;
-    const std::string_view original = kOriginalFlavours.at(!is_of_epucks(*record) ? 0
-                                                           : is_tree              ? 2
-                                                                                  : 1);
+    const std::string_view original = kOriginalFlavours.at(!is_of_epucks(*record, store) ? 0
+                                                           : is_tree                     ? 2
+                                                                                         : 1);
     print_note(output, fmt::format("the machines were designed for the flavour {}; the original's "
                                    "modules are those of {}, so scores will differ "
                                    "(docs/flavours.md)",
                                    record->flavour, original));
+  }
+}
+
+/// Of e-pucks; each profile once.
+void remark_profiles(StoreReader& store, const std::vector<CandidateId>& candidates,
+                     Output& output) {
+  std::set<std::string> remarked;
+  for (const CandidateId id : candidates) {
+    const auto record = candidate(store, id);
+    if (!record || !is_of_epucks(*record, store)) continue;
+    const auto world = world_of(store, record->design, record->mission);
+    if (!world || !remarked.insert(world->profile.name).second) continue;
+    const std::vector<std::string> keys = left_out_of_argos(world->profile);
+    if (keys.empty()) continue;
+    print_note(output, fmt::format("an experiment file cannot say these keys of the profile {}, so "
+                                   "scores will differ: {}",
+                                   world->profile.name, fmt::join(keys, ", ")));
   }
 }
 
@@ -160,7 +178,7 @@ Expected<std::vector<CandidateId>> with_experiments(StoreReader& store,
     const Architecture architecture =
         architecture_of_text(record->machine).value_or(Architecture::Machine);
     if (architecture == Architecture::Machine ||
-        (architecture == Architecture::Tree && is_of_epucks(*record)))
+        (architecture == Architecture::Tree && is_of_epucks(*record, store)))
       machines.push_back(id);
   }
   return machines.empty() ? candidates : machines;
@@ -217,7 +235,10 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& cho
                                    "of trees for e-pucks",
                                    left_out, chosen.size()));
   }
-  if (what.format == "argos") remark_flavours(store, candidates, output);
+  if (what.format == "argos") {
+    remark_flavours(store, candidates, output);
+    remark_profiles(store, candidates, output);
+  }
   if (!output.json) return ExitCode::Done;
   output.out << JsonObject().add("files", files).text() << "\n";
   return ExitCode::Done;

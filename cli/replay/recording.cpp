@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "analysis/arena/arena_picture.h"
 #include "analysis/drawing/svg.h"
-#include "base/output_file.h"
 #include "sim/control/module.h"
 #include "sim/mission/trajectory_csv.h"
 
@@ -71,14 +71,14 @@ Expected<void> Recording::Sink::close() const {
   return Unexpected(cannot_write(name == "-" ? "standard output" : name));
 }
 
-Expected<Recording::Sink> Recording::open(const std::string& name, Output& output) {
+Expected<Recording::Sink> Recording::open(const std::string& name, FileKind kind, Output& output) {
   Sink sink{.name = name};
   if (name.empty()) return sink;
   if (name == "-") {
     sink.stream = &output.out;
     return sink;
   }
-  if (const auto place = output_place(name, FileKind::Table); !place) {
+  if (const auto place = output_place(name, kind); !place) {
     return Unexpected(place.error());
   }
   sink.file = std::make_unique<std::ofstream>(name, std::ios::binary);
@@ -141,10 +141,11 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
   }
   recording.columns_.emplace(recording.sensors_, mission.robots);
   // Files last: what is refused above leaves none behind.
-  for (const auto& [name, sink] : {std::pair(&arguments.csv, &recording.csv_),
-                                   std::pair(&arguments.objects_csv, &recording.objects_csv_),
-                                   std::pair(&arguments.svg, &recording.svg_)}) {
-    auto opened = open(*name, output);
+  for (const auto& [name, kind, sink] :
+       {std::tuple(&arguments.csv, FileKind::Table, &recording.csv_),
+        std::tuple(&arguments.objects_csv, FileKind::Table, &recording.objects_csv_),
+        std::tuple(&arguments.svg, FileKind::Svg, &recording.svg_)}) {
+    auto opened = open(*name, kind, output);
     if (!opened) return Unexpected(opened.error());
     *sink = std::move(*opened);
   }

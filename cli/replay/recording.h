@@ -8,6 +8,7 @@
 
 #include "analysis/arena/reading_columns.h"
 #include "base/expected.h"
+#include "base/output_file.h"
 #include "console/options.h"
 #include "sim/control/controller.h"
 #include "sim/engine/simulate.h"
@@ -66,7 +67,7 @@ class Recording {
   Recording(const Mission& mission, const Controller& controller)
       : mission_(&mission), controller_(&controller) {}
 
-  static Expected<Sink> open(const std::string& name, Output& output);
+  static Expected<Sink> open(const std::string& name, FileKind kind, Output& output);
   Expected<void> read_span(const RecordingArguments& arguments);
   void write_headers();
   void observe(const Snapshot& snapshot);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/expected.h"
 #include "sim/control/controller.h"
@@ -33,5 +34,9 @@ struct ArgosExperiment {
 /// a module or the architecture. A mission may have another name, duration and number of robots (of
 /// RVRs up to 9), e-pucks' ones another light and range of the radio.
 Expected<std::string> argos_experiment(const ArgosExperiment& experiment);
+
+/// Keys of a profile that an experiment file of e-pucks cannot say, "timing.delays": it has the
+/// noise of wheels, proximity, light and ground, and the share of lost packets.
+std::vector<std::string> left_out_of_argos(const Profile& profile);
 
 }  // namespace swarmsmith

@@ -1,5 +1,8 @@
 #include "coordinator/design/candidate_totals.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/assert.h"
 
 namespace swarmsmith {
@@ -7,7 +10,8 @@ namespace swarmsmith {
 void CandidateTotals::Sums::add(double score) {
   runs += 1;
   score_sum += score;
-  score_squares += score * score;
+  // Only finite numbers are stored; no result is read from squares.
+  score_squares = std::min(score_squares + score * score, std::numeric_limits<double>::max());
 }
 
 void CandidateTotals::add_up_to(std::int64_t number) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -147,7 +148,8 @@ void Rows::add_pairs_and_evaluations() {
     total.candidate = id_of(run.configuration);
     total.runs += rejected ? 0 : 1;
     total.score_sum += value;
-    total.score_squares += value * value;
+    total.score_squares =
+        std::min(total.score_squares + value * value, std::numeric_limits<double>::max());
   }
   for (const auto& [configuration, total] : totals)
     rows_.emplace_back(total);

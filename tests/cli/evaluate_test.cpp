@@ -274,6 +274,24 @@ TEST(Evaluate, WritesARunDown) {
   EXPECT_THAT(drawn.str(), HasSubstr(">best.fsm \xc2\xb7 seed 7 \xc2\xb7 score "));
 }
 
+TEST(Evaluate, WritesOverAFileOfItsKindAlone) {
+  const TemporaryFolder folder;
+  const std::string svg = (folder / "run.svg").string();
+  const std::string csv = (folder / "run.csv").string();
+  const auto written = [](const std::string& option, const std::string& file) {
+    return run({"evaluate", kStopText, "--flavour", "watermelon", "--mission", "aggregation",
+                "--seeds", "7", option, file});
+  };
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(written("--svg", svg).code, 0);
+    EXPECT_EQ(written("--csv", csv).code, 0);
+  }
+  const Ran picture = written("--svg", csv);
+  EXPECT_EQ(picture.code, 2);
+  EXPECT_THAT(picture.err, HasSubstr("is a table (CSV), not an SVG picture"));
+  EXPECT_THAT(written("--csv", svg).err, HasSubstr("is an SVG picture, not a table (CSV)"));
+}
+
 struct Misuse {
   std::vector<std::string> words;
   const char* sentence;

@@ -115,6 +115,7 @@ TEST(Output, SaysWhatIsWrongWithIt) {
   EXPECT_TRUE(mentions(fault("cost: 5", plain()), "not a number, `cost:`"));
   EXPECT_TRUE(mentions(fault("NaN", plain()), "is NaN"));
   EXPECT_TRUE(mentions(fault("NA", plain()), "is NA"));
+  EXPECT_TRUE(mentions(fault("-1e305", plain()), "-1e305, is beyond 1e300"));
   EXPECT_TRUE(mentions(fault("1 0", plain()), "above 0"));
   EXPECT_TRUE(mentions(fault("1 -2", plain()), "above 0"));
   EXPECT_TRUE(mentions(fault("1 Inf", plain()), "infinite"));

@@ -1,5 +1,7 @@
 #include <array>
+#include <set>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -144,12 +147,39 @@ std::string arena_text(const Mission& mission) {
 
 }  // namespace
 
+std::vector<std::string> left_out_of_argos(const Profile& profile) {
+  Profile said = built_in_profile("epuck-ideal").value();
+  said.name = profile.name;
+  said.treads.sd = profile.treads.sd;
+  said.proximity.half_width = profile.proximity.half_width;
+  said.light.half_width = profile.light.half_width;
+  said.ground_color.half_width = profile.ground_color.half_width;
+  said.neighbours.miss_rate = profile.neighbours.miss_rate;
+  std::set<std::pair<std::string, std::string>> lines;
+  for (const Section& section : profile_sections(said, "profile"))
+    for (const SectionLine& line : section.lines)
+      lines.emplace(section.header + line.key, line.value);
+  std::vector<std::string> keys;
+  for (const Section& section : profile_sections(profile, "profile")) {
+    const std::string header = section.header.substr(1, section.header.size() - 2);
+    const std::string table = header == "profile" ? "" : header.substr(header.find('.') + 1) + ".";
+    for (const SectionLine& line : section.lines)
+      if (!lines.contains({section.header + line.key, line.value}))
+        keys.push_back(table + line.key);
+  }
+  return keys;
+}
+
 Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experiment) {
   const Mission& mission = experiment.mission;
   const auto functions = loop_functions_of(mission);
   if (!functions) return Unexpected(functions.error());
   if (mission.arena.lights.size() > 1)
     return bad_input("an experiment file has one light, and the mission " + mission.name + " more");
+  if (!experiment.profile.ranges.empty()) {
+    return bad_input("an experiment file has numbers, and the profile " + experiment.profile.name +
+                     " has ranges, which are drawn for each run (docs/profiles.md)");
+  }
   const auto program = program_of(experiment.controller);
   if (!program) return Unexpected(program.error());
   if (const auto wrong = check(experiment.controller, *program->flavour)) {

@@ -188,6 +188,19 @@ TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
   EXPECT_THAT(refusal(changed), HasSubstr("the original AutoMoDe cannot run this machine"));
 }
 
+TEST_F(ArgosExperimentOfEPucks, KnowsWhatOfAProfileItCannotSay) {
+  EXPECT_THAT(left_out_of_argos(*built_in_profile("epuck")), testing::IsEmpty());
+  EXPECT_THAT(left_out_of_argos(*built_in_profile("epuck-pseudo-reality")), testing::IsEmpty());
+  Profile profile = *built_in_profile("epuck");
+  profile.timing.jitter = 0.05;
+  profile.treads.way = 0.5;
+  EXPECT_THAT(left_out_of_argos(profile), testing::ElementsAre("timing.jitter", "treads.way"));
+  ArgosExperiment ranges = experiment("rt-aac.toml");
+  ranges.profile =
+      parse_profile("format = 1\nbase = \"epuck\"\n[treads]\nsd = [0, 0.2]\n", "p.toml").value();
+  EXPECT_THAT(argos_experiment(ranges).error().message, HasSubstr("the profile p has ranges"));
+}
+
 TEST(ArgosExperiment, KeepsItsCommentWellFormed) {
   const auto text = argos_experiment({.controller = explorer(),
                                       .mission = *built_in_mission("aggregation"),

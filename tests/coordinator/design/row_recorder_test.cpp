@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "coordinator/design/candidate_totals.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -53,6 +57,15 @@ TEST(RowRecorder, SumsWhatATargetEvaluatorSaidLast) {
   EXPECT_EQ(totals.runs, 2);
   EXPECT_EQ(totals.score_sum, 7);
   EXPECT_EQ(totals.score_squares, 25);
+}
+
+TEST(CandidateTotals, OfHugeScoresAreFinite) {
+  CandidateTotals totals({1});
+  totals.add_up_to(1);
+  totals.add_run(1, -1e300);
+  const CandidateTotalsRow row = totals.add_run(1, -1e300);
+  EXPECT_EQ(row.score_sum, -2e300);
+  EXPECT_TRUE(std::isfinite(row.score_squares));
 }
 
 }  // namespace
