@@ -36,6 +36,16 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
   const auto adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     pairs[i].p_holm = adjusted[i];
+  std::size_t tests = 0;
+  double least_p = 1;
+  for (const ComparedPair& pair : pairs) {
+    if (!pair.test.p_value) continue;
+    ++tests;
+    least_p = std::min(least_p, pair.test.least_p);
+  }
+  const auto note = hopeless(tests, least_p);
+  for (ComparedPair& pair : pairs)
+    if (note && pair.test.p_value && pair.test.least_p <= kTestLevel) pair.notes.push_back(*note);
 }
 
 /// Designs are paired by source, and the two sources should be all that differs.
@@ -164,6 +174,15 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
 
 }  // namespace
 
+std::optional<std::string> hopeless(std::size_t tests, double least_p) {
+  const double least = std::min(1.0, static_cast<double>(tests) * least_p);
+  if (tests < 2 || least <= kTestLevel) return std::nullopt;
+  return fmt::format(
+      "values are too few for {} tests together: after the correction even the clearest difference "
+      "would have a p of {:.3g}",
+      tests, least);
+}
+
 Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptions& options) {
   ChosenScores taken = wanted(scores, options);
   const ScoreTable table = score_table(taken.scores);
@@ -197,7 +216,12 @@ Expected<Comparison> compare(StoreReader& store, const ComparisonOptions& option
   const auto scores = design_scores(store, {});
   if (!scores) return Unexpected(scores.error());
   if (auto error = missing(*scores, options)) return Unexpected(std::move(*error));
-  Comparison comparison = compare(*scores, options);
+  return compare(store, *scores, options);
+}
+
+Expected<Comparison> compare(StoreReader& store, const std::vector<DesignScore>& scores,
+                             const ComparisonOptions& options) {
+  Comparison comparison = compare(scores, options);
   if (options.by == CompareBy::Method) {
     const auto all = designs(store, {});
     if (!all) return Unexpected(all.error());

@@ -83,8 +83,20 @@ struct Comparison {
   std::vector<std::string> seeds;     ///< sources whose designs ran on different seeds, in words
 };
 
+/// The level of all tests.
+inline constexpr double kTestLevel = 0.05;
+
+/// What must be said of tests that are corrected together (Holm), when the values are so few that
+/// no data could give a p at the level; nothing when some could. `least_p`: the least exact p of
+/// any of them.
+std::optional<std::string> hopeless(std::size_t tests, double least_p);
+
 /// Of scores that were read already; the options' filters are applied to them.
 Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptions& options);
+
+/// The same with what the store's designs say of methods' budgets.
+Expected<Comparison> compare(StoreReader& store, const std::vector<DesignScore>& scores,
+                             const ComparisonOptions& options);
 
 /// Reads and compares. Errors: NotFound (no such score; says what there is), those of records.h.
 Expected<Comparison> compare(StoreReader& store, const ComparisonOptions& options);

@@ -92,11 +92,8 @@ std::string matrices_text(const Comparison& comparison) {
       "letter do\nnot differ at 5 %: Wilcoxon rank-sum tests of its pairs, with Holm's correction. "
       "Each {} is a value.\n",
       name_of(comparison.unit));
-  for (const std::string& note : comparison.notes) {
-    const bool is_of_ranks =
-        std::ranges::find(comparison.unranked, note) != comparison.unranked.end();
-    if (!is_of_ranks) text += as_shown(note, Layout::Escaped) + "\n";
-  }
+  for (const std::string& note : matrix_notes(comparison))
+    text += as_shown(note, Layout::Escaped) + "\n";
   return text;
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/statistics/multiple_tests.h"
@@ -14,8 +16,6 @@
 
 namespace swarmsmith {
 namespace {
-
-constexpr double kLevel = 0.05;
 
 /// The methods of a mission and source, the best mean first.
 using Groups = std::vector<const ComparedGroup*>;
@@ -71,7 +71,7 @@ std::vector<MethodMatrix::Cell> cells_of(const Comparison& comparison, const Gro
   for (std::size_t i = 0; i < groups.size(); ++i) {
     costs.push_back(-groups[i]->summary.mean);
     for (std::size_t j = 0; j < groups.size(); ++j)
-      different[i][j] = p_values[i][j] && *p_values[i][j] < kLevel;
+      different[i][j] = p_values[i][j] && *p_values[i][j] < kTestLevel;
   }
   const auto letters = letters_of(different);
   const AverageRanks ranks = average_ranks(costs);
@@ -180,6 +180,43 @@ std::vector<std::string> letters_of(const std::vector<std::vector<bool>>& differ
       letters[i] += letter(c);
   }
   return letters;
+}
+
+std::vector<std::string> matrix_notes(const Comparison& comparison) {
+  std::vector<std::string> notes;
+  for (const std::string& note : comparison.notes) {
+    const bool is_of_ranks =
+        std::ranges::find(comparison.unranked, note) != comparison.unranked.end();
+    if (!is_of_ranks) notes.push_back(note);
+  }
+  // The tests of a mission and source are corrected together.
+  struct Family {
+    std::size_t tests = 0;
+    double least_p = 1;
+  };
+  std::map<std::pair<std::string, std::string>, Family> families;
+  for (const ComparedPair& pair : comparison.pairs) {
+    if (!pair.test.p_value) continue;
+    Family& family = families[{pair.source, pair.mission}];
+    ++family.tests;
+    family.least_p = std::min(family.least_p, pair.test.least_p);
+  }
+  std::map<std::string, std::set<std::string>> missions;
+  for (const auto& [key, family] : families) {
+    const double tests = static_cast<double>(std::max<std::size_t>(1, family.tests));
+    if (tests * family.least_p <= kTestLevel) continue;
+    const std::string sentence =
+        hopeless(family.tests, family.least_p)
+            .value_or(fmt::format("values are too few: even the clearest difference would have a p "
+                                  "of {:.3g}",
+                                  family.least_p));
+    missions[sentence].insert(key.second);
+  }
+  for (const auto& [sentence, of] : missions) {
+    notes.push_back(fmt::format("{}: {}; that methods share a letter says nothing there",
+                                fmt::join(of, ", "), sentence));
+  }
+  return notes;
 }
 
 std::vector<MethodMatrix> method_matrices(const Comparison& comparison) {

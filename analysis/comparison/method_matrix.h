@@ -37,6 +37,10 @@ struct MethodMatrix {
 
 std::vector<MethodMatrix> method_matrices(const Comparison& comparison);
 
+/// What one should know before believing the letters: the comparison's notes but those of ranks,
+/// and where values are too few for any other letters.
+std::vector<std::string> matrix_notes(const Comparison& comparison);
+
 /// Which of `count` things do not differ, in letters: two differ exactly when they share none.
 /// `different[i][j]`; they are lettered in their order. Source: Piepho 2004, Journal of
 /// Computational and Graphical Statistics 13(2), insert and absorb.

@@ -114,7 +114,7 @@ std::string matrix_json(const Comparison& comparison) {
       .add("per", name_of(comparison.unit))
       .add("purpose", comparison.options.choice.purpose)
       .add("matrices", matrices_json(comparison))
-      .add("notes", comparison.notes)
+      .add("notes", matrix_notes(comparison))
       .text();
 }
 
@@ -156,6 +156,8 @@ ExitCode run_compare(CompareArguments& arguments, Output& output) {
   if (!arguments.paper.empty()) {
     for (const PaperSentence& sentence : paper_sentences(*comparison))
       output.out << (arguments.paper == "latex" ? sentence.latex : sentence.text) << "\n";
+    for (const std::string& note : comparison->notes)
+      print_note(output, note);
   } else if (arguments.csv) {
     // By mission there are no pairs.
     const bool groups = arguments.table.empty() && comparison->options.by == CompareBy::Mission;

@@ -141,7 +141,7 @@ Expected<Answer> comparison_answer(const Question& question) {
                            .add("per", name_of(comparison->unit))
                            .add("said", comparison->said)
                            .add("matrices", matrices_json(*comparison))
-                           .add("notes", comparison->notes));
+                           .add("notes", matrix_notes(*comparison)));
   }
   if (is_of_pairs && comparison->pairs.empty()) {
     std::string why;

@@ -154,12 +154,14 @@ class Paths {
       add({"c1/candidates/c" + candidate});
       add_figure("machine", {{"candidate", "c" + candidate}});
     }
+    const auto best =
+        column("SELECT coalesce(best_candidate, 0) FROM v_designs WHERE design = " + design);
+    if (!best) return Unexpected(best.error());
     for (const auto& [purpose, count] : {std::pair("test", kTestRuns), {"race", kRaceRuns}}) {
-      const auto runs = column(
-          "SELECT id FROM v_evaluations WHERE candidate = (SELECT best_candidate FROM v_designs "
-          "WHERE design = " +
-          design + ") AND purpose = '" + purpose + "' AND status = 'ok' ORDER BY pair LIMIT " +
-          std::to_string(count));
+      // With the number itself, SQLite finds the candidate's rows by an index.
+      const auto runs = column("SELECT id FROM v_evaluations WHERE candidate = " + best->front() +
+                               " AND purpose = '" + purpose +
+                               "' AND status = 'ok' ORDER BY pair LIMIT " + std::to_string(count));
       if (!runs) return Unexpected(runs.error());
       for (const std::string& run : *runs) {
         add({"c1/runs/" + run + "/trajectory"});

@@ -10,7 +10,6 @@ namespace swarmsmith {
 namespace {
 
 /// What a test has to be able to say for anything to be found.
-constexpr double kLevel = 0.05;
 /// Percentiles of the bootstrap miss more than 5 % of the truth with fewer.
 constexpr std::size_t kFewValues = 10;
 
@@ -63,13 +62,13 @@ void add_notes(ComparedPair& pair) {
   }
   if (pair.n_first < 2 || pair.n_second < 2)
     pair.notes.emplace_back("an interval of one value has no width");
-  else if (pair.test.least_p <= kLevel && std::min(pair.n_first, pair.n_second) < kFewValues)
+  else if (pair.test.least_p <= kTestLevel && std::min(pair.n_first, pair.n_second) < kFewValues)
     pair.notes.push_back(
         fmt::format("n is small: an interval of fewer than {} values is too narrow", kFewValues));
   if (pair.test.zeros > 0 && pair.test.p_value)
     pair.notes.push_back(fmt::format("differences of zero, which say nothing to the test: {} of {}",
                                      pair.test.zeros, pair.n_first));
-  if (pair.test.p_value && pair.test.least_p > kLevel) {
+  if (pair.test.p_value && pair.test.least_p > kTestLevel) {
     pair.notes.push_back(
         fmt::format("n is too small: even the clearest difference would have an exact p of {:.3g}",
                     pair.test.least_p));

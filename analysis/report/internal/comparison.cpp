@@ -93,7 +93,7 @@ void write_comparison(ReportDraft& draft, const std::vector<DesignScore>& scores
     for (const DesignScore& score : scores)
       names.insert(by == CompareBy::Source ? score.source : score.method);
     if (names.size() < 2) continue;
-    const Comparison comparison = compare(scores, {.by = by});
+    const Comparison comparison = draft.take(compare(draft.store(), scores, {.by = by}));
     page.table(pairs_table(comparison));
     for (const ComparedRanks& ranks : comparison.ranks)
       page.table(ranks_table(ranks));

@@ -106,6 +106,20 @@ TEST(MethodMatrix, LeavesOpenWhatAMissionLacks) {
   EXPECT_THAT(matrices_text(comparison), HasSubstr("good    -"));
 }
 
+// R: 2 / choose(8, 4) = 0.0286 is the least p of four against four.
+TEST(MethodMatrix, SaysWhereValuesAreTooFewForOtherLetters) {
+  auto scores = of_three_methods();
+  EXPECT_THAT(matrix_notes(compare(scores, {.by = CompareBy::Method})), IsEmpty());
+  std::erase_if(scores, [](const DesignScore& score) { return score.repetition > 4; });
+  const Comparison comparison = compare(scores, {.by = CompareBy::Method});
+  EXPECT_THAT(matrix_notes(comparison),
+              ElementsAre("aggregation, grid: values are too few for 3 tests together: after the "
+                          "correction even the clearest difference would have a p of 0.0857; that "
+                          "methods share a letter says nothing there"));
+  // All six pairs are corrected together there.
+  EXPECT_THAT(comparison.pairs.front().notes, testing::Contains(HasSubstr("a p of 0.171")));
+}
+
 TEST(MethodMatrix, OfOneMethodHasNoLetters) {
   const auto matrices =
       method_matrices(compare(records_of({{.design = 1, .scores = {1, 2}},
