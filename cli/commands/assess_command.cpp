@@ -49,6 +49,18 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--profile"});
   if (const auto why = assessment::too_big(*robot))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--robot"});
+  const auto runs = [](const ModuleSpec& spec) { return !is_external(spec.module); };
+  for (const auto* modules : {&flavour->behaviours, &flavour->conditions}) {
+    for (const ModuleSpec& spec : *modules)
+      if (!runs(spec))
+        print_note(output,
+                   spec.id + " is external: other programs have it, and it is not assessed");
+  }
+  if (std::ranges::none_of(flavour->behaviours, runs) &&
+      std::ranges::none_of(flavour->conditions, runs)) {
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput, "all modules of the flavour are external", "--flavour"});
+  }
   Counter counter(output, "assessed", "modules");
   const assessment::Subject subject{*flavour, *profile, *robot};
   const Report report =

@@ -278,7 +278,7 @@ ExitCode import_into_store(const ImportArguments& arguments, Output& output) {
   if (fs::is_directory(arguments.file, ignored)) {
     return import_log_into(arguments, read_log_folder(arguments.file), output);
   }
-  const auto text = read_file(arguments.file, "file");
+  const auto text = read_file(arguments.file, "results");
   if (!text) return fail(output, ExitCode::Usage, text.error());
   const std::string ending = fs::path(arguments.file).extension().string();
   if (ending == ".csv") return import_table_into(arguments, *text, output);

@@ -55,8 +55,8 @@ std::optional<std::string> too_big(const Robot& robot) {
   return fmt::format(
       "modules are assessed with robots that start {:.2g} m apart, so that they see each other, "
       "and "
-      "`{}` is {:.2g} m wide",
-      room_m, robot.name, 2 * reach_m);
+      "the body of `{}` reaches {:.2g} m from its middle",
+      room_m, robot.name, reach_m);
 }
 
 Report assess(const Subject& subject, const Progress& progress) {

@@ -72,7 +72,9 @@ void check_robot(TableReader& table, const Robot& robot) {
   const GroundSensor& ground = robot.ground;
   if (ground.reading == GroundSensor::Reading::Vote) {
     const auto readings = static_cast<int>(ground.places.size()) * ground.vote_ticks;
-    if (ground.vote_majority < 1 || ground.vote_majority >= readings) {
+    if (readings < 2) {
+      table.complain("ground", "a vote needs two readings or more: more `points`, or more `ticks`");
+    } else if (ground.vote_majority < 1 || ground.vote_majority >= readings) {
       table.complain("ground", "a vote of " + std::to_string(readings) +
                                    " readings needs a `majority` from 1 to " +
                                    std::to_string(readings - 1) + ", not " +
@@ -96,10 +98,25 @@ void complain_of(TableReader& table, std::string_view key, const Error& error) {
   }
 }
 
+/// How deep the file is that is read now, among files that are each other's bases.
+thread_local int base_depth = 0;
+constexpr int kMostBases = 16;
+
+struct DeeperBase {
+  DeeperBase() { ++base_depth; }
+  ~DeeperBase() { --base_depth; }
+  DeeperBase(const DeeperBase&) = delete;
+  DeeperBase& operator=(const DeeperBase&) = delete;
+};
+
 void read_base(TableReader& table, const std::filesystem::path* folder, Robot& robot) {
   if (const auto base = table.text("base")) {
+    const DeeperBase deeper;
     if (names_a_file(*base) && folder == nullptr) {
       table.complain("base", "a robot begins with a built-in one here: " + joined(robot_names()));
+    } else if (base_depth > kMostBases) {
+      table.complain("base", "bases of bases go more than " + std::to_string(kMostBases) +
+                                 " files deep, or form a circle");
     } else if (auto found = find_robot(*base, folder == nullptr ? "" : *folder)) {
       robot = std::move(*found);
     } else {

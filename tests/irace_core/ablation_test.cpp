@@ -156,7 +156,7 @@ TEST(AblationWay, FullRunsAllChangesOnAllPairs) {
 
 /// Those that `swarmsmith irace --ablation` drew before it was a campaign, with seed 42.
 TEST(AblationWay, ThePairsAreThoseOfEarlierVersions) {
-  const Driven way(on_pairs(5), {0, 0}, {1, 1}, weighed);
+  const Driven way(on_pairs(5), {0, 0, 0}, {1, 1, 1}, weighed);
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
   for (std::size_t i = 0; i < 5; ++i)
     pairs.emplace_back(way.made[i].instance, way.made[i].seed);

@@ -14,6 +14,7 @@ namespace {
 
 /// 1 for the RVR. Robots that see others nearer by only stand nearer by; the arena is the same.
 double group_scale(const Robot& robot) {
+  if (robot.neighbours.range_m == 0) return 1;  // it sees no others
   return std::min(1.0, robot.neighbours.range_m / kNeighbourRange_m);
 }
 

@@ -100,9 +100,12 @@ TEST(Assessment, TheExplorationOfMapleOf2020TouchesTooMuch) {
 TEST(Assessment, HasRoomForRobotsUpToHalfAMetre) {
   EXPECT_EQ(too_big(rvr()), std::nullopt);
   EXPECT_EQ(too_big(rvr_with(CircleOutline{0.249})), std::nullopt);
-  EXPECT_THAT(too_big(rvr_with(CircleOutline{0.25})).value_or(""), HasSubstr("is 0.5 m wide"));
+  EXPECT_THAT(too_big(rvr_with(CircleOutline{0.25})).value_or(""),
+              HasSubstr("reaches 0.25 m from its middle"));
   Robot blind = rvr();
   blind.neighbours.range_m = 0;
+  EXPECT_EQ(too_big(blind), std::nullopt);
+  blind.neighbours.range_m = 0.1;
   EXPECT_NE(too_big(blind), std::nullopt);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 #include "tests/support/not_empty.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -34,6 +36,17 @@ Robot built_in(const std::string& name) {
 
 TEST(RobotFile, TheBuiltInRvrIsTheTable) {
   EXPECT_EQ(built_in("rvr"), rvr());
+}
+
+TEST(RobotFile, BasesThatFormACircleAreRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "a.toml") << "format = 1\nbase = \"b.toml\"\n";
+  std::ofstream(folder / "b.toml") << "format = 1\nbase = \"a.toml\"\n";
+  const auto robot = find_robot("a.toml", folder / "");
+  ASSERT_FALSE(robot);
+  EXPECT_THAT(to_string(robot.error().front()), HasSubstr("16 files deep, or form a circle"));
+  std::ofstream(folder / "b.toml") << "format = 1\nbase = \"epuck\"\n";
+  EXPECT_TRUE(find_robot("a.toml", folder / ""));
 }
 
 TEST(RobotFile, TheEpuckHasTheNumbersOfItsFacts) {
