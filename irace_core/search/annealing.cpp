@@ -130,8 +130,8 @@ class Annealing final : public Strategy {
   std::int64_t scale_runs() const { return scale_runs_of(options_); }
   std::int64_t most_runs() const { return most_runs_of(options_); }
 
-  /// A temperature is told in standard deviations of the costs of random configurations, so that
-  /// it means the same in each mission (docs/methods.md).
+  /// Temperatures are in standard deviations of the costs of random configurations, so that they
+  /// mean the same in each mission (docs/methods.md).
   Expected<std::optional<Round>> scale_round(std::int64_t next_id) {
     Round round;
     Rng rng = rng_.split("scale");

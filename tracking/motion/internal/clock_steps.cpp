@@ -72,7 +72,7 @@ class Film {
     if (mean.norm() / 2 * usual_s_ < kLeastStep_px ||
         (*after - *before).norm() > kBend * mean.norm())
       return std::nullopt;
-    // How long the way takes at the velocity of before and after; what is left is beside it.
+    // How long the way takes at the velocity of before and after; the rest is beside it.
     const double time_s = moved.dot(mean) / mean.squaredNorm();
     const double aside = (moved - time_s * mean).norm() / 2;
     if (aside > kLeastStep_px + kSteady * std::fabs(time_s) * mean.norm() / 2) return std::nullopt;
