@@ -64,7 +64,8 @@ class SpaceTest(unittest.TestCase):
         self.assertIn("x: the lower end of a range must be below the upper one", self.refusal({"x": (1, 0)}))
         for call in (lambda: swarmsmith.Real(0, 1, log=True), lambda: swarmsmith.Integer(1.5, 3), lambda: swarmsmith.Real(0, math.inf),
                      lambda: swarmsmith.Real("0.5", None), lambda: swarmsmith.Categorical([]),
-                     lambda: swarmsmith.Real(0, 1, when=3), lambda: swarmsmith.Real(1, 2, log="yes"), lambda: swarmsmith.Real(0, 10**400),
+                     lambda: swarmsmith.Real(0, 1, when=3), lambda: swarmsmith.Real(1, 2, log="yes"),
+                     lambda: swarmsmith.Real(0, 10**400),
                      lambda: swarmsmith.Categorical("abc"), lambda: swarmsmith.Ordinal(3), lambda: swarmsmith.Ordinal(["a"], when=["b"])):
             self.assertRaises(swarmsmith.SpaceError, call)
             self.assertRaises(ValueError, call)
