@@ -10,7 +10,7 @@ import time
 import traceback
 
 from swarmsmith_space import Error, OptionError, Space
-from swarmsmith_tuner import Trial, Tuner
+from swarmsmith_tuner import Trial, Tuner, instances_of
 
 
 class _Jobs:
@@ -18,14 +18,14 @@ class _Jobs:
 
     def __init__(self, function, space, instances, count):
         context = multiprocessing.get_context("fork")
-        self._idle, self.busy, self._processes = [], {}, []
+        self._space, self._idle, self.busy, self._processes = space, [], {}, {}
         for _ in range(count):
             here, there = context.Pipe()
             process = context.Process(target=self._work, args=(function, space, instances, there))
             process.start()
             there.close()
             self._idle.append(here)
-            self._processes.append(process)
+            self._processes[here] = process
 
     @staticmethod
     def _work(function, space, instances, link):
@@ -47,22 +47,33 @@ class _Jobs:
     def start(self, call):
         link = self._idle.pop()
         self.busy[link] = call
-        link.send(call)
+        try:
+            link.send(call)
+        except OSError:
+            raise self._ended(link, call) from None
 
     def take(self, link):
         """Number of the trial and the answer. Raises what the function has raised."""
         call = self.busy.pop(link)
         try:
             answer = link.recv()
-        except EOFError:
-            raise Error(f"the process that evaluated trial {call[0]} was killed: {call[4]}") from None
+        except (EOFError, OSError):
+            raise self._ended(link, call) from None
         self._idle.append(link)
         if answer[0] == "value":
             return call[0], answer[1]
         raise answer[1] from Error("in a job:\n" + answer[2])
 
+    def _ended(self, link, call):
+        process = self._processes[link]
+        process.join(5)
+        code = process.exitcode
+        how = "closed its pipe" if code is None else f"ended itself with exit status {code}" if code >= 0 else \
+            f"was killed by {signal.Signals(-code).name}"
+        return Error(f"the process that evaluated trial {call[0]} {how}; its configuration is {self._space.values(call[4])}")
+
     def close(self):
-        for process in self._processes:
+        for process in self._processes.values():
             for kill, what in ((os.killpg, process.pid), (os.kill, process.pid)):
                 try:
                     kill(what, signal.SIGKILL)
@@ -102,15 +113,18 @@ def tune(function, space, *, n_jobs=1, progress=None, **options):
     a function that takes a Progress, True for a line on standard error, False for none; None shows the line in a terminal.
     An exception of the function ends the run and is raised; with a store the same call goes on."""
     cores = len(os.sched_getaffinity(0))
-    if not isinstance(n_jobs, int) or (n_jobs < 1 and n_jobs != -1):
+    if not callable(function):
+        raise OptionError(f"function: a function that takes a trial is wanted, found {function!r}")
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise OptionError(f"progress is True, False or a function, found {progress!r}")
+    if not isinstance(n_jobs, int) or isinstance(n_jobs, bool) or (n_jobs < 1 and n_jobs != -1):
         raise OptionError(f"n_jobs is a number of processes, or -1 for one a core, found {n_jobs!r}")
     jobs, teller = None, _Teller(progress)
     space = Space(space)
     if n_jobs != 1:
         n_jobs = cores if n_jobs == -1 else n_jobs
         options = {**options, "parallel": n_jobs}
-        instances = options.get("instances")
-        jobs = _Jobs(function, space, [None] if instances is None else list(instances), n_jobs)
+        jobs = _Jobs(function, space, instances_of(options.get("instances")), n_jobs)
     try:
         with Tuner(space, **options) as tuner:
             if jobs:
@@ -128,6 +142,8 @@ def tune(function, space, *, n_jobs=1, progress=None, **options):
 
 
 def _tell(tuner, number, answer):
+    if isinstance(answer, tuple) and len(answer) != 2:
+        raise tuner._no_cost(number, "value", f"{answer!r}: a number is wanted, or a tuple of a number and a time")
     tuner.tell(number, *(answer if isinstance(answer, tuple) else (answer,)))
 
 

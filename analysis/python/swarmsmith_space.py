@@ -4,8 +4,10 @@ import difflib
 import math
 import numbers
 import re
+import sys
 
 LARGEST_WHOLE = 2**53 - 1  # irace's values are doubles
+LARGEST = sys.float_info.max
 
 
 class Error(Exception):
@@ -28,16 +30,29 @@ def is_number(value):
     return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
+def sequence(name, value, of, kind):
+    """A list of what may be a list. A text is none, since it would be split into letters."""
+    if isinstance(value, (str, bytes, dict, set, frozenset)) or not hasattr(value, "__iter__"):
+        raise kind(f"{name}: a list of {of} is wanted, found {value!r}")
+    return list(value)
+
+
 def plain(value):
     """A text that neither a shell nor irace's files read anything into."""
     return re.sub(r"[^A-Za-z0-9_.+-]", "_", str(value))
+
+
+def _condition(when):
+    if when is not None and not isinstance(when, str):
+        raise SpaceError(f"when: a condition is a text, such as 'x > 0.5', found {when!r}")
+    return when
 
 
 class _Choice:
     """Values of any type; `when` is a condition on other parameters, in R's words: 'kernel == "poly"'."""
 
     def __init__(self, values, when=None):
-        self.values, self.when = list(values), when
+        self.values, self.when = sequence("values", values, "values", SpaceError), _condition(when)
         self.texts = [plain(value) for value in self.values]
         if not self.values:
             raise SpaceError("a choice needs a value")
@@ -68,7 +83,9 @@ class Ordinal(_Choice):
 
 class _Number:
     def __init__(self, lower, upper, log=False, when=None):
-        self.lower, self.upper, self.log, self.when = lower, upper, log, when
+        self.lower, self.upper, self.log, self.when = lower, upper, log, _condition(when)
+        if not isinstance(log, bool):
+            raise SpaceError(f"log: True or False is wanted, found {log!r}")
         # A text is a bound that depends on other parameters, in R's words.
         for bound in (lower, upper):
             if not isinstance(bound, str):
@@ -80,8 +97,8 @@ class _Number:
             raise SpaceError(f"the lower end of a range must be below the upper one, found {lower!r} and {upper!r}")
 
     def _check(self, bound):
-        if not is_number(bound) or not math.isfinite(bound):
-            raise SpaceError(f"the end of a range must be a number, found {bound!r}")
+        if not is_number(bound) or not abs(bound) <= LARGEST:
+            raise SpaceError(f"the end of a range must be a number, and finite, found {bound!r}")
 
     def domain(self):
         return ", ".join(bound if isinstance(bound, str) else repr(self.type(bound)) for bound in (self.lower, self.upper))
@@ -172,6 +189,9 @@ class Space:
 
     def expression(self, text):
         """R's words, in which `any name` may stand between backquotes."""
+        if not isinstance(text, str):
+            raise SpaceError(f"a condition is a text, such as 'x > 0.5', found {text!r}")
+
         def written(found):
             if found[1] not in self.written:
                 raise SpaceError(f"`{found[1]}` in {text!r} is no parameter{self._nearest(found[1])}")
@@ -185,6 +205,8 @@ class Space:
             yield f'{written} "{written}=" {domain.letter} ({self.expression(domain.domain())}){condition}'
 
     def configuration_line(self, configuration):
+        if not isinstance(configuration, dict):
+            raise SpaceError(f"a configuration is a dictionary of names and values, found {configuration!r}")
         for name in configuration:
             if name not in self.domains:
                 raise SpaceError(f"'{name}' is no parameter of the space{self._nearest(name)}")

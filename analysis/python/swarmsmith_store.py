@@ -2,10 +2,13 @@
 import json
 import os
 import pathlib
+import re
 import sqlite3
 import subprocess
 
-from swarmsmith_space import Error
+from swarmsmith_space import Error, OptionError
+
+PURPOSES = ("test", "score")  # of v_design_scores
 
 
 def program_path(program):
@@ -17,11 +20,21 @@ def program_path(program):
     return str(program)
 
 
+def cannot_start(program, error):
+    return Error(f"{program} cannot be started: {error.strerror}. Put `swarmsmith` into PATH, or its folder into SWARMSMITH_BIN")
+
+
+def path_of(name, path):
+    if not isinstance(path, (str, os.PathLike)) or not os.fspath(path):
+        raise OptionError(f"{name}: the path of a store is wanted, found {path!r}")
+    return pathlib.Path(path)
+
+
 class Store:
     """A campaign's store. Each query sees one state of it; queries one after the other may see a later one."""
 
     def __init__(self, path):
-        self.path = pathlib.Path(path)
+        self.path = path_of("path", path)
         if not self.path.is_file():
             raise Error(f"{self.path}: there is no such store")
         self._connection = sqlite3.connect(self.path.resolve().as_uri() + "?mode=ro", uri=True, timeout=5)
@@ -54,12 +67,17 @@ class Store:
     def design_means(self, purpose="test"):
         """A row a finished design and source: mission, method, design, candidate, source, mean, runs. These are the
         values of figures, tables and tests. `purpose`: `test`, the campaign's own, or `score`, asked for later."""
+        if purpose not in PURPOSES:
+            raise OptionError(f"purpose: {purpose!r} is not known here: it is one of {', '.join(PURPOSES)}. "
+                              "Other evaluations are rows of v_evaluations")
         return self.query(
             "SELECT mission, method, design, candidate, source, avg(score) AS mean, count(*) AS runs "
             "FROM v_design_scores WHERE purpose = ? GROUP BY design, source ORDER BY design, source", purpose)
 
     def machine(self, candidate):
         """The text of the grammar of a candidate: 812, or "c812"."""
+        if isinstance(candidate, bool) or not re.fullmatch(r"c?[0-9]{1,18}", str(candidate)):
+            raise OptionError(f'{candidate!r} is no candidate: its number is wanted, as 812 or "c812"')
         number = int(str(candidate).removeprefix("c"))
         rows = self.query("SELECT fsm_config FROM v_candidates WHERE candidate = ?", number)
         if not rows:
@@ -74,7 +92,10 @@ def evaluate(machine, seeds=None, *options, program=None):
     words = [program_path(program), "evaluate", str(machine), "--json", "--quiet", *map(str, options)]
     if seeds is not None:
         words += ["--seeds", str(seeds)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise cannot_start(words[0], error) from error
     if done.returncode != 0:
         raise Error(done.stderr.strip().removeprefix("swarmsmith: "))
     return {run["seed"]: run["score"] for run in map(json.loads, done.stdout.splitlines())}

@@ -12,9 +12,10 @@ import sys
 import tempfile
 import warnings
 
-from swarmsmith_space import CostError, Error, OptionError, Space, SpaceError, is_number, plain
-from swarmsmith_store import Store, program_path
+from swarmsmith_space import LARGEST, CostError, Error, OptionError, Space, SpaceError, is_number, plain, sequence
+from swarmsmith_store import Store, cannot_start, path_of, program_path
 
+_MAXIMIZE = "direction=maximize"  # a word of each call, so that the program compares it with that of the store
 Trial = collections.namedtuple("Trial", "id configuration instance seed bound")
 Trial.__doc__ = """What is to be evaluated: `id` for `tell`, the configuration as a dictionary of its active parameters,
 the instance (of the list that was given, else None), a seed, and the most time it may take (None without boundMax)."""
@@ -49,6 +50,26 @@ def _frame(rows):
                              for row in rows])
 
 
+def instances_of(instances):
+    """Those of the option: one without a value if there are none."""
+    instances = [None] if instances is None else sequence("instances", instances, "values", OptionError)
+    if not instances:
+        raise OptionError("instances is an empty list: leave it out where there are none")
+    return instances
+
+
+def _check_option(name, value):
+    if name.startswith(("test_instances", "train_instances", "target_", "log_file", "exec_dir")) or name.endswith("_file"):
+        raise OptionError(f"{name} has no effect here: a function, its instances and a store are given")
+    if not isinstance(value, (bool, str)) and not (is_number(value) and abs(value) <= LARGEST):
+        raise OptionError(f"{name}: a number, a text, True or False is wanted, found {value!r}")
+
+
+def _check_whole(name, value, least):
+    if not is_number(value) or value != value // 1 or value < least:
+        raise OptionError(f"{name}: a whole number of at least {least} is wanted, found {value!r}")
+
+
 class Tuner:
     """irace as ask and tell, for values that Python works out:
 
@@ -72,22 +93,25 @@ class Tuner:
             raise OptionError(f'direction is "minimize" or "maximize", found {direction!r}')
         self._sign = -1 if direction == "maximize" else 1
         options = {name: value for name, value in options.items() if value is not None}
-        for name in options:
-            if name.startswith(("test_instances", "train_instances", "target_", "log_file", "exec_dir")) or \
-                    name.endswith("_file"):
-                raise OptionError(f"{name} has no effect here: a function, its instances and a store are given")
-        self._instances = [None] if instances is None else list(instances)
-        if not self._instances:
-            raise OptionError("instances is an empty list: leave it out where there are none")
+        for name, value in options.items():
+            _check_option(name, value)
+        _check_whole("parallel", parallel, 1)
+        if digits is not None:
+            _check_whole("digits", digits, 0)
+        initial = sequence("initial", () if initial is None else initial, "configurations", SpaceError)
+        forbidden = sequence("forbidden", () if forbidden is None else forbidden, "conditions", SpaceError)
+        self._instances = instances_of(instances)
+        kept = None if store is None else path_of("store", store).resolve()
         self._open, self._count, self._best, self.store = {}, 0, None, store
+        self._configurations, self._numbers, self._failed = {}, {}, {}
         self._folder = tempfile.TemporaryDirectory(prefix="swarmsmith-tuner-")
         folder = pathlib.Path(self._folder.name)
-        self._file = pathlib.Path(store).resolve() if store else folder / "run.db"
+        self._file = kept or folder / "run.db"
         self._listener = socket.socket(socket.AF_UNIX)
         self._events, self._told, self._race, self._step = None, 0, {}, {}
         self._budget = options.get("max_experiments")
         try:
-            self._write_files(folder, initial or (), forbidden or (), self._digits(digits))
+            self._write_files(folder, initial, forbidden, self._digits(digits, self._check_store(direction)))
             self._start(folder, bool(initial), parallel, program, options)
         except BaseException:
             self._listener.close()
@@ -103,8 +127,8 @@ class Tuner:
         relay = pathlib.Path(__file__).resolve().parent / "swarmsmith_relay.py"
         scenario = {"parameterFile": folder / "parameters.txt", "trainInstancesFile": folder / "instances.txt",
                     "execDir": self._file.parent, "targetRunner": relay, "targetRunnerLauncher": sys.executable, "logFile": "",
-                    "targetCmdline": "-IS {targetRunner} {configurationID} {instanceID} {seed} bound={bound} "
-                                     "instance={instance} {targetRunnerArgs}"}
+                    "targetCmdline": "-IS {targetRunner} {configurationID} {instanceID} {seed} bound={bound} instance={instance} "
+                                     + (_MAXIMIZE + " " if self._sign < 0 else "") + "{targetRunnerArgs}"}
         if begins_with:
             scenario["configurationsFile"] = folder / "configurations.txt"
         self._given = [*[None] * len(scenario), *options]  # by the line of the scenario, for errors
@@ -117,25 +141,37 @@ class Tuner:
                 self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
                                                  env={**os.environ, "SWARMSMITH_TUNER": str(folder / "socket")})
             except OSError as error:
-                raise Error(f"{words[0]} cannot be started: {error.strerror}. Put `swarmsmith` into PATH, or its folder into "
-                            "SWARMSMITH_BIN") from error
+                raise cannot_start(words[0], error) from error
 
-    def _digits(self, digits):
+    def _check_store(self, direction):
+        """The text of the run that a store holds already, which must have this direction: scores have its sign."""
+        if not self._file.is_file():
+            return ""
+        with Store(self._file) as store:
+            text = "\n".join(row["file"] for row in store.query("SELECT file FROM v_campaigns"))
+        found = "maximize" if re.search(rf"(?m)^command_line = .* {_MAXIMIZE} ", text) else "minimize"
+        if found != direction and "swarmsmith_relay.py" in text:
+            raise OptionError(f'direction: {self._file} was made with "{found}", and its values would change their sign: give '
+                              f'direction="{found}", or another store')
+        return text
+
+    def _digits(self, digits, kept):
         """Those of a store that is there already: the same call must go on."""
         if digits is not None:
-            return digits
-        if self._file.is_file():
-            with Store(self._file) as store:
-                for row in store.query("SELECT file FROM v_campaigns"):
-                    if found := re.search(r"(?m)^digits = (\d+)", row["file"]):
-                        return int(found[1])
-        return self._space.digits()
+            return int(digits)
+        found = re.search(r"(?m)^digits = (\d+)", kept)
+        return int(found[1]) if found else self._space.digits()
 
     def _write_files(self, folder, initial, forbidden, digits):
         self._lines = [f"space: {name}" for name in self._space.domains]
         self._lines += ["forbidden", *[f"forbidden: {text}" for text in forbidden], "digits", "digits"]
-        lines = [*self._space.parameter_lines(), "[forbidden]", *map(self._space.expression, forbidden), "[global]",
-                 f"digits = {digits}"]
+        conditions = []
+        for number, text in enumerate(forbidden):
+            try:
+                conditions.append(self._space.expression(text))
+            except SpaceError as error:
+                raise SpaceError(f"forbidden[{number}]: {error}") from None
+        lines = [*self._space.parameter_lines(), "[forbidden]", *conditions, "[global]", f"digits = {digits}"]
         (folder / "parameters.txt").write_text("\n".join(lines) + "\n")
         names = [f"{number}-{plain(instance)}" for number, instance in enumerate(self._instances, 1)]
         (folder / "instances.txt").write_text("\n".join(names) + "\n")
@@ -169,12 +205,15 @@ class Tuner:
         text = b""
         while not text.endswith(b"\n"):
             text += link.recv(65536)
-        _, instance, seed, bound, _, *words = text.decode()[:-1].split("\0")
+        candidate, instance, seed, bound, _, *words = text.decode()[:-1].split("\0")
+        texts = dict(word.split("=", 1) for word in words[self._sign < 0:])  # without _MAXIMIZE
         self._count += 1
         self._open[self._count] = link
+        self._configurations[self._count] = self._space.values(texts)
+        self._numbers[candidate, instance, seed] = self._count
         bound = bound.removeprefix("bound=")
         return (self._count, int(instance.rstrip("t")) - 1, int(seed), float(bound) if bound else None,
-                dict(word.split("=", 1) for word in words))
+                texts)
 
     def _trial(self, number, instance, seed, bound, texts):
         return Trial(number, self._space.values(texts), self._instances[instance], seed, bound)
@@ -182,13 +221,15 @@ class Tuner:
     def tell(self, id, value, time=None):
         """The value of a trial, infinite for a configuration that is to be dropped, and the time it took."""
         if value is None or isinstance(value, (str, bytes)):
-            raise CostError(f"the value of trial {id} is {value!r}: a number is wanted, or math.inf to drop its configuration")
+            raise self._no_cost(id, "value", f"{value!r}: a number is wanted, or math.inf to drop its configuration")
         try:
             value = float(value)
-        except (TypeError, ValueError):
-            raise CostError(f"the value of trial {id} is of type {type(value).__name__}: a number is wanted") from None
+        except (TypeError, ValueError, OverflowError):
+            raise self._no_cost(id, "value", f"of type {type(value).__name__}: a number is wanted") from None
         if math.isnan(value):
-            raise CostError(f"the value of trial {id} is not a number; tell math.inf to drop its configuration")
+            raise self._no_cost(id, "value", "not a number; tell math.inf to drop its configuration")
+        if time is not None and not (is_number(time) and 0 < time <= LARGEST):
+            raise self._no_cost(id, "time", f"{time!r}: a finite number above 0 is wanted, or None")
         text = "Inf" if math.isinf(value) else repr(self._sign * value)
         self._answer(id, "cost " + text + ("" if time is None else f" {float(time)!r}"))
         self._told += 1
@@ -196,9 +237,19 @@ class Tuner:
     def fail(self, id, reason):
         """There is no value: the run ends (option on_failure of the program), and goes on with the same call."""
         self._answer(id, f"error {reason}")
+        self._failed[id] = reason
+
+    def _no_cost(self, number, what, found):
+        text = f"the {what} of trial {number} is {found}"
+        if self._is_open(number):
+            text += f"; its configuration is {self._configurations[number]}"
+        return CostError(text)
+
+    def _is_open(self, number):
+        return isinstance(number, int) and number in self._open
 
     def _answer(self, id, text):
-        if id not in self._open:
+        if not self._is_open(id):
             raise Error(f"trial {id} was not asked, or was told already")
         with self._open.pop(id) as link:
             try:
@@ -266,6 +317,14 @@ class Tuner:
     def _in_our_words(self, said):
         """What the program says of the files that it was given, as what it is here."""
         kind, lines = Error, []
+        if found := re.search(r"failed: (.*)\n *The call was:\n.*swarmsmith_relay\.py'? (\S+) (\S+) (\S+) ", said):
+            number = self._numbers.get(found.groups()[1:])
+            if number is not None:
+                return Error(f"trial {number} failed: {self._failed.get(number, found[1])}; its configuration is "
+                             f"{self._configurations[number]}" +
+                             (f". The same call goes on from {self.store}" if self.store else ""))
+        if not self.store:
+            said = re.sub(r"(?m)^.*everything so far is in .*\n?", "", said)
         for line in said.strip().splitlines():
             line = line.removeprefix("swarmsmith: ")
             if found := re.search(r"(?:\S*/)?\b(scenario|parameters|configurations)\.txt:(\d+)(?::\d+)?: ", line):

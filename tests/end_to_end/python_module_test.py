@@ -59,6 +59,17 @@ class PythonModule(ProgramTest):
             self.assertIn(sentence, str(raised.exception))
         with swarmsmith.Store(self.store) as store, self.assertRaises(swarmsmith.Error):
             store.machine("c999999")
+        with swarmsmith.Store(self.store) as store:
+            for candidate in ("d1", "", None, 1.5, True):
+                with self.assertRaisesRegex(swarmsmith.OptionError, "is no candidate"):
+                    store.machine(candidate)
+            for purpose in ("tset", "transfer", None, ["test"]):
+                with self.assertRaisesRegex(swarmsmith.OptionError, "one of test, score"):
+                    store.design_means(purpose)
+        with self.assertRaisesRegex(swarmsmith.Error, "the path of a store"):
+            swarmsmith.Store(3)
+        with self.assertRaisesRegex(swarmsmith.Error, "cannot be started"):
+            swarmsmith.evaluate("best.fsm", program="/nowhere/swarmsmith")
         with self.assertRaises(swarmsmith.Error) as raised:
             swarmsmith.evaluate("--nstates 1 --s0 1")
         self.assertIn("--flavour", str(raised.exception))

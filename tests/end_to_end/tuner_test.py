@@ -63,7 +63,10 @@ class SpaceTest(unittest.TestCase):
             self.assertIn("a tuple of two numbers is a range, a list is a choice", self.refusal({"x": domain}))
         self.assertIn("x: the lower end of a range must be below the upper one", self.refusal({"x": (1, 0)}))
         for call in (lambda: swarmsmith.Real(0, 1, log=True), lambda: swarmsmith.Integer(1.5, 3), lambda: swarmsmith.Real(0, math.inf),
-                     lambda: swarmsmith.Real("0.5", None), lambda: swarmsmith.Categorical([])):
+                     lambda: swarmsmith.Real("0.5", None), lambda: swarmsmith.Categorical([]),
+                     lambda: swarmsmith.Real(0, 1, when=3), lambda: swarmsmith.Real(1, 2, log="yes"),
+                     lambda: swarmsmith.Real(0, 10**400),
+                     lambda: swarmsmith.Categorical("abc"), lambda: swarmsmith.Ordinal(3), lambda: swarmsmith.Ordinal(["a"], when=["b"])):
             self.assertRaises(swarmsmith.SpaceError, call)
             self.assertRaises(ValueError, call)
 
@@ -194,12 +197,34 @@ class TunerTest(unittest.TestCase):
         with self.assertRaisesRegex(ZeroDivisionError, "of mine") as raised:
             swarmsmith.tune(breaks, SPACE, n_jobs=2, **OPTIONS)
         self.assertIn("in breaks", str(raised.exception.__cause__))
-        with self.assertRaisesRegex(swarmsmith.Error, "was killed"):
-            swarmsmith.tune(dies, SPACE, n_jobs=2, **OPTIONS)
-        for answer in (None, "0.5", math.nan, [1]):
+        for function, how in ((dies, "was killed by SIGKILL"), (lambda trial: os._exit(3), "ended itself with exit status 3")):
+            with self.assertRaisesRegex(swarmsmith.Error, how + r"; its configuration is \{'x': [0-9.]+, "):
+                swarmsmith.tune(function, SPACE, n_jobs=2, **OPTIONS)
+
+    def test_what_is_no_cost_is_refused(self):
+        for answer in (None, "0.5", math.nan, [1], 10**400, (), (1,), (1, 2, 3), (1, "a"), (1, -1), (1, math.nan)):
             for jobs in (1, 2):
-                with self.assertRaisesRegex(swarmsmith.CostError, r"the value of trial \d is"):
+                with self.subTest(answer, jobs=jobs), self.assertRaisesRegex(
+                        swarmsmith.CostError, r"the (value|time) of trial \d is .*; its configuration is \{'x': [0-9.]+, "):
                     swarmsmith.tune(lambda trial: answer, SPACE, n_jobs=jobs, **OPTIONS)
+
+    def test_a_store_of_the_other_direction_is_refused(self):
+        space, options = {"x": (0.0, 1.0)}, {"max_experiments": 72, "seed": 3, "first_test": 2, "mu": 2, "store": self.store}
+
+        def value(trial):
+            return abs(trial.configuration["x"] - 0.3)
+        for made, other in (("minimize", "maximize"), ("maximize", "minimize")):
+            for trials in (20, 100):  # Broken off, and finished.
+                left = iter(range(trials))
+                try:
+                    best = swarmsmith.tune(lambda trial: value(trial) + 0 * next(left), space, direction=made, **options)
+                except StopIteration:
+                    best = None
+                with self.assertRaisesRegex(swarmsmith.OptionError, f'^direction: .*x.db was made with "{made}"'):
+                    swarmsmith.tune(value, space, direction=other, **options)
+            with self.assertWarnsRegex(UserWarning, "nothing was run"):
+                self.assertEqual(swarmsmith.tune(value, space, direction=made, **options), best)
+            self.store.unlink()
 
     def test_jobs_end_with_their_process(self):
         program = PROGRAM.replace("seed=1", "seed=1, n_jobs=3").replace("time.sleep(0.01)", "print(__import__('os').getpid(), "
@@ -270,7 +295,7 @@ class TunerTest(unittest.TestCase):
             tuner.fail(trial.id, "out of memory")
             with self.assertRaisesRegex(swarmsmith.Error, "told already"):
                 tuner.tell(trial.id, 1)
-            with self.assertRaisesRegex(swarmsmith.Error, "out of memory"):
+            with self.assertRaisesRegex(swarmsmith.Error, r"^trial 1 failed: out of memory; its configuration is \{'x': [^\n]*\}$"):
                 tuner.ask()
 
     def test_what_is_wrong_is_said(self):
@@ -285,6 +310,21 @@ class TunerTest(unittest.TestCase):
                 (wrong_option, SPACE, {"seed": "one"}, "^seed: "),
                 (wrong_option, SPACE, {"direction": "up"}, "direction"),
                 (wrong_option, SPACE, {"n_jobs": 0}, "n_jobs"),
+                (wrong_option, SPACE, {"n_jobs": True}, "n_jobs"),
+                (wrong_option, SPACE, {"progress": "no"}, "^progress is"),
+                (wrong_option, SPACE, {"instances": "ab"}, "^instances: a list"),
+                (wrong_option, SPACE, {"instances": 3}, "^instances: a list"),
+                (wrong_option, SPACE, {"parallel": "two"}, "^parallel: a whole number"),
+                (wrong_option, SPACE, {"digits": "4"}, "^digits: a whole number"),
+                (wrong_option, SPACE, {"store": 3}, "^store: the path"),
+                (wrong_option, SPACE, {"store": ""}, "^store: the path"),
+                (wrong_option, SPACE, {"mu": [3]}, "^mu: a number"),
+                (wrong_option, SPACE, {"mu": math.nan}, "^mu: a number"),
+                (wrong_option, SPACE, {"mu": 10**400}, "^mu: a number"),
+                (wrong_space, SPACE, {"initial": {"x": 0.2}}, "^initial: a list"),
+                (wrong_space, SPACE, {"initial": [0.2]}, r"^initial\[0\]: a configuration is a dictionary"),
+                (wrong_space, SPACE, {"forbidden": "x > 0.9"}, "^forbidden: a list"),
+                (wrong_space, SPACE, {"forbidden": [3]}, r"^forbidden\[0\]: a condition is a text"),
                 (wrong_space, SPACE, {"initial": [{"x": 0.5, "y": 1}]}, r"^initial\[0\]: 'y' is no parameter"),
                 (wrong_space, names, {"initial": [{"learning-rate": 0.6}]}, r"^initial\[0\]: .*'k'"),
                 (wrong_space, names, {"forbidden": ["k > ["]}, r"^forbidden: k > \[: found"),
@@ -329,6 +369,30 @@ class TunerTest(unittest.TestCase):
                     send({"tell": [{"id": trial["id"], "cost": abs(trial["configuration"]["x"] - 0.3)}]})
         self.assertEqual(process.returncode, 0)
         self.assertLess(message["best"][0]["cost"], 0.1)
+
+    def test_errors_over_a_pipe_name_the_line(self):
+        real = {"type": "real", "lower": 0, "upper": 1}
+        first = {"space": {"x": real}, "max_experiments": 180, "seed": 1}
+        for lines, sentence in (
+                ([], "line 1: the input ended"), (["{"], "line 1: this is no JSON"), ([[1]], "line 1: a JSON object"),
+                ([{"seed": 1}], "line 1: `space` is missing"), ([{"space": [1]}], "line 1: `space` is an object"),
+                ([{"space": {"x": 3}}], "line 1: x: an object with `type`"),
+                ([{"space": {"x": {"type": "foo"}}}], "line 1: x: .*one of real, integer, categorical, ordinal"),
+                ([{"space": {"x": {"type": "real", "lower": 0}}}], "line 1: x: `upper` is missing"),
+                ([{"space": {"x": {**real, "uper": 1}}}], "line 1: x: `uper` is not known"),
+                ([{"space": {"x": {**real, "when": 3}}}], "line 1: x: when: a condition is a text"),
+                ([{**first, "parallel": "a"}], "line 1: parallel: a whole number"),
+                ([first], "line 2: the input ended, and an answer to trial 1 was wanted: the run is not over"),
+                ([first, {"tel": []}], "line 2: `tell` is missing"), ([first, {"tell": [1]}], "line 2: `tell` is a list of objects"),
+                ([first, {"tell": [{"id": 1, "cost": math.nan}]}], "line 2: the cost of trial 1 is NaN: .* null"),
+                ([first, {"tell": [{"id": [1], "cost": 1}]}], r"line 2: trial \[1\] was not asked"),
+                ([first, {"tell": [{"id": 1, "cost": 1, "time": "a"}]}], "line 2: the time of trial 1 is 'a'")):
+            text = "".join((line if isinstance(line, str) else json.dumps(line)) + "\n" for line in lines)
+            done = subprocess.run([sys.executable, "-m", "swarmsmith"], input=text, text=True, capture_output=True, check=False,
+                                  env={**os.environ, "PYTHONPATH": str(MODULE)})
+            with self.subTest(sentence):
+                self.assertRegex(done.stderr, "^swarmsmith: " + sentence)
+                self.assertEqual(done.returncode, 1)
 
     def test_the_example(self):
         done = subprocess.run([sys.executable, SOURCE / "examples" / "tuner.py", "x.db"], cwd=self.folder, text=True,
