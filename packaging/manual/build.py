@@ -2,6 +2,7 @@
 """build.py BIN SITE: writes the manual as pages of HTML, for a browser and from a disk: the pages of docs/ in the order
 of docs/README.md, and pages made of what the programs in BIN and the store's schema declare. Needs mkdocs and its theme
 material; nothing is fetched from anywhere."""
+import contextlib
 import json
 import os
 import pathlib
@@ -232,22 +233,22 @@ def program_page(tells):
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-def schema():
-    """The store's schema, empty, as the programs make it, but for the names in flavour_name: those are of no view's text."""
+def schema(bin_folder):
+    """The schema of a store, as the program makes it."""
     connection = sqlite3.connect(":memory:")
-    for file in sorted((SOURCE / "storage/schema").glob("0*.sql")):
-        connection.executescript(file.read_text())
-    place, view = "-- flavour_name\n", "CREATE VIEW flavour_name(flavour, kind, number, name) AS VALUES (1, 1, 1, 1);\n"
-    views = (SOURCE / "storage/schema/views.sql").read_text()
-    if views.count(place) != 1:
-        raise SystemExit("storage/schema/views.sql has no place for flavour_name")
-    connection.executescript(views.replace(place, view))
+    with tempfile.TemporaryDirectory() as folder:
+        machine, store = pathlib.Path(folder, "machine.txt"), pathlib.Path(folder, "one.db")
+        machine.write_text("--nstates 1 --s0 1\n")
+        subprocess.run([pathlib.Path(bin_folder, "swarmsmith"), "import", machine, "--into", store, "--flavour", "watermelon",
+                        "--mission", "aggregation"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with contextlib.closing(sqlite3.connect(store)) as made:
+            made.backup(connection)
     return connection
 
 
-def views_page():
+def views_page(bin_folder):
     """The public views with their columns and definitions."""
-    connection = schema()
+    connection = schema(bin_folder)
     parts = ["# Views of the store",
              "This page is made of the schema that the programs carry. [The store](storage.md#views) "
              "explains the columns; `swarmsmith query` prints the same list."]
@@ -264,7 +265,7 @@ def write_made_pages(stage, bin_folder):
     for program in programs.built(bin_folder):
         pages.append((program, f"{program}.md"))
         stage.write(pages[-1][1], converted(program_page(programs.declared(bin_folder, program)), lambda link: link[0]))
-    stage.write("views.md", converted(views_page(), lambda link: link[0]))
+    stage.write("views.md", converted(views_page(bin_folder), lambda link: link[0]))
     stage.made = [*[place for _, place in pages], "views.md"]
     stage.made_after = {"command-line.md": ("Options", pages), "storage.md": ("Views", "views.md")}
 
