@@ -675,7 +675,8 @@ std::vector<QuarantineStatus> Coordinator::quarantine(TimePoint now) const {
         return hexadecimal(workers.at(number).hello.identity) == liar.first;
       });
       const bool is_known = one != principal.workers.end();
-      add(principal, liar.second, is_known ? *one : 0, is_known && workers.at(*one).connected ? 1 : 0);
+      add(principal, liar.second, is_known ? *one : 0,
+          is_known && workers.at(*one).connected ? 1 : 0);
     }
   }
   return all;
