@@ -210,7 +210,8 @@ std::vector<std::string> matrix_notes(const Comparison& comparison) {
             .value_or(fmt::format("values are too few: even the clearest difference would have a p "
                                   "of {:.3g}",
                                   family.least_p));
-    missions[sentence].insert(key.second);
+    const bool is_only_source = families.begin()->first.first == families.rbegin()->first.first;
+    missions[sentence].insert(is_only_source ? key.second : key.second + " in " + key.first);
   }
   for (const auto& [sentence, of] : missions) {
     notes.push_back(fmt::format("{}: {}; that methods share a letter says nothing there",

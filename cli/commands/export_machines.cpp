@@ -58,8 +58,8 @@ struct World {
   Profile profile;
 };
 
-/// The mission and the profile as the store's campaign has them. Where it has no profile, it is the
-/// one of the mission's robot.
+/// The mission and the profile as the store's campaign has them. Where it has no profile, e-pucks
+/// get the published one; files of RVRs have none.
 Expected<World> world_of(StoreReader& store, DesignId design, const std::string& name) {
   const auto stored = store.campaign_of(design);
   if (!stored) return Unexpected(stored.error());
