@@ -60,10 +60,15 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
 }
 
 std::string joined(std::span<const std::string> words) {
+  const bool quotes = std::ranges::any_of(
+      words, [](const std::string& word) { return word.find(',') != std::string::npos; });
+  const std::string quote = quotes ? "\"" : "";
   std::string text;
   for (const std::string& word : words) {
     if (!text.empty()) text += ", ";
+    text += quote;
     text += word;
+    text += quote;
   }
   return text;
 }

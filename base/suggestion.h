@@ -15,7 +15,7 @@ std::optional<std::string> closest(std::string_view word, std::span<const std::s
 /// ` (did you mean "seed"?)`, or nothing: to be put behind what was found.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
-/// `a, b, c`.
+/// `a, b, c`; in quotes where one of them holds a comma.
 std::string joined(std::span<const std::string> words);
 
 }  // namespace swarmsmith

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "base/suggestion.h"
 #include "sim/mission/trajectory_csv.h"
+#include "sim/robot/robot_fields.h"
 
 namespace swarmsmith {
 namespace {
@@ -14,11 +15,11 @@ using Values = std::vector<double>;
 
 constexpr int kLidarRays = 719;
 
-/// One sensor: its name, its columns in a swarm of so many robots, and their values.
+/// One sensor: its name, its columns in a swarm of so many such robots, and their values.
 struct Device {
   Sensor sensor;
   std::string_view name;
-  Names (*columns)(int robots);
+  Names (*columns)(int robots, const Robot& robot);
   void (*values)(const Readings& readings, Values& values);
 };
 
@@ -30,7 +31,7 @@ Names numbered(std::string_view stem, int count, std::string_view unit) {
   return names;
 }
 
-Names neighbour_columns(int robots) {
+Names neighbour_columns(int robots, const Robot&) {
   Names names = {"neighbours"};
   for (int i = 0; i + 1 < robots; ++i) {
     const std::string stem = "neighbour" + std::to_string(i);
@@ -50,7 +51,7 @@ void neighbour_values(const Readings& readings, Values& values) {
 
 const std::array<Device, 12> kDevices = {{
     {Sensor::GroundColor, "ground_color",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"ground_r", "ground_g", "ground_b"};
      },
      [](const Readings& r, Values& values) {
@@ -58,61 +59,67 @@ const std::array<Device, 12> kDevices = {{
          values.push_back(channel);
      }},
     {Sensor::Velocity, "velocity",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"velocity_x_mps", "velocity_y_mps"};
      },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), {r.velocity_mps.x, r.velocity_mps.y});
      }},
     {Sensor::Accelerometer, "accelerometer",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"acceleration_x_g", "acceleration_y_g", "acceleration_z_g"};
      },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), {r.acceleration_g.x, r.acceleration_g.y, r.acceleration_g.z});
      }},
     {Sensor::Gyroscope, "gyroscope",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"spin_x_radps", "spin_y_radps", "spin_z_radps"};
      },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), {r.spin_radps.x, r.spin_radps.y, r.spin_radps.z});
      }},
     {Sensor::Imu, "imu",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"pitch_rad", "roll_rad", "yaw_rad"};
      },
      [](const Readings& r, Values& values) {
        const Orientation& o = r.orientation;
        values.insert(values.end(), {o.pitch_rad, o.roll_rad, o.yaw_rad});
      }},
-    {Sensor::FrontLight, "front_light", [](int) { return Names{"front_light_lux"}; },
+    {Sensor::FrontLight, "front_light", [](int, const Robot&) { return Names{"front_light_lux"}; },
      [](const Readings& r, Values& values) { values.push_back(r.front_light_lux); }},
     {Sensor::LightRing, "light_ring",
-     [](int) { return numbered("light", kProximitySensors, "_lux"); },
+     [](int, const Robot& robot) {
+       return numbered("light", kProximitySensors,
+                       kOfLightStrengths.acts_on(robot) ? "_strength" : "_lux");
+     },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), r.light_lux.begin(), r.light_lux.end());
      }},
     {Sensor::Locator, "locator",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"position_x_m", "position_y_m"};
      },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), {r.position_m.x, r.position_m.y});
      }},
     {Sensor::Quaternion, "quaternion",
-     [](int) {
+     [](int, const Robot&) {
        return Names{"rotation_w", "rotation_x", "rotation_y", "rotation_z"};
      },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), {r.rotation.w, r.rotation.x, r.rotation.y, r.rotation.z});
      }},
     {Sensor::Proximity, "proximity",
-     [](int) { return numbered("proximity", kProximitySensors, "_m"); },
+     [](int, const Robot& robot) {
+       return numbered("proximity", kProximitySensors,
+                       kOfStrengths.acts_on(robot) ? "_strength" : "_m");
+     },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), r.proximity_m.begin(), r.proximity_m.end());
      }},
-    {Sensor::Lidar, "lidar", [](int) { return numbered("lidar", kLidarRays, "_m"); },
+    {Sensor::Lidar, "lidar", [](int, const Robot&) { return numbered("lidar", kLidarRays, "_m"); },
      [](const Readings& r, Values& values) {
        values.insert(values.end(), r.lidar_m.begin(), r.lidar_m.end());
      }},
@@ -151,10 +158,11 @@ Expected<Sensors> sensors_from_names(std::string_view list) {
   }
 }
 
-ReadingColumns::ReadingColumns(Sensors sensors, int robots) : sensors_(sensors) {
+ReadingColumns::ReadingColumns(Sensors sensors, int robots, const Robot& robot)
+    : sensors_(sensors) {
   for (const Device& device : kDevices) {
     if (!sensors.has(device.sensor)) continue;
-    const Names columns = device.columns(robots);
+    const Names columns = device.columns(robots, robot);
     names_.insert(names_.end(), columns.begin(), columns.end());
     widths_.push_back(columns.size());
   }

@@ -7,6 +7,7 @@
 
 #include "base/expected.h"
 #include "sim/engine/readings.h"
+#include "sim/robot/robot.h"
 
 namespace swarmsmith {
 
@@ -26,8 +27,9 @@ std::string leds_text(const Leds& leds);
 /// Names and cells of the columns of some sensors.
 class ReadingColumns {
  public:
-  /// A swarm of `robots`: each has a column for each other one that it may see.
-  ReadingColumns(Sensors sensors, int robots);
+  /// A swarm of so many robots: each has a column for each other one that it may see. Names say
+  /// what the robot's sensors give.
+  ReadingColumns(Sensors sensors, int robots, const Robot& robot);
 
   const std::vector<std::string>& names() const { return names_; }
 

@@ -44,9 +44,11 @@ ExitCode run_assess(const AssessArguments& arguments, Output& output) {
       arguments.profile.empty() ? profile_for(*robot) : arguments.profile, "--profile", output);
   if (!profile) return fail(output, ExitCode::Usage, profile.error());
   if (const auto why = misfit(*flavour, *robot))
-    return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--flavour"});
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput, *why + "; give another --flavour or --robot", "--flavour"});
   if (const auto why = misfit(*profile, *robot))
-    return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--profile"});
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput, *why + "; give another --profile or --robot", "--profile"});
   if (const auto why = assessment::too_big(*robot))
     return fail(output, ExitCode::Usage, {ErrorKind::BadInput, *why, "--robot"});
   const auto runs = [](const ModuleSpec& spec) { return !is_external(spec.module); };

@@ -215,8 +215,15 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   auto mission = mission_of(arguments, named, output);
   if (!mission) return Unexpected(mission.error());
   job.mission = std::move(*mission);
-  if (const auto why = misfit(job.flavour, job.mission.robot)) return bad_input(*why, "--flavour");
-  if (const auto why = misfit(job.profile, job.mission.robot)) return bad_input(*why, "--profile");
+  const Robot& robot = job.mission.robot;
+  const std::string other = ", or a --mission of another robot";
+  if (const auto why = misfit(job.flavour, robot))
+    return bad_input(*why + "; give another --flavour" + other, "--flavour");
+  if (const auto why = misfit(job.profile, robot))
+    return bad_input(*why + "; give another --profile" + other, "--profile");
+  const auto* network = std::get_if<Network>(&job.controller);
+  if (const auto why = network != nullptr ? misfit(network->inputs, robot) : std::nullopt)
+    return bad_input(*why + "; give another machine" + other, where);
   return job;
 }
 

@@ -139,7 +139,7 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
     if (!sensors) return bad_input(sensors.error().message, "--readings");
     recording.sensors_ = *sensors;
   }
-  recording.columns_.emplace(recording.sensors_, mission.robots);
+  recording.columns_.emplace(recording.sensors_, mission.robots, mission.robot);
   // Files last: what is refused above leaves none behind.
   for (const auto& [name, kind, sink] :
        {std::tuple(&arguments.csv, FileKind::Table, &recording.csv_),

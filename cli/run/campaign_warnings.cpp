@@ -4,6 +4,7 @@
 
 #include "base/text/json.h"
 #include "sim/control/flavour.h"
+#include "sim/engine/fitting.h"
 #include "sim/engine/kept_constants.h"
 
 namespace swarmsmith::cli {
@@ -55,6 +56,27 @@ void warn_about_light(const Method& method, const Campaign& campaign,
   }
 }
 
+/// What a robot sees of the floor there, it does not stand on.
+void warn_about_ground_points(const Mission& mission, std::vector<std::string>& warnings) {
+  for (const Point& point : ground_points_outside(mission.robot))
+    warnings.push_back("mission " + mission.name + ": the robot's ground sensor at [" +
+                       json_number(point.x) + ", " + json_number(point.y) +
+                       "] is outside of its body");
+}
+
+/// A flavour that is faster than the robot goes no faster than that.
+void warn_about_speed(const Method& method, const Flavour& flavour, const Campaign& campaign,
+                      std::vector<std::string>& warnings) {
+  for (const CampaignMission& mission : campaign.missions) {
+    const double most_mps = mission.mission.robot.drive.max_speed_mps;
+    if (flavour.speed_mps <= most_mps) continue;
+    warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour + " drives at " +
+                       json_number(flavour.speed_mps) + " m/s; the robot of mission " +
+                       mission.mission.name + " reaches " + json_number(most_mps) +
+                       " m/s, and drives at that");
+  }
+}
+
 /// A mission gives robots another shape, and nothing else.
 void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings) {
   const auto kept = kept_constants(mission.robot);
@@ -63,9 +85,8 @@ void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings
                      ": its robot has a shape of its own, and all else of the RVR: " +
                      json_number(kept->mass_kg) + " kg, a drive of " + json_number(kept->drive_N) +
                      " N, treads " + json_number(kept->treads_m) + " m apart, the ground sensor " +
-                     json_number(kept->ground_sensor_m) + " m ahead of the centre" +
-                     (kept->ground_sensor_is_outside ? " (outside of this body)" : "") +
-                     ", a height of " + json_number(kept->height_m) + " m, neighbours up to " +
+                     json_number(kept->ground_sensor_m) + " m ahead of the centre, a height of " +
+                     json_number(kept->height_m) + " m, neighbours up to " +
                      json_number(kept->neighbours_m) + " m");
 }
 
@@ -74,13 +95,16 @@ void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings
 std::vector<std::string> warnings_about(const Campaign& campaign) {
   std::vector<std::string> warnings;
   if (campaign.target) return warnings;  // what its programs do of modules is theirs
-  for (const CampaignMission& mission : campaign.missions)
+  for (const CampaignMission& mission : campaign.missions) {
     warn_about_robot(mission.mission, warnings);
+    warn_about_ground_points(mission.mission, warnings);
+  }
   for (const Method& method : campaign.methods) {
     const Flavour& flavour = **flavour_of(method);
     warn_about_black(method, flavour, campaign.profile, warnings);
     warn_about_range(method, flavour, campaign.profile, warnings);
     warn_about_light(method, campaign, warnings);
+    warn_about_speed(method, flavour, campaign, warnings);
   }
   return warnings;
 }

@@ -200,21 +200,35 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
   return std::nullopt;
 }
 
+/// What the method's networks read.
+NetworkInputs inputs_of(const Method& method, const Flavour& flavour) {
+  if (method.baseline.empty() || method.baseline == kRandomMachine) return method.inputs;
+  return std::get<Network>(parse_controller(method.baseline, flavour).value()).inputs;
+}
+
 /// Whether methods, profiles and the missions' robots go together.
 void check_robots(TableReader& root, const Campaign& campaign) {
   if (campaign.target) return;
+  const std::string other = ", or a mission of another robot";
   for (const CampaignMission& mission : campaign.missions) {
     const Robot& robot = mission.mission.robot;
     const std::string of = "mission \"" + mission.mission.name + "\": ";
     for (const Method& method : campaign.methods) {
       const auto flavour = flavour_of(method);
       if (!flavour) continue;
-      if (const auto why = misfit(**flavour, robot)) root.complain("method", of + *why);
+      if (const auto why = misfit(**flavour, robot))
+        root.complain("method", of + *why + "; choose another flavour" + other);
+      if (method.architecture != Architecture::Network) continue;
+      if (const auto why = misfit(inputs_of(method, **flavour), robot))
+        root.complain("method", of + *why + "; choose other inputs" + other);
     }
-    if (const auto why = misfit(campaign.profile, robot)) root.complain("simulator", of + *why);
-    for (const Profile& profile : campaign.test_profiles) {
-      if (const auto why = misfit(profile, robot)) root.complain("tests", of + *why);
-    }
+    const auto complain_of = [&](std::string_view key, const Profile& profile) {
+      if (const auto why = misfit(profile, robot))
+        root.complain(key, of + *why + "; choose another profile" + other);
+    };
+    complain_of("simulator", campaign.profile);
+    for (const Profile& profile : campaign.test_profiles)
+      complain_of("tests", profile);
   }
 }
 

@@ -238,7 +238,7 @@ void check_tokens(TableReader& table, const std::string& id, const ModuleSpec& s
       table.complain(id, "`" + id + "`: the search has a parameter " + parameter.symbol +
                              " of its own; give " + parameter.name + " another symbol");
     }
-    if (!tokens.insert(parameter.token).second) {
+    if (!parameter.token.empty() && !tokens.insert(parameter.token).second) {
       table.complain(id, "`" + id + "` has the token `" + parameter.token + "` twice");
     }
   }
@@ -292,7 +292,8 @@ void read_external(TableReader& table, bool behaviour, ModuleSpec& spec) {
   spec.module = behaviour ? external_behaviour(spec.number) : external_condition(spec.number);
   for (TableReader& item : table.tables("parameters")) {
     ParameterSpec parameter = read_external_parameter(item);
-    if (std::ranges::count(spec.parameters, parameter.name, &ParameterSpec::name) > 0)
+    if (!parameter.name.empty() &&
+        std::ranges::count(spec.parameters, parameter.name, &ParameterSpec::name) > 0)
       item.complain("name", "`" + spec.id + "` has the parameter `" + parameter.name + "` twice");
     spec.parameters.push_back(std::move(parameter));
   }
@@ -343,6 +344,7 @@ std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id
   }
   table->finish();
   check_tokens(tables, id, spec);
+  if (!number) return std::nullopt;  // other modules cannot have the same
   return spec;
 }
 

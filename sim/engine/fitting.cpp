@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <string_view>
 
+#include "base/math.h"
+#include "base/overloaded.h"
 #include "sim/engine/internal/ring.h"
+#include "sim/engine/profile_fields.h"
+#include "sim/mission/polygon.h"
+#include "sim/robot/idle_fields.h"
 
 namespace swarmsmith {
 namespace {
 
 bool gives_strengths(const Robot& robot) {
-  return robot.proximity.reading == ProximityRing::Reading::Strength;
+  return kOfStrengths.acts_on(robot);
 }
 
 /// The reference models that the robot's senses are (docs/flavours.md).
@@ -26,12 +33,6 @@ std::string noun_of(bool strengths) {
   return strengths ? "strengths" : "distances";
 }
 
-std::string profile_sentence(const Profile& profile, const Robot& robot, const std::string& key,
-                             const std::string& why) {
-  return "the profile `" + profile.name + "` is not one of the robot `" + robot.name + "`: `" +
-         key + "` is of robots " + why + "; choose another --profile";
-}
-
 }  // namespace
 
 std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
@@ -39,7 +40,7 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
   if (takes_strengths != gives_strengths(robot)) {
     return "the flavour `" + flavour.name + "` takes " + noun_of(takes_strengths) +
            " from proximity sensors, and the robot `" + robot.name + "` gives " +
-           noun_of(!takes_strengths) + "; choose another flavour, or a mission of another robot";
+           noun_of(!takes_strengths);
   }
   const std::span<const std::string_view> models = models_of(robot);
   if (std::ranges::find(models, flavour.reference) != models.end()) return std::nullopt;
@@ -51,35 +52,47 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
 }
 
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot) {
-  const ProximitySensing& proximity = profile.proximity;
-  const GroundColorSensing& ground = profile.ground_color;
-  const bool votes = robot.ground.reading == GroundSensor::Reading::Vote;
-  const bool by_radio = robot.neighbours.source == NeighbourSensor::Source::Radio;
-  const auto sentence = [&](const std::string& key, const std::string& why) {
-    return profile_sentence(profile, robot, key, why);
-  };
-  if (gives_strengths(robot)) {
-    if (proximity.sd_m > 0 || proximity.scale_sd > 0 || proximity.largest_miss_rate > 0 ||
-        proximity.phantom_rate > 0) {
-      return sentence("proximity", "that measure distances");
-    }
-  } else if (proximity.half_width > 0) {
-    return sentence("proximity.half_width", "whose sensors give strengths");
-  }
-  if (votes && (ground.sd > 0 || ground.bias_sd > 0 || ground.labeler)) {
-    return sentence("ground_color", "that see colours");
-  }
-  if (!votes && ground.half_width > 0) {
-    return sentence("ground_color.half_width", "whose ground sensors vote");
-  }
-  if (robot.light.reading != LightRing::Reading::Strength && profile.light.half_width > 0) {
-    return sentence("light.half_width", "whose light sensors give strengths");
-  }
-  if (by_radio && (profile.neighbours.every_sub_steps > 0 ||
-                   profile.neighbours.source != NeighbourSensing::Source::Camera)) {
-    return sentence("neighbours", "that see each other");
+  static const Profile kIdeal;
+  IdleFields fields(robot);
+  visit_profile_fields(kIdeal, fields);
+  fields.compare();
+  visit_profile_fields(profile, fields);
+  for (const IdleField& field : fields.found()) {
+    const std::string key = field.device + "." + field.key;
+    if (!field.differs && std::ranges::count(profile.ranges, key, &FieldRange::field) == 0)
+      continue;
+    return "the profile `" + profile.name + "` is not one of the robot `" + robot.name + "`: `" +
+           key + "` is of robots " + std::string(field.robots);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot) {
+  if (inputs != NetworkInputs::Rm11) return std::nullopt;
+  const std::size_t rays = robot.proximity.rays_deg.size();
+  const std::size_t lights = robot.light.angles_deg.empty() ? rays : robot.light.angles_deg.size();
+  const bool gives_light = kOfLightStrengths.acts_on(robot);
+  if (rays == kProximitySensors && lights == kProximitySensors && gives_light) return std::nullopt;
+  const std::string each = std::to_string(kProximitySensors);
+  return "a network with the inputs rm1.1 reads the strengths of " + each + " proximity and " +
+         each + " light sensors, and the robot `" + robot.name + "` has " +
+         (gives_light ? std::to_string(rays) + " and " + std::to_string(lights)
+                      : "light sensors that give lux");
+}
+
+std::vector<Point> ground_points_outside(const Robot& robot) {
+  std::vector<Point> outside = robot.ground.places;
+  std::erase_if(outside, [&robot](const Point& point) {
+    return std::visit(
+        Overloaded{
+            [&](const CircleOutline& circle) { return hypot(point.x, point.y) < circle.radius_m; },
+            [&](const BoxOutline& box) {
+              return std::fabs(point.x) < box.length_m / 2 && std::fabs(point.y) < box.width_m / 2;
+            },
+            [&](const PolygonOutline& polygon) { return is_within(polygon.corners, point); }},
+        robot.body.outline);
+  });
+  return outside;
 }
 
 Flavour fitted(const Flavour& flavour, const Robot& robot) {
@@ -88,6 +101,9 @@ Flavour fitted(const Flavour& flavour, const Robot& robot) {
     result.obstacles.directions = *labels;
     result.light.directions = *labels;
   }
+  result.speed_mps = std::min(flavour.speed_mps, robot.drive.max_speed_mps);
+  // An RVR's treads skid: what turns it may be another distance than that between them.
+  if (robot != rvr_with(robot.body.outline)) result.exploration.track_m = robot.drive.track_m;
   return result;
 }
 

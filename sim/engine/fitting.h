@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/control/flavour.h"
+#include "sim/control/network.h"
 #include "sim/engine/profile.h"
 #include "sim/robot/robot.h"
 
@@ -14,11 +16,19 @@ namespace swarmsmith {
 /// that the robot is simulated with.
 std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot);
 
-/// Why the profile cannot be one of the robot, as a sentence; nothing when it can: noise is that of
-/// what the robot's sensors give.
+/// Why the profile cannot be one of the robot, as a sentence; nothing when it can: what does not
+/// act on the robot is as in an ideal profile.
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot);
 
-/// The flavour as it runs on the robot: with the directions that its sensors are taken for.
+/// Why networks with these inputs cannot run on the robot, as a sentence; nothing when they can:
+/// its rings have the single sensors that are read.
+std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot);
+
+/// The points of its ground sensor that are outside of the robot's body.
+std::vector<Point> ground_points_outside(const Robot& robot);
+
+/// The flavour as it runs on the robot: with the directions that its sensors are taken for, the
+/// distance of its wheels, and no faster than it can go.
 Flavour fitted(const Flavour& flavour, const Robot& robot);
 
 }  // namespace swarmsmith

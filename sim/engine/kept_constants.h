@@ -10,9 +10,8 @@ namespace swarmsmith {
 struct KeptConstants {
   double mass_kg = 0;
   double drive_N = 0;
-  double treads_m = 0;                    ///< their distance
-  double ground_sensor_m = 0;             ///< ahead of the centre
-  bool ground_sensor_is_outside = false;  ///< of this body
+  double treads_m = 0;         ///< their distance
+  double ground_sensor_m = 0;  ///< ahead of the centre
   double height_m = 0;
   double neighbours_m = 0;  ///< how far they are seen
 };

@@ -28,6 +28,10 @@ class RangeDrawer {
   void later(bool /*is_ideal*/, const Visit& visit) {
     visit();
   }
+  template <class Visit>
+  void only(const FieldUse& /*use*/, const Visit& visit) {
+    visit();
+  }
   // Only numbers have ranges.
   void flag(std::string_view, bool) {}
   template <class Value, class Choices>

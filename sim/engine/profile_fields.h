@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "sim/engine/profile.h"
-#include "sim/robot/fields.h"
+#include "sim/robot/robot_fields.h"
 
 namespace swarmsmith {
 
@@ -33,7 +33,7 @@ inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", 
 /// `delays(key, list)`, `beat(key, sub_steps)`, `period(key, least, most)` and `point(key, value,
 /// limits)`. Fields that came later are visited by `later(is_ideal, visit)`: whoever writes leaves
 /// out those that are ideal, so that the texts of older profiles, and the digests of campaigns with
-/// them, stay as they were.
+/// them, stay as they were. Those that do not act on all robots are visited by `only(use, visit)`.
 template <class AnyProfile, class Visitor>
 void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.choice("contacts", profile.contacts, kContactModels);
@@ -41,39 +41,53 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
                 [&] { visitor.choice("wire", profile.float32_wire, kWires); });
 
   visitor.device("proximity");
-  visitor.number("range", profile.proximity.range_m, FieldLimits{0.06, 2});
-  visitor.number("sd", profile.proximity.sd_m, FieldLimits{0, 1});
-  visitor.number("scale_sd", profile.proximity.scale_sd, FieldLimits{0, 1});
-  visitor.number("largest_miss_rate", profile.proximity.largest_miss_rate, kRate);
-  visitor.number("phantom_rate", profile.proximity.phantom_rate, kRate);
-  visitor.later(!profile.proximity.touch_is_nothing,
-                [&] { visitor.choice("touch", profile.proximity.touch_is_nothing, kTouches); });
-
-  visitor.later(profile.proximity.half_width == 0,
-                [&] { visitor.number("half_width", profile.proximity.half_width, kRate); });
+  visitor.only(kOfDistances, [&] {
+    visitor.number("range", profile.proximity.range_m, FieldLimits{0.06, 2});
+    visitor.number("sd", profile.proximity.sd_m, FieldLimits{0, 1});
+    visitor.number("scale_sd", profile.proximity.scale_sd, FieldLimits{0, 1});
+    visitor.number("largest_miss_rate", profile.proximity.largest_miss_rate, kRate);
+    visitor.number("phantom_rate", profile.proximity.phantom_rate, kRate);
+    visitor.later(!profile.proximity.touch_is_nothing,
+                  [&] { visitor.choice("touch", profile.proximity.touch_is_nothing, kTouches); });
+  });
+  visitor.only(kOfStrengths, [&] {
+    visitor.later(profile.proximity.half_width == 0,
+                  [&] { visitor.number("half_width", profile.proximity.half_width, kRate); });
+  });
 
   visitor.device("ground_color");
-  visitor.number("sd", profile.ground_color.sd, FieldLimits{0, 255});
-  visitor.number("bias_sd", profile.ground_color.bias_sd, FieldLimits{0, 255});
-  visitor.flag("labeler", profile.ground_color.labeler);
-  visitor.colors("labels", profile.ground_color.labels);
-  visitor.later(profile.ground_color.half_width == 0,
-                [&] { visitor.number("half_width", profile.ground_color.half_width, kRate); });
+  visitor.only(kOfColors, [&] {
+    visitor.number("sd", profile.ground_color.sd, FieldLimits{0, 255});
+    visitor.number("bias_sd", profile.ground_color.bias_sd, FieldLimits{0, 255});
+    visitor.flag("labeler", profile.ground_color.labeler);
+    visitor.colors("labels", profile.ground_color.labels);
+  });
+  visitor.only(kOfVotes, [&] {
+    visitor.later(profile.ground_color.half_width == 0,
+                  [&] { visitor.number("half_width", profile.ground_color.half_width, kRate); });
+  });
 
   visitor.device("light");
-  visitor.later(profile.light.half_width == 0,
-                [&] { visitor.number("half_width", profile.light.half_width, kRate); });
+  visitor.only(kOfLightStrengths, [&] {
+    visitor.later(profile.light.half_width == 0,
+                  [&] { visitor.number("half_width", profile.light.half_width, kRate); });
+  });
 
   visitor.device("lidar");
-  visitor.number("half_width", profile.lidar.half_width_m, FieldLimits{0, 1});
+  visitor.only(kOfSight, [&] {
+    visitor.number("half_width", profile.lidar.half_width_m, FieldLimits{0, 1});
+  });
 
   visitor.device("neighbours");
-  visitor.choice("source", profile.neighbours.source, kNeighbourSources);
+  visitor.only(kOfSight,
+               [&] { visitor.choice("source", profile.neighbours.source, kNeighbourSources); });
   visitor.number("miss_rate", profile.neighbours.miss_rate, kRate);
   visitor.number("weak_share", profile.neighbours.weak_share, kRate);
   visitor.number("weak_miss_rate", profile.neighbours.weak_miss_rate, kRate);
-  visitor.later(profile.neighbours.every_sub_steps == 0,
-                [&] { visitor.beat("every", profile.neighbours.every_sub_steps); });
+  visitor.only(kOfSight, [&] {
+    visitor.later(profile.neighbours.every_sub_steps == 0,
+                  [&] { visitor.beat("every", profile.neighbours.every_sub_steps); });
+  });
 
   visitor.device("timing");
   visitor.delays("delays", profile.timing.delays);

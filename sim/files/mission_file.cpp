@@ -105,14 +105,19 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
     }
     return;
   }
+  if (!std::holds_alternative<Table>(node->value)) {
+    table.complain("robot",
+                   "`robot` must be a robot's name or file in quotes, such as \"epuck\", "
+                   "or a table; this is " +
+                       std::string(type_name(*node)));
+    return;
+  }
   auto robot = table.table("robot");
-  if (!robot) return;
   if (!robot->has("shape")) {
     mission.robot = read_robot_table(*robot, from, mission.robot);
     return;
   }
-  Pose pose;
-  if (auto outline = read_outline(*robot, {0.02, 5}, pose)) {
+  if (auto outline = read_outline(*robot, {0.02, 5}, nullptr)) {
     mission.robot.body.outline = std::move(*outline);
   }
   robot->finish();

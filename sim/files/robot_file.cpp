@@ -17,6 +17,7 @@
 #include "sim/files/internal/field_reader.h"
 #include "sim/files/internal/field_writer.h"
 #include "sim/files/mission_file.h"
+#include "sim/robot/idle_fields.h"
 
 namespace swarmsmith {
 namespace {
@@ -126,12 +127,34 @@ void read_base(TableReader& table, const std::filesystem::path* folder, Robot& r
   }
 }
 
+/// What does not act on the robot may stand there with the base's value. Its robot then has the
+/// value of one that says nothing of it, so that its text can be read back.
+void settle_idle_fields(TableReader& table, const Robot& base, Robot& robot) {
+  const auto settle = [&robot](const Robot& from) {
+    IdleFields fields(robot);
+    visit_robot_fields(from, fields);
+    fields.compare();
+    visit_robot_fields(robot, fields);
+    return fields.found();
+  };
+  for (const IdleField& field : settle(base)) {
+    if (!field.differs) continue;
+    table.table(field.device)
+        ->complain(field.key, "`" + field.key + "` is of robots " + std::string(field.robots) +
+                                  ", and does nothing here; leave it out");
+  }
+  settle(Robot{});
+}
+
 void read_devices(TableReader& table, Robot& robot) {
   const std::size_t before = table.complaints();
+  const Robot base = robot;
   FieldReader reader(table);
   visit_robot_fields(robot, reader);
   reader.finish();
-  if (table.complaints() == before) check_robot(table, robot);
+  if (table.complaints() > before) return;
+  check_robot(table, robot);
+  settle_idle_fields(table, base, robot);
 }
 
 }  // namespace

@@ -8,6 +8,14 @@ namespace swarmsmith {
 
 /// What fields of a robot or a profile may be (robot_fields.h, sim/engine/profile_fields.h).
 
+struct Robot;
+
+/// The robots that a field acts on, by what a device of theirs gives. It does nothing for others.
+struct FieldUse {
+  bool (*acts_on)(const Robot& robot);
+  std::string_view robots;  ///< "robots ..." in sentences
+};
+
 /// Ends of a field's range, both included.
 struct FieldLimits {
   double least = 0;

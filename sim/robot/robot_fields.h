@@ -15,6 +15,28 @@ inline constexpr FieldChoices<GroundSensor::Reading> kGroundReadings = {
 inline constexpr FieldChoices<NeighbourSensor::Source> kNeighbourSensors = {
     {{"sight", NeighbourSensor::Source::Sight}, {"radio", NeighbourSensor::Source::Radio}}};
 
+inline constexpr FieldUse kOfDistances = {
+    [](const Robot& robot) { return robot.proximity.reading == ProximityRing::Reading::Distance; },
+    "whose proximity sensors measure distances"};
+inline constexpr FieldUse kOfStrengths = {
+    [](const Robot& robot) { return robot.proximity.reading == ProximityRing::Reading::Strength; },
+    "whose proximity sensors give strengths"};
+inline constexpr FieldUse kOfLightStrengths = {
+    [](const Robot& robot) { return robot.light.reading == LightRing::Reading::Strength; },
+    "whose light sensors give strengths"};
+inline constexpr FieldUse kOfColors = {
+    [](const Robot& robot) { return robot.ground.reading == GroundSensor::Reading::Color; },
+    "whose ground sensor sees colours"};
+inline constexpr FieldUse kOfVotes = {
+    [](const Robot& robot) { return robot.ground.reading == GroundSensor::Reading::Vote; },
+    "whose ground sensors vote"};
+inline constexpr FieldUse kOfSight = {
+    [](const Robot& robot) { return robot.neighbours.source == NeighbourSensor::Source::Sight; },
+    "that see each other"};
+inline constexpr FieldUse kOfRadio = {
+    [](const Robot& robot) { return robot.neighbours.source == NeighbourSensor::Source::Radio; },
+    "that hear each other by radio"};
+
 /// More ground points than any robot has.
 inline constexpr int kMostGroundPoints = 8;
 /// Ticks that a vote or a radio remembers, at most.
@@ -23,7 +45,8 @@ inline constexpr int kLongestMemory = 100;
 /// The fields of a robot, in the order of its file, each with its key and limits, as
 /// sim/engine/profile_fields.h has those of a profile. Beside that visitor's methods there are
 /// `outline(outline)`, `angles(key, list)` in degrees, `points(key, list)`, `numbers(key, array,
-/// limits)` and `count(key, value, least, most)`.
+/// limits)` and `count(key, value, least, most)`. A device's `reading` comes before the fields that
+/// are of one reading alone.
 template <class AnyRobot, class Visitor>
 void visit_robot_fields(AnyRobot& robot, Visitor& visitor) {
   visitor.device("body");
@@ -46,8 +69,10 @@ void visit_robot_fields(AnyRobot& robot, Visitor& visitor) {
   visitor.number("start", robot.proximity.start_m, FieldLimits{0, 5});
   visitor.number("height", robot.proximity.height_m, FieldLimits{0, 5});
   visitor.choice("reading", robot.proximity.reading, kProximityReadings);
-  visitor.number("reach", robot.proximity.reach_m, FieldLimits{0, 5});
-  visitor.numbers("law", robot.proximity.law, FieldLimits{-1e6, 1e6});
+  visitor.only(kOfStrengths, [&] {
+    visitor.number("reach", robot.proximity.reach_m, FieldLimits{0, 5});
+    visitor.numbers("law", robot.proximity.law, FieldLimits{-1e6, 1e6});
+  });
 
   visitor.device("light");
   visitor.angles("angles", robot.light.angles_deg);
@@ -58,17 +83,20 @@ void visit_robot_fields(AnyRobot& robot, Visitor& visitor) {
   visitor.device("ground");
   visitor.points("points", robot.ground.places);
   visitor.choice("reading", robot.ground.reading, kGroundReadings);
-  visitor.count("ticks", robot.ground.vote_ticks, 1, kLongestMemory);
-  visitor.count("majority", robot.ground.vote_majority, 0, kLongestMemory * kMostGroundPoints);
-  visitor.number("black_below", robot.ground.black_below, FieldLimits{0, 1});
-  visitor.number("white_above", robot.ground.white_above, FieldLimits{0, 1});
+  visitor.only(kOfVotes, [&] {
+    visitor.count("ticks", robot.ground.vote_ticks, 1, kLongestMemory);
+    visitor.count("majority", robot.ground.vote_majority, 0, kLongestMemory * kMostGroundPoints);
+    visitor.number("black_below", robot.ground.black_below, FieldLimits{0, 1});
+    visitor.number("white_above", robot.ground.white_above, FieldLimits{0, 1});
+  });
 
   visitor.device("neighbours");
   visitor.choice("source", robot.neighbours.source, kNeighbourSensors);
   visitor.number("range", robot.neighbours.range_m, FieldLimits{0, 100});
   visitor.number("height", robot.neighbours.height_m, FieldLimits{0, 5});
   visitor.number("less", robot.neighbours.less_m, FieldLimits{0, 5});
-  visitor.count("ticks", robot.neighbours.memory_ticks, 1, kLongestMemory);
+  visitor.only(kOfRadio,
+               [&] { visitor.count("ticks", robot.neighbours.memory_ticks, 1, kLongestMemory); });
 }
 
 }  // namespace swarmsmith

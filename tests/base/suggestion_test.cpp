@@ -41,6 +41,7 @@ TEST(Suggestion, SaysNothingWhenNoWordIsNear) {
 TEST(Suggestion, ReadsAsTheEndOfASentence) {
   EXPECT_EQ(did_you_mean("sead", kKeys), " (did you mean \"seed\"?)");
   EXPECT_EQ(joined(kKeys), "seed, store, repetitions, max_experiments");
+  EXPECT_EQ(joined(std::vector<std::string>{"one", "two, three"}), "\"one\", \"two, three\"");
 }
 
 }  // namespace

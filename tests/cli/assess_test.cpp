@@ -10,6 +10,7 @@ namespace swarmsmith::cli {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -68,7 +69,8 @@ TEST(Assess, TakesTheRobotThatTheFlavourFits) {
               HasSubstr(" modules pass: flavour chocolate, profile rvr, robot turtlebot4\n"));
   const Ran misfit = run({"assess", "--robot", "epuck"});
   EXPECT_EQ(misfit.code, 2);
-  EXPECT_THAT(misfit.err, HasSubstr("--flavour: the flavour `watermelon` takes distances"));
+  EXPECT_THAT(misfit.err, AllOf(HasSubstr("--flavour: the flavour `watermelon` takes distances"),
+                                HasSubstr("; give another --flavour or --robot\n")));
 }
 
 TEST(Assess, RefusesWhatItDoesNotKnow) {

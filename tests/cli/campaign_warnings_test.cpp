@@ -10,7 +10,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 Campaign campaign_of(const std::string& method, const std::string& rest = "") {
   const auto campaign =
@@ -20,6 +19,9 @@ Campaign campaign_of(const std::string& method, const std::string& rest = "") {
   EXPECT_TRUE(campaign.has_value());
   return *campaign;
 }
+
+constexpr const char* kOutside =
+    "mission aggregation: the robot's ground sensor at [0.05, 0] is outside of its body";
 
 TEST(CampaignWarnings, ThereAreNoneForWhatWorks) {
   EXPECT_THAT(warnings_about(campaign_of("")), IsEmpty());
@@ -61,13 +63,35 @@ TEST(CampaignWarnings, SayWhatARobotOfAnotherShapeKeepsOfTheRvr) {
   EXPECT_THAT(warnings_about(campaign),
               ElementsAre("mission aggregation: its robot has a shape of its own, and all else of "
                           "the RVR: 2 kg, a drive of 1.5 N, treads 0.147 m apart, the ground "
-                          "sensor 0.05 m ahead of the centre (outside of this body), a height of "
-                          "0.114 m, neighbours up to 0.75 m"));
+                          "sensor 0.05 m ahead of the centre, a height of 0.114 m, neighbours up "
+                          "to 0.75 m",
+                          kOutside));
   campaign.missions[0].mission.robot.body.outline = BoxOutline{0.3, 0.2};
-  EXPECT_THAT(warnings_about(campaign), ElementsAre(Not(HasSubstr("outside"))));
+  EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("a shape of its own")));
   campaign.missions[0].mission.robot.body.outline =
       PolygonOutline{{{0.04, 0}, {-0.1, 0.1}, {-0.1, -0.1}}};
-  EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("outside of this body")));
+  EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("a shape of its own"), kOutside));
+}
+
+TEST(CampaignWarnings, NameGroundPointsOutsideOfAnyRobotsBody) {
+  Campaign campaign = campaign_of("");
+  Robot& robot = campaign.missions[0].mission.robot;
+  robot.body.mass_kg = 1;
+  robot.ground.places = {{0.1, 0}, {0, 0.15}, {0.2, -0.1}};
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre("mission aggregation: the robot's ground sensor at [0, 0.15] is outside "
+                          "of its body",
+                          HasSubstr("at [0.2, -0.1]")));
+  robot.body.outline = CircleOutline{0.3};
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+}
+
+TEST(CampaignWarnings, NameFlavoursThatDriveFasterThanTheRobotCan) {
+  Campaign campaign = campaign_of("");
+  campaign.missions[0].mission.robot.drive.max_speed_mps = 0.2;
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre("method \"m\": flavour watermelon drives at 0.3 m/s; the robot of "
+                          "mission aggregation reaches 0.2 m/s, and drives at that"));
 }
 
 }  // namespace

@@ -110,6 +110,10 @@ class FieldReader {
   void later(bool /*is_ideal*/, const Visit& visit) {
     visit();
   }
+  template <class Visit>
+  void only(const FieldUse& /*use*/, const Visit& visit) {
+    visit();
+  }
   void period(std::string_view key, double& least, double& most) {
     TableReader* table = current();
     const auto texts = table == nullptr ? std::nullopt : table->texts(key);
@@ -141,8 +145,7 @@ class FieldReader {
   void outline(Outline& outline) {
     TableReader* table = current();
     if (table == nullptr || !table->has("shape")) return;
-    Pose moved;
-    if (auto read = read_outline(*table, {0.005, 5}, moved)) outline = std::move(*read);
+    if (auto read = read_outline(*table, {0.005, 5}, nullptr)) outline = std::move(*read);
   }
   void angles(std::string_view key, std::vector<double>& angles) {
     read_list(key, kProximitySensors, "sensors", "angles in degrees, such as [0, 45, -45]",

@@ -71,6 +71,10 @@ class FieldWriter {
     visit();
     ranges_alone_ = false;
   }
+  template <class Visit>
+  void only(const FieldUse& /*use*/, const Visit& visit) {
+    visit();
+  }
   void period(std::string_view key, double least, double most) {
     add(key, "[" + period_text(least) + ", " + period_text(most) + "]");
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/math.h"
+#include "base/text/toml_text.h"
 #include "sim/files/read_place.h"
 #include "sim/mission/polygon.h"
 
@@ -27,7 +28,19 @@ void centre_corners(std::vector<Point>& corners, Pose& pose) {
   pose.y += middle.x * heading.sin + middle.y * heading.cos;
 }
 
-std::optional<Outline> read_polygon(TableReader& table, Pose& pose) {
+/// The corners of a robot's body are written with fewer digits than a number has.
+bool is_centred(const std::vector<Point>& corners) {
+  constexpr double kTolerance_m = 1e-5;
+  const Point middle = centroid(corners);
+  return std::fabs(middle.x) <= kTolerance_m && std::fabs(middle.y) <= kTolerance_m;
+}
+
+/// A tenth of what is_centred tolerates.
+std::string micrometres_text(double metres) {
+  return number_text(std::round(metres * 1e6) / 1e6 + 0.0);
+}
+
+std::optional<Outline> read_polygon(TableReader& table, Pose* pose) {
   const auto rows = table.number_rows("corners", 2, kCoordinate, "[[0, 0], [1, 0], [0, 1]]");
   if (!rows) {
     if (!table.has("corners")) table.complain("corners", table.name() + " needs `corners`");
@@ -39,17 +52,27 @@ std::optional<Outline> read_polygon(TableReader& table, Pose& pose) {
   std::optional<std::string> flaw = flaw_of(corners);
   if (!flaw && signed_area(corners) < 0) std::reverse(corners.begin() + 1, corners.end());
   if (!flaw && !is_convex(corners)) {
-    flaw = "it is not convex; put it together from several that are";
+    flaw = "it is not convex";
+    if (pose != nullptr) *flaw += "; put it together from several that are";
   }
   if (!flaw && corners.size() > kMostCorners) {
     flaw = std::to_string(corners.size()) + " corners; at most " + std::to_string(kMostCorners) +
            " are taken";
   }
+  if (!flaw && pose == nullptr && !is_centred(corners)) {
+    const Point middle = centroid(corners);
+    flaw = "its centre of mass is [" + micrometres_text(middle.x) + ", " +
+           micrometres_text(middle.y) +
+           "], and a robot's must be at [0, 0]; measure its corners, and all else of it, from "
+           "there";
+  }
   if (flaw) {
-    table.complain("corners", "this polygon cannot be in an arena: " + *flaw);
+    table.complain("corners", std::string("this polygon cannot be ") +
+                                  (pose != nullptr ? "in an arena: " : "a robot's body: ") + *flaw);
     return std::nullopt;
   }
-  centre_corners(corners, pose);
+  Pose unmoved;
+  centre_corners(corners, pose != nullptr ? *pose : unmoved);
   return PolygonOutline{std::move(corners)};
 }
 
@@ -63,7 +86,7 @@ Pose read_pose(TableReader& table) {
 std::optional<Obstacle> read_obstacle(TableReader& table) {
   Obstacle obstacle;
   obstacle.pose = read_pose(table);
-  auto outline = read_outline(table, kSolidSize, obstacle.pose);
+  auto outline = read_outline(table, kSolidSize, &obstacle.pose);
   obstacle.height_m = table.number("height", kHeight).value_or(obstacle.height_m);
   table.finish();
   if (!outline) return std::nullopt;
@@ -74,7 +97,7 @@ std::optional<Obstacle> read_obstacle(TableReader& table) {
 std::optional<MovableObject> read_object(TableReader& table) {
   MovableObject object;
   object.start = read_pose(table);
-  auto outline = read_outline(table, kSolidSize, object.start);
+  auto outline = read_outline(table, kSolidSize, &object.start);
   object.mass_kg = need(table, "mass", {0.001, 10'000});
   object.friction_N = need(table, "friction", {0, 100'000});
   object.height_m = table.number("height", kHeight).value_or(object.height_m);
@@ -97,7 +120,7 @@ Light read_light(TableReader& table) {
 
 }  // namespace
 
-std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose& pose) {
+std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose* pose) {
   static const std::vector<std::string> kShapes = {"circle", "square", "box", "polygon"};
   const auto shape = table.choice("shape", kShapes);
   if (!table.has("shape")) {

@@ -9,8 +9,9 @@ namespace swarmsmith {
 
 /// The keys of an outline: `shape` and its sizes. A polygon's corners may lie anywhere: they are
 /// moved so that the origin is their centre of mass, and `pose`, in whose frame they were, with
-/// them.
-std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose& pose);
+/// them. Without a pose they are a robot's, whose other parts lie around the origin: they are
+/// refused if that is not their centre of mass.
+std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose* pose);
 
 /// `obstacles`, `objects` and `lights` of [mission.arena], each in place of the preset's.
 void read_solids(TableReader& arena, Arena& into);

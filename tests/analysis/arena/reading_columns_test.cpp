@@ -11,6 +11,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsSupersetOf;
 
 TEST(SensorNames, NameEverySensorOnce) {
   Sensors all;
@@ -40,7 +41,7 @@ TEST(SensorNames, SuggestTheOneThatWasMeant) {
 }
 
 TEST(ReadingColumns, HaveNamesWithUnitsAndOneCellEach) {
-  const ReadingColumns columns(Sensor::GroundColor | Sensor::Neighbours, 3);
+  const ReadingColumns columns(Sensor::GroundColor | Sensor::Neighbours, 3, rvr());
   EXPECT_THAT(columns.names(), ElementsAre("ground_r", "ground_g", "ground_b", "neighbours",
                                            "neighbour0_distance_m", "neighbour0_bearing_rad",
                                            "neighbour1_distance_m", "neighbour1_bearing_rad"));
@@ -55,8 +56,19 @@ TEST(ReadingColumns, HaveNamesWithUnitsAndOneCellEach) {
   EXPECT_EQ(line, ",,,,,,,,");
 }
 
+TEST(ReadingColumns, SayWhatTheRobotsSensorsGive) {
+  const auto names = [](const Robot& robot) {
+    return ReadingColumns(Sensor::Proximity | Sensor::LightRing, 1, robot).names();
+  };
+  EXPECT_THAT(names(rvr()), IsSupersetOf({"proximity0_m", "light7_lux"}));
+  Robot robot;
+  robot.proximity.reading = ProximityRing::Reading::Strength;
+  robot.light.reading = LightRing::Reading::Strength;
+  EXPECT_THAT(names(robot), IsSupersetOf({"proximity0_strength", "light7_strength"}));
+}
+
 TEST(ReadingColumns, OfAllSensorsAreDistinctAndFilled) {
-  const ReadingColumns columns(Sensors::all(), 1);
+  const ReadingColumns columns(Sensors::all(), 1, rvr());
   const std::set<std::string> distinct(columns.names().begin(), columns.names().end());
   EXPECT_EQ(distinct.size(), columns.names().size());
   EXPECT_TRUE(distinct.contains("lidar718_m"));

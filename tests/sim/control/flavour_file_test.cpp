@@ -80,6 +80,13 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_THAT(complaints(kOnWatermelon + "[behaviours]\nstop = { number = 2 }\n"
                                          "repulsion = { number = 2 }\n"),
               ElementsAre(HasSubstr("`repulsion` and `stop` have the same number 2")));
+  EXPECT_THAT(complaints(kOnWatermelon + "[behaviours]\nexploration = { number = 0 }\n"
+                                         "stop = { number = 1001 }\n"),
+              ElementsAre(HasSubstr("`number` must be from 0 to 1000, this is 1001")))
+      << "and no other error follows from it";
+  EXPECT_THAT(complaints(kOnWatermelon + "[exploration]\ntrigger = \"front\"\n"),
+              ElementsAre(HasSubstr("it is one of: \"front readings\", \"vector sum\", \"front "
+                                    "readings, side of the sum\"")));
   EXPECT_THAT(complaints(kOnWatermelon + "[behaviours]\nstop = {}\n"),
               ElementsAre(HasSubstr("`stop` needs its `number` in texts")));
   EXPECT_THAT(

@@ -237,6 +237,36 @@ TEST(Simulate, AStateThatIsNoNumberFailsWithASentence) {
   }
 }
 
+/// Where a walk's robot heads at the end of its first steps.
+std::vector<double> headings_of_a_walk(const RobotDrive& drive) {
+  Job job = job_of(kPusher, "aggregation", "argos3", 1);
+  job.machine = {.states = {{.behaviour = RandomWalk{.rho = 0, .step = 30}, .transitions = {}}}};
+  job.mission.arena.walls = {
+      {{-9, -9}, {9, -9}}, {{9, -9}, {9, 9}}, {{9, 9}, {-9, 9}}, {{-9, 9}, {-9, -9}}};
+  job.mission.robot.drive = drive;
+  job.instance.starts = {{0, 0, 0}};
+  std::vector<double> headings;
+  bool turned = true;
+  job.run([&](const Snapshot& now) {
+    const RobotRecord& robot = now.robots[0];
+    const bool turns = robot.command.left_mps != robot.command.right_mps;
+    if (turns && !turned && headings.size() < 8) headings.push_back(robot.pose.theta);
+    turned = turns;
+  });
+  return headings;
+}
+
+TEST(Simulate, RandomWalksTurnByTheirAnglesWhateverTheRobotsDrive) {
+  const std::vector<double> wanted = headings_of_a_walk({});
+  EXPECT_EQ(wanted.size(), 8U);
+  for (const RobotDrive& drive : {RobotDrive{.track_m = 0.3}, RobotDrive{.max_speed_mps = 0.2}}) {
+    const std::vector<double> headings = headings_of_a_walk(drive);
+    ASSERT_EQ(headings.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      EXPECT_NEAR(wrap_angle(headings[i] - wanted[i]), 0, 0.05) << i;
+  }
+}
+
 TEST(Simulate, ASwarmOfTenFitsTheSameCode) {
   Job job = job_of(kPusher, "grid_exploration", "rvr", 11);
   job.mission.robots = 10;

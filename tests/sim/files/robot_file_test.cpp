@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <fstream>
+#include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/engine/fitting.h"
@@ -81,9 +84,46 @@ TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
               ElementsAre(HasSubstr("there is no robot `epuk` (did you mean \"epuck\"?)")));
 }
 
+TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
+  const std::string body = "[body]\nshape = \"polygon\"\ncorners = ";
+  EXPECT_THAT(
+      complaints(body + "[[0, 0], [0.2, 0], [0, 0.1]]\n"),
+      ElementsAre("mine.toml:4:11: this polygon cannot be a robot's body: its centre of mass is "
+                  "[0.066667, 0.033333], and a robot's must be at [0, 0]; measure its corners, and "
+                  "all else of it, from there"));
+  const std::string centred =
+      "[[-0.066667, -0.033333], [0.133333, -0.033333], [-0.066667, 0.066667]]\n";
+  EXPECT_THAT(complaints(body + centred), IsEmpty()) << "what the sentence says is near enough";
+  EXPECT_THAT(complaints(body + "[[0.2, 0], [0, 0.02], [-0.2, 0], [0, 0.1]]\n"),
+              ElementsAre("mine.toml:4:11: this polygon cannot be a robot's body: it is not "
+                          "convex"));
+}
+
+TEST(RobotFile, KeysThatDoNothingForTheRobotAreRefused) {
+  for (const auto& [text, sentence] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"[proximity]\nreach = 1\n",
+            "mine.toml:3:9: `reach` is of robots whose proximity sensors give strengths, and does "
+            "nothing here; leave it out"},
+           {"[proximity]\nlaw = [1, 0, 0]\n", "`law` is of robots whose proximity sensors"},
+           {"[ground]\nticks = 2\n", "`ticks` is of robots whose ground sensors vote"},
+           {"[ground]\nmajority = 2\n", "`majority` is of robots"},
+           {"[ground]\nblack_below = 0.1\n", "`black_below` is of robots"},
+           {"[ground]\nwhite_above = 0.1\n", "`white_above` is of robots"},
+           {"[neighbours]\nticks = 2\n", "`ticks` is of robots that hear each other by radio"},
+           {"base = \"epuck\"\n[neighbours]\nsource = \"sight\"\nticks = 2\n",
+            "`ticks` is of robots that hear"}}) {
+    EXPECT_THAT(complaints(text), ElementsAre(HasSubstr(sentence))) << text;
+  }
+  EXPECT_THAT(complaints("[proximity]\nreach = 0.0\nlaw = [0, 0, 0]\n"), IsEmpty())
+      << "as without it";
+}
+
 TEST(RobotFile, AMissionWithARobotReadsBackToTheSameBits) {
   for (const char* robot :
-       {"robot = \"epuck\"\n", "[robot]\nbase = \"epuck\"\n[robot.neighbours]\nrange = 0.7\n",
+       {"[robot]\nbase = \"epuck\"\n[robot.proximity]\nreading = \"distance\"\n"
+        "[robot.ground]\nreading = \"color\"\npoints = [[0, 0]]\n"
+        "[robot.neighbours]\nsource = \"sight\"\n",
+        "robot = \"epuck\"\n", "[robot]\nbase = \"epuck\"\n[robot.neighbours]\nrange = 0.7\n",
         "[robot]\nname = \"round\"\n[robot.body]\nshape = \"circle\"\n"
         "diameter = 0.2\nmass = 1\n"}) {
     const std::string text = std::string("format = 1\nname = \"x\"\nrobots = 2\n") + robot +
@@ -115,11 +155,57 @@ TEST(RobotFile, WhatDoesNotFitIsRefusedWithASentence) {
   EXPECT_EQ(misfit(other, epuck),
             "the flavour `chocolate-epuck` needs the reference model rm3.0, and the robot `epuck` "
             "is simulated with rm1.1 and rm1.2 and rm1-2018");
-  EXPECT_THAT(misfit(built_in_profile("rvr").value(), epuck), Optional(HasSubstr("`proximity`")));
+  EXPECT_EQ(misfit(built_in_profile("rvr").value(), epuck),
+            "the profile `rvr` is not one of the robot `epuck`: `proximity.sd` is of robots whose "
+            "proximity sensors measure distances");
   EXPECT_THAT(misfit(built_in_profile("epuck").value(), rvr()),
               Optional(HasSubstr("`proximity.half_width`")));
   for (const char* name : {"epuck", "epuck-ideal", "epuck-pseudo-reality", "argos3"})
     EXPECT_EQ(misfit(built_in_profile(name).value(), epuck), std::nullopt) << name;
+}
+
+TEST(RobotFile, KeysOfProfilesThatDoNothingForTheRobotDoNotFit) {
+  const auto misfit_of = [](const std::string& text, const Robot& robot) {
+    const auto profile = parse_profile("format = 1\n" + text, "mine.toml");
+    EXPECT_TRUE(profile) << text;
+    return misfit(*profile, robot).value_or("");
+  };
+  const Robot epuck = built_in("epuck");
+  for (const auto& [device, key, value] :
+       std::initializer_list<std::array<std::string, 3>>{{"proximity", "range", "0.3"},
+                                                         {"proximity", "sd", "[0, 0.1]"},
+                                                         {"proximity", "scale_sd", "0.1"},
+                                                         {"proximity", "largest_miss_rate", "0.1"},
+                                                         {"proximity", "phantom_rate", "0.1"},
+                                                         {"proximity", "touch", "\"nothing\""},
+                                                         {"ground_color", "sd", "0.1"},
+                                                         {"ground_color", "bias_sd", "0.1"},
+                                                         {"ground_color", "labeler", "true"},
+                                                         {"ground_color", "labels", "[\"red\"]"},
+                                                         {"lidar", "half_width", "0.1"},
+                                                         {"neighbours", "source", "\"lidar\""},
+                                                         {"neighbours", "every", "\"1 s\""}}) {
+    const std::string text = "[" + device + "]\n" + key + " = " + value + "\n";
+    EXPECT_THAT(misfit_of(text, epuck), HasSubstr("`" + device + "." + key + "` is of robots "));
+    EXPECT_EQ(misfit_of(text, rvr()), "");
+  }
+  for (const std::string device : {"proximity", "ground_color", "light"}) {
+    const std::string text = "[" + device + "]\nhalf_width = 0.1\n";
+    EXPECT_THAT(misfit_of(text, rvr()), HasSubstr("`" + device + ".half_width` is of robots "));
+    EXPECT_EQ(misfit_of(text, epuck), "");
+  }
+}
+
+TEST(RobotFile, ANetworkOfSingleSensorsNeedsAllOfThem) {
+  Robot robot = built_in("epuck");
+  EXPECT_EQ(misfit(NetworkInputs::Rm11, robot), std::nullopt);
+  robot.light.angles_deg = {0, 180};
+  EXPECT_EQ(misfit(NetworkInputs::Rm12, robot), std::nullopt) << "a sum over the ring";
+  EXPECT_EQ(misfit(NetworkInputs::Rm11, robot),
+            "a network with the inputs rm1.1 reads the strengths of 8 proximity and 8 light "
+            "sensors, and the robot `epuck` has 8 and 2");
+  robot.light = {.reading = LightRing::Reading::Lux};
+  EXPECT_THAT(misfit(NetworkInputs::Rm11, robot), Optional(HasSubstr("that give lux")));
 }
 
 TEST(RobotFile, TheExampleRobotFitsTheFlavoursOfDistances) {
