@@ -11,7 +11,9 @@ namespace swarmsmith {
 namespace {
 
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Pair;
 
 FileText file_of(const std::string& method) {
@@ -252,6 +254,32 @@ TEST(Methods, RefuseARepairThatTheirSearchWouldNotUse) {
   }
   for (const char* used : {"random", "vanilla", "maple"})
     EXPECT_EQ(complaint_about("method = \"" + std::string(used) + "\"\n", race), "read");
+}
+
+TEST(Methods, OfSingleSensorsWantARobotThatHasThemAll) {
+  const auto complaints_of = [](const std::string& lights, const std::string& method) {
+    return complaints(FileText{.mission = "name = \"aggregation\"\n[mission.robot]\nbase = "
+                                          "\"epuck\"\n[mission.robot.light]\nangles = " +
+                                          lights + "\n",
+                               .method = "name = \"m\"\nflavour = \"chocolate-epuck\"\n" + method,
+                               .race = "max_experiments = 100000\n",
+                               .rest = "[simulator]\nprofile = \"epuck\"\n"}
+                          .text());
+  };
+  const std::string network = "architecture = \"network\"\n";
+  EXPECT_THAT(complaints_of("[0, 1, 2, 3, 4, 5, 6, 7]", network), IsEmpty());
+  EXPECT_THAT(complaints_of("[0, 180]", ""), IsEmpty());
+  const std::string why =
+      "mission \"aggregation\": a network with the inputs rm1.1 reads the strengths of 8 "
+      "proximity and 8 light sensors, and the robot `epuck` has 8 and 2; choose other inputs, or a "
+      "mission of another robot";
+  EXPECT_THAT(complaints_of("[0, 180]", network), ElementsAre(HasSubstr(why)));
+  std::string weights = "0";
+  for (int i = 1; i < 50; ++i)
+    weights += ",0";
+  EXPECT_THAT(
+      complaints_of("[0, 180]", "baseline = \"--network rm1.1 --weights " + weights + "\"\n"),
+      Contains(HasSubstr(why)));
 }
 
 TEST(Methods, TakeAsManyConfigurationsAsAnFRaceCanTest) {
