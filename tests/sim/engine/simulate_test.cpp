@@ -250,7 +250,7 @@ std::vector<double> headings_of_a_walk(const RobotDrive& drive) {
   job.run([&](const Snapshot& now) {
     const RobotRecord& robot = now.robots[0];
     const bool turns = robot.command.left_mps != robot.command.right_mps;
-    if (turns && !turned && headings.size() < 8) headings.push_back(robot.pose.theta);
+    if (turns && !turned && headings.size() < 6) headings.push_back(robot.pose.theta);
     turned = turns;
   });
   return headings;
@@ -258,7 +258,7 @@ std::vector<double> headings_of_a_walk(const RobotDrive& drive) {
 
 TEST(Simulate, RandomWalksTurnByTheirAnglesWhateverTheRobotsDrive) {
   const std::vector<double> wanted = headings_of_a_walk({});
-  EXPECT_EQ(wanted.size(), 8U);
+  EXPECT_EQ(wanted.size(), 6U);
   for (const RobotDrive& drive : {RobotDrive{.track_m = 0.3}, RobotDrive{.max_speed_mps = 0.2}}) {
     const std::vector<double> headings = headings_of_a_walk(drive);
     ASSERT_EQ(headings.size(), wanted.size());
