@@ -51,7 +51,7 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   if (!known) return Unexpected(known.error());
   // Drivers speak of the RVR's sensors and treads alone (docs/robot-messages.md).
   if (const auto why = misfit(*known, rvr()))
-    return bad_input(*why + ", and this program drives RVRs", filed->place);
+    return bad_input(*why + "; this program drives RVRs", filed->place);
   const auto& mission = filed->head.mission;
   if (mission && mission->mission.robot != rvr_with(mission->mission.robot.body.outline)) {
     return bad_input("the machine was designed for the robot `" + mission->mission.robot.name +
