@@ -161,6 +161,7 @@ void read_devices(TableReader& table, Robot& robot) {
 
 std::vector<std::string> robot_names() {
   std::vector<std::string> names;
+  names.reserve(kRobotFiles.size());
   for (const auto& [name, text] : kRobotFiles)
     names.emplace_back(name);
   return names;
