@@ -169,7 +169,7 @@ std::string csv_of(const GapGroups& groups, const std::vector<std::string>& sour
 Expected<Figure> gap_figure(StoreReader& store, const FigureOptions& options) {
   auto scores = design_scores(store, options.filter);
   if (!scores) return Unexpected(scores.error());
-  const auto names = names_of(store);
+  const auto names = names_with_sources(store);
   if (!names) return Unexpected(names.error());
   const ChosenScores taken = chosen(std::move(*scores), {.purpose = {}, .unit = ScoreUnit::Design});
   const std::vector<ScoreValue> values = values_of(taken);

@@ -245,7 +245,7 @@ Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options)
   plot.details.front() += "; higher is better";
   const std::size_t groups = give_each_a_color(plot);
   if (groups > kDistinctColors) {
-    const auto names = names_of(store);
+    const auto names = names_with_sources(store);
     if (!names) return Unexpected(names.error());
     if (names->sources.size() > kDistinctColors)
       return bad_input(

@@ -27,7 +27,8 @@ struct Kind {
 };
 
 constexpr std::array<Kind, 6> kKinds = {{
-    {"designs", kDesignsWithMeans,
+    {"designs",
+     {},  // designs_with_means()
      "design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
      "coalesce(test_mean, best_mean, score_mean) AS mean, "
      "CASE WHEN test_mean IS NOT NULL THEN test_runs || iif(test_runs = 1, ' test', ' tests') "
@@ -68,7 +69,7 @@ struct LsArguments {
 std::string statement(const Kind& kind, const LsArguments& arguments, bool all_columns,
                       bool several_campaigns, bool has_principals) {
   std::string columns(all_columns ? "*" : kind.columns);
-  std::string from(kind.from);
+  std::string from = kind.name == "designs" ? designs_with_means() : std::string(kind.from);
   if (kind.name == "workers" && has_principals) {
     from = workers_with_quarantine();
     if (!all_columns) columns += ", quarantined_since, quarantined_for";

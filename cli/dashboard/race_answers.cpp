@@ -100,7 +100,7 @@ struct RoundTexts {
 };
 
 Expected<RoundTexts> round_of(const Question& question, std::int64_t iteration) {
-  const auto stages = StoredStages::read(question.store);
+  const auto stages = StoredStages::read(question.store, question.design);
   if (!stages) return Unexpected(stages.error());
   const std::string design = std::to_string(question.design.value);
   const SearchOptions* search = stages->search(design);

@@ -225,7 +225,7 @@ Expected<Answer> design_answer(const Question& question) {
   if (auto known = check_design(question); !known) return Unexpected(known.error());
   const std::string id = std::to_string(question.design.value);
   const std::string own = " WHERE design = " + id;
-  auto design = rows_of(question, "SELECT * FROM " + std::string(kDesignsWithMeans) + own);
+  auto design = rows_of(question, "SELECT * FROM " + designs_with_means(own));
   auto iterations = rows_of(question,
                             "SELECT iteration, planned, budget, configurations, "
                             "elites, soft_restart, postselection FROM "
@@ -249,7 +249,7 @@ Expected<Answer> design_answer(const Question& question) {
     return Unexpected(read.error());
   const auto tests = tests_of(question);
   if (!tests) return Unexpected(tests.error());
-  const auto stages = StoredStages::read(question.store);
+  const auto stages = StoredStages::read(question.store, question.design);
   if (!stages) return Unexpected(stages.error());
   for (auto& cells : iterations->cells) {
     const std::string& number = cells.front().text;

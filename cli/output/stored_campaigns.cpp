@@ -18,6 +18,21 @@ constexpr const char* kDesigns =
 
 }  // namespace
 
+std::string designs_with_means(const std::string& own) {
+  return "(SELECT d.*, m.test_mean, iif(d.state = 'finished' AND d.best_candidate IS NOT NULL, "
+         "coalesce(m.test_runs, 0), NULL) AS test_runs, iif(m.sources = 1, m.score_mean, NULL) AS "
+         "score_mean, iif(m.sources = 1, m.score_runs, NULL) AS score_runs FROM (SELECT * FROM "
+         "v_designs" +
+         own +
+         ") AS d LEFT JOIN (SELECT design, avg(score) FILTER (WHERE purpose = 'test') AS "
+         "test_mean, "
+         "count(score) FILTER (WHERE purpose = 'test') AS test_runs, avg(score) FILTER (WHERE "
+         "purpose = 'score') AS score_mean, count(*) FILTER (WHERE purpose = 'score') AS "
+         "score_runs, count(DISTINCT source) FILTER (WHERE purpose = 'score') AS sources FROM "
+         "v_design_scores" +
+         own + " GROUP BY design) AS m ON m.design = d.design)";
+}
+
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written) {
   std::vector<CampaignStatus> campaigns;
   std::map<std::string, std::size_t> places;  // by number

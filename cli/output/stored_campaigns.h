@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "base/expected.h"
@@ -11,13 +11,9 @@
 namespace swarmsmith::cli {
 
 /// v_designs with the mean of the winner's tests, and of its other scores where these have one
-/// source: to be asked as a table.
-inline constexpr std::string_view kDesignsWithMeans =
-    "(SELECT d.*, t.test_mean, t.test_runs, s.score_mean, s.score_runs FROM v_designs AS d "
-    "LEFT JOIN v_leaderboard AS t ON t.design = d.design "
-    "LEFT JOIN (SELECT design, avg(score) AS score_mean, count(*) AS score_runs "
-    "FROM v_design_scores WHERE purpose = 'score' GROUP BY design "
-    "HAVING count(DISTINCT source) = 1) AS s ON s.design = d.design)";
+/// source: to be asked as a table. `own` is a condition on the column design (" WHERE design = 3"),
+/// or empty: SQLite does not carry it into the part that groups.
+std::string designs_with_means(const std::string& own = {});
 
 /// The campaigns of a store as a coordinator would describe them. `is_written`: a process writes
 /// the store; without one, a campaign that is not finished is "interrupted". Errors: as a query's.

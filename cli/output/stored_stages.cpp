@@ -44,21 +44,29 @@ std::optional<std::size_t> place_of(const Rows& rows, std::string_view column) {
   return static_cast<std::size_t>(found - rows.columns.begin());
 }
 
-constexpr const char* kIterations =
-    "SELECT i.design, i.iteration, i.planned, i.postselection, i.configurations, i.budget, "
-    "s.step, s.used, (SELECT alive_after FROM v_race_steps AS l WHERE l.design = i.design AND "
-    "l.step = s.step) FROM v_iterations AS i LEFT JOIN (SELECT design, iteration, max(step) AS "
-    "step, max(used) AS used FROM v_race_steps GROUP BY design, iteration) AS s ON s.design = "
-    "i.design AND s.iteration = i.iteration ORDER BY i.design, i.iteration";
+/// `own` is a condition on the column design, or empty: SQLite does not carry it into the part that
+/// groups.
+std::string iterations_of(const std::string& own) {
+  return "SELECT i.design, i.iteration, i.planned, i.postselection, i.configurations, i.budget, "
+         "s.step, s.used, (SELECT alive_after FROM v_race_steps AS l WHERE l.design = i.design AND "
+         "l.step = s.step) FROM (SELECT * FROM v_iterations" +
+         own +
+         ") AS i LEFT JOIN (SELECT design, iteration, max(step) AS step, max(used) AS used FROM "
+         "v_race_steps" +
+         own +
+         " GROUP BY design, iteration) AS s ON s.design = i.design AND s.iteration = i.iteration "
+         "ORDER BY i.design, i.iteration";
+}
 
 }  // namespace
 
-Expected<StoredStages> StoredStages::read(StoreReader& store) {
+Expected<StoredStages> StoredStages::read(StoreReader& store, std::optional<DesignId> only) {
   StoredStages stages;
   const auto searches = method_searches(store);
   if (!searches || searches->empty()) return stages;
-  const auto designs =
-      select(store, "SELECT design, campaign, method, budget, used, iteration FROM v_designs");
+  const std::string own = only ? " WHERE design = " + std::to_string(only->value) : "";
+  const auto designs = select(
+      store, "SELECT design, campaign, method, budget, used, iteration FROM v_designs" + own);
   if (!designs) return Unexpected(designs.error());
   for (const auto& cells : designs->cells) {
     const auto search = searches->find({cells[1].text, cells[2].text});
@@ -69,7 +77,7 @@ Expected<StoredStages> StoredStages::read(StoreReader& store) {
                   .budget = number(cells[3].text)};
     stages.designs_.emplace(number(cells[0].text), std::move(design));
   }
-  const auto iterations = select(store, kIterations, {.rows = 10'000'000});
+  const auto iterations = select(store, iterations_of(own), {.rows = 10'000'000});
   if (!iterations) return Unexpected(iterations.error());
   for (const auto& cells : iterations->cells) {
     const auto found = stages.designs_.find(number(cells[0].text));

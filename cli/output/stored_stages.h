@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,8 +17,9 @@ namespace swarmsmith::cli {
 /// they are. Empty for a store of races: nothing is read but the campaigns' files.
 class StoredStages {
  public:
-  /// A campaign file that this version cannot read says nothing of its searches.
-  static Expected<StoredStages> read(StoreReader& store);
+  /// Of all designs, or of `only`. A campaign file that this version cannot read says nothing of
+  /// its searches.
+  static Expected<StoredStages> read(StoreReader& store, std::optional<DesignId> only = {});
 
   bool empty() const { return designs_.empty(); }
   /// Null for a race by irace. `design` as a number, or with its d.

@@ -1,5 +1,4 @@
 """The Python module reads stores and calls the program."""
-import importlib.util
 import os
 import pathlib
 import sqlite3
@@ -73,14 +72,6 @@ class PythonModule(ProgramTest):
         with self.assertRaises(swarmsmith.Error) as raised:
             swarmsmith.evaluate("--nstates 1 --s0 1")
         self.assertIn("--flavour", str(raised.exception))
-
-    def test_frames(self):
-        if importlib.util.find_spec("pandas") is None:
-            self.skipTest("pandas is not there")
-        with swarmsmith.Store(self.store) as store:
-            frame = store.frame("SELECT candidate, mean FROM v_convergence WHERE rank = 1")
-        self.assertEqual(list(frame.columns), ["candidate", "mean"])
-        self.assertGreater(len(frame), 0)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,4 @@
 """irace for a Python function: ask and tell by the Python module."""
-import importlib.util
 import json
 import math
 import multiprocessing
@@ -142,9 +141,6 @@ class TunerTest(unittest.TestCase):
         for row in best.trials:
             self.assertAlmostEqual(row["cost"], seen[str(row["configuration"]), str(row["instance"]), row["seed"]], 12)
         self.assertEqual(again.trials, best.trials)
-        if importlib.util.find_spec("pandas"):
-            self.assertEqual(list(best.trials_frame()["x"]), [row["configuration"]["x"] for row in best.trials])
-            self.assertIn("size", best.frame().columns)
 
     def test_several_at_a_time_give_the_same(self):
         most = 0

@@ -1,4 +1,5 @@
-"""What docs/storage.md tells R and pandas users to type works, word for word, on a real store.
+"""What docs/storage.md tells R and pandas users to type works, word for word, on a real store; and the Python module's
+frames.
 
     snippets_test.py [-v] r|python
 """
@@ -13,6 +14,22 @@ import unittest
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 sys.path.insert(0, str(SOURCE / "tests" / "end_to_end"))
 from programs import ProgramTest  # noqa: E402
+
+
+# A query's answer, and what a tuner found and tried.
+FRAMES = """
+import sys
+import swarmsmith
+query = "SELECT candidate, mean FROM v_convergence WHERE rank = 1"
+with swarmsmith.Store(sys.argv[1]) as store:
+    frame, rows = store.frame(query), store.query(query)
+assert len(rows) > 0 and frame.to_dict("records") == rows, frame
+best = swarmsmith.tune(lambda trial: trial.configuration["x"], {"x": (0.0, 1.0), "size": ["small", "large"]},
+                       max_experiments=100, seed=3)
+assert list(best.frame().columns[-2:]) == ["x", "size"], best.frame()
+assert list(best.trials_frame()["x"]) == [row["configuration"]["x"] for row in best.trials]
+print("same")
+"""
 
 
 def snippets(language):
@@ -94,6 +111,12 @@ class Python(Snippets):
                         "ORDER BY score")]
         row = next(line for line in printed[1].splitlines() if line.startswith("aggregation"))
         self.assertEqual(float(row.split()[-3]), scores[len(scores) // 2])
+
+    def test_frames_of_the_module(self):
+        done = subprocess.run([self.python, "-c", FRAMES, str(self.store)], cwd=self.folder, text=True,
+                              capture_output=True, timeout=120,
+                              env={**os.environ, "PYTHONPATH": str(SOURCE / "analysis" / "python")})
+        self.assertEqual((done.stdout, done.stderr), ("same\n", ""))
 
 
 if __name__ == "__main__":

@@ -165,7 +165,7 @@ Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& 
                           : "the winners have no scores after their races; `swarmsmith evaluate "
                             "best --store STORE` makes them");
   }
-  const auto names = names_of(store);
+  const auto names = names_with_sources(store);
   if (!names) return Unexpected(names.error());
   return grouped(taken, *names, options.by);
 }

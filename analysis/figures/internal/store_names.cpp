@@ -80,18 +80,24 @@ Expected<StoreNames> names_of(StoreReader& store) {
     names.methods.push_back(design.method);
     names.missions.push_back(design.mission);
   }
-  const auto end = store.query(
-      "SELECT DISTINCT source FROM v_design_scores", {}, [](const auto&) {},
-      [&](const std::vector<StoreReader::Cell>& cells) {
-        names.sources.push_back(cells.front().text);
-      });
-  if (!end) return Unexpected(end.error());
   auto units = units_of(store);
   if (!units) return Unexpected(units.error());
   names.units = std::move(*units);
   sort(names.methods);
   sort(names.missions);
-  sort(names.sources);
+  return names;
+}
+
+Expected<StoreNames> names_with_sources(StoreReader& store) {
+  auto names = names_of(store);
+  if (!names) return names;
+  const auto end = store.query(
+      "SELECT DISTINCT source FROM v_design_scores", {}, [](const auto&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        names->sources.push_back(cells.front().text);
+      });
+  if (!end) return Unexpected(end.error());
+  sort(names->sources);
   return names;
 }
 

@@ -16,14 +16,16 @@ namespace swarmsmith {
 struct StoreNames {
   std::vector<std::string> methods;          ///< of all designs
   std::vector<std::string> missions;         ///< of all designs
-  std::vector<std::string> sources;          ///< of all scores of winners
+  std::vector<std::string> sources;          ///< of all scores of winners, where asked for
   std::map<std::string, std::string> units;  ///< by mission: what its scores count, where known
 
   /// The mission in words, with its unit in brackets: "aggregation (robots)".
   std::string title_of(const std::string& mission) const;
 };
 
+/// Without sources, which take a look at all scores.
 Expected<StoreNames> names_of(StoreReader& store);
+Expected<StoreNames> names_with_sources(StoreReader& store);
 
 /// The number of names when it is none of them.
 std::size_t place_of(const std::vector<std::string>& names, std::string_view name);
