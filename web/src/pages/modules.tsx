@@ -55,7 +55,7 @@ export function Modules({ params: { c }, campaign, query: { mission = "", method
       return some.length === 0 ? nothing : <div class="grid">
         <Panel title={title} command={command("figure modules", option("mission", mission) + option("method", method) + "-o modules.svg")}>
           <Figure key={mission + "/" + method} kind="modules" options={{ mission, method }} name="Modules of winners" version={version} /></Panel>
-        <Panel title="In numbers">{table(c, some, mission ? [mission] : missions)}</Panel>
+        <Panel wide={!mission && missions.length > 2} title="In numbers">{table(c, some, mission ? [mission] : missions)}</Panel>
       </div>;
     }} />}
   </div>;
