@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "sim/control/treads.h"
 #include "sim/engine/internal/ring.h"
 #include "sim/engine/profile_fields.h"
 #include "sim/mission/polygon.h"
@@ -102,8 +103,8 @@ Flavour fitted(const Flavour& flavour, const Robot& robot) {
     result.light.directions = *labels;
   }
   result.speed_mps = std::min(flavour.speed_mps, robot.drive.max_speed_mps);
-  // An RVR's treads skid: what turns it may be another distance than that between them.
-  if (robot != rvr_with(robot.body.outline)) result.exploration.track_m = robot.drive.track_m;
+  // The RVR's treads skid: a flavour may know better than the robot what distance turns it.
+  if (robot.drive.track_m != kTreadDistance_m) result.exploration.track_m = robot.drive.track_m;
   return result;
 }
 
