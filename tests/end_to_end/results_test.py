@@ -255,8 +255,10 @@ class Results(ProgramTest):
             self.done("evaluate", "best", each, "--seeds", "1-2")
             self.assertEqual(len(self.query(each, "SELECT * FROM v_design_scores")), 2)
             self.assertIn("mine", self.done("ls", "designs", each))
-            self.assertIn("Stop", self.done("figure", "machine", each, "--design", "d1", "-o", "-"))
-            self.done("export", each, "--design", "d1", "--format", "svg", "-o", self.folder / "d1.svg")
+            drawing = self.folder / "d1.svg"
+            self.done("figure", "machine", each, "--design", "d1", "-o", drawing)
+            self.assertIn("Stop", drawing.read_text())
+            self.done("export", each, "--design", "d1", "--format", "svg", "-o", drawing)
             self.done("report", each, "-o", self.folder / "report.html")
             self.assertIn("stop", self.done("show", "c1", each))
         texts = "SELECT file FROM v_campaigns"
