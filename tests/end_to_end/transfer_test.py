@@ -83,15 +83,14 @@ class Transfer(ProgramTest):
         self.assertEqual(svg.count(">evostick<"), 2, "one name below the two boxes of a mission")
 
     def casual_evaluations_change_no_figure(self):
-        words = [("figure", "box", self.store, "-o"), ("figure", "gap", self.store, "-o"), ("compare", self.store, "--by", "source", "--csv")]
         def told():
-            csvs = []
-            for word in words:
-                file = [self.folder / "told.csv"] if word[-1] == "-o" else []
-                done = call(*word, *file)
+            table = self.folder / "told.csv"
+            texts = [call("compare", self.store, "--by", "source", "--csv").stdout]
+            for kind in ("box", "gap"):
+                done = call("figure", kind, self.store, "-o", table)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                csvs.append(file[0].read_text() if file else done.stdout)
-            return csvs
+                texts.append(table.read_text())
+            return texts
         before = told()
         for profile in ("rvr", "pseudo-reality"):
             done = call("evaluate", "best", self.store, "--profile", profile, "--seeds", "501-503")
