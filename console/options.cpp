@@ -25,6 +25,17 @@ std::pair<std::string, std::string> names_and_value(const std::string& text) {
   return {text.substr(0, end), text.substr(end + 1)};
 }
 
+/// "PROFILE|FILE": the value may be a path. An empty one would be taken for one that is not given.
+bool is_path(std::string_view kind) {
+  while (true) {
+    const std::size_t end = kind.find('|');
+    const std::string_view one = kind.substr(0, end);
+    if (one == "FILE" || one == "STORE" || one == "DIR") return true;
+    if (end == std::string_view::npos) return false;
+    kind.remove_prefix(end + 1);
+  }
+}
+
 }  // namespace
 
 std::string store_of_environment() {
@@ -44,7 +55,12 @@ void Options::describe(CLI::Option* option, const std::string& value) {
   } else {
     option->type_name(value.empty() ? "TEXT" : value);
   }
-  kinds_[name] = value.empty() ? name : value;
+  const std::string& kind = kinds_[name] = value.empty() ? name : value;
+  if (!is_path(kind)) return;
+  const auto check = [](const std::string& given) -> std::string {
+    return given.empty() ? "the path is empty; name a file, or leave it out" : "";
+  };
+  option->check(check, "", "path");
 }
 
 void Options::text(const std::string& names, std::string& value, const std::string& help,

@@ -170,4 +170,8 @@ std::string to_text(const Scalar& value);
 /// a command line.
 std::string to_fixed_text(double value);
 
+/// The shortest digits that read back to the same number, never in scientific notation: for
+/// sentences that compare numbers.
+std::string exact_text(double value);
+
 }  // namespace swarmsmith

@@ -235,8 +235,7 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
     found = evaluate(std::get<Real>(parameters_[index].domain));
   }
   if (found && found->lower > found->upper) {
-    return bad_input("the domain (" + to_fixed_text(found->lower) + ", " +
-                         to_fixed_text(found->upper) +
+    return bad_input("the domain (" + exact_text(found->lower) + ", " + exact_text(found->upper) +
                          ") is empty here: keep the bounds apart, as by min() and max()",
                      parameters_[index].name);
   }
@@ -270,13 +269,12 @@ Expected<void> ParameterSpace::check(const Configuration& configuration) const {
     if (!*domain) continue;
     if (!configuration.is_active(i)) return bad_input("is active and needs a value", name);
     if (v < (*domain)->lower || v > (*domain)->upper) {
-      return bad_input(to_fixed_text(v) + " is not in its domain (" +
-                           to_fixed_text((*domain)->lower) + ", " +
-                           to_fixed_text((*domain)->upper) + ")",
+      return bad_input(exact_text(v) + " is not in its domain (" + exact_text((*domain)->lower) +
+                           ", " + exact_text((*domain)->upper) + ")",
                        name);
     }
     if (!std::holds_alternative<Real>(parameters_[i].domain) && v != std::floor(v)) {
-      return bad_input(to_fixed_text(v) + " is not a whole number", name);
+      return bad_input(exact_text(v) + " is not a whole number", name);
     }
     values.set(i, v);
   }

@@ -24,9 +24,9 @@ Expected<void> check_ranges(std::span<const Range> ranges) {
   for (const Range& range : ranges) {
     if (range.value >= range.least && range.value <= range.most) continue;
     const bool too_little = !(range.value >= range.least);
-    return bad_input("must be " + to_fixed_text(too_little ? range.least : range.most) +
+    return bad_input("must be " + exact_text(too_little ? range.least : range.most) +
                          (too_little ? " or more" : " or less") + ", and is " +
-                         to_fixed_text(range.value),
+                         exact_text(range.value),
                      range.option);
   }
   return {};
@@ -74,7 +74,7 @@ Expected<void> check_budget(const Scenario& s) {
   }
   if (!s.elitist) return bad_input("needs elitist to be on", "max_time");
   if (!(s.budget_estimation > 0 && s.budget_estimation < 1)) {
-    return bad_input("must lie between 0 and 1, and is " + to_fixed_text(s.budget_estimation),
+    return bad_input("must lie between 0 and 1, and is " + exact_text(s.budget_estimation),
                      "budget_estimation");
   }
   return {};
@@ -114,7 +114,7 @@ Expected<void> check(const Scenario& scenario) {
   if (auto checked = check_budget(scenario); !checked) return checked;
   if (auto checked = check_blocks(scenario); !checked) return checked;
   if (!(scenario.confidence > 0 && scenario.confidence < 1)) {
-    return bad_input("must lie between 0 and 1, and is " + to_fixed_text(scenario.confidence),
+    return bad_input("must lie between 0 and 1, and is " + exact_text(scenario.confidence),
                      "confidence");
   }
   if (scenario.capping.value_or(false)) {

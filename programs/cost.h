@@ -11,4 +11,10 @@ constexpr double to_score(double cost) {
   return 0.0 - cost;
 }
 
+/// Of a finite cost or score: sums of them must be finite, and means what they say.
+constexpr double kLargestCost = 1e300;
+constexpr bool is_too_large(double number) {
+  return number < -kLargestCost || number > kLargestCost;
+}
+
 }  // namespace swarmsmith

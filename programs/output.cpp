@@ -6,6 +6,7 @@
 
 #include "base/shown_text.h"
 #include "programs/command_line.h"
+#include "programs/cost.h"
 #include "programs/internal/aclib.h"
 #include "programs/number.h"
 
@@ -48,9 +49,7 @@ Expected<double> number_of(std::string_view token, const std::string& program,
     return bad_input("the " + what + " that the " + program + " printed is " + std::string(token) +
                      "; print Inf for a configuration that is useless");
   }
-  // Sums of costs must be finite, and means what they say.
-  constexpr double kLargest = 1e300;
-  if (std::isfinite(*number) && std::fabs(*number) > kLargest) {
+  if (std::isfinite(*number) && is_too_large(*number)) {
     return bad_input("the " + what + " that the " + program + " printed, " + std::string(token) +
                      ", is beyond 1e300; print Inf for a configuration that is useless");
   }

@@ -199,7 +199,10 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
         return Unexpected(taken.error());
       }
     }
+    sqlite::Transaction transaction(connection);
+    know_flavours(connection);
     RowSums::found(connection).write(connection);
+    transaction.commit();
     if (const auto faults = faults_of(connection); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt, "what was merged is damaged: " + faults.front(),
                         into.string());

@@ -182,6 +182,7 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
       sqlite::integer_of(writer_.connection, "SELECT coalesce(max(id), 0) FROM design");
   Statement(writer_.connection, kCampaign)
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
+  know_flavours(writer_.connection);
   Statement insert(writer_.connection, kDesign);
   for (const auto& [row, name] : addition.designs) {
     for (const std::string& each : {row.mission, row.method, name}) {

@@ -108,6 +108,10 @@ constexpr bool is_simulated(const PurposeFacts& facts) {
 constexpr bool is_test(const PurposeFacts& facts) {
   return facts.replay == PurposeFacts::Replay::Tests;
 }
+/// A test that counts as a score among the winners'.
+constexpr bool is_transfer(const PurposeFacts& facts) {
+  return is_test(facts) && facts.counts_as == "score";
+}
 constexpr bool is_score_of_winner(const PurposeFacts& facts) {
   return !facts.counts_as.empty();
 }

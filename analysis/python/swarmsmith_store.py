@@ -66,7 +66,8 @@ class Store:
 
     def design_means(self, purpose="test"):
         """A row a finished design and source: mission, method, design, candidate, source, mean, runs. These are the
-        values of figures, tables and tests. `purpose`: `test`, the campaign's own, or `score`, asked for later."""
+        values of figures, tables and tests. `purpose`: `test`, on the campaign's own seeds and profile, or `score`, under
+        its further profiles or asked for later."""
         if purpose not in PURPOSES:
             raise OptionError(f"purpose: {purpose!r} is not known here: it is one of {', '.join(PURPOSES)}. "
                               "Other evaluations are rows of v_evaluations")

@@ -16,15 +16,19 @@ namespace {
 
 using Place = std::pair<std::string, std::string>;  // mission, source
 
+bool is_of_campaign(const DesignScore& score) {
+  return score.purpose == "test" || score.is_transfer;
+}
+
 void keep(std::vector<DesignScore>& scores, const std::string& purpose) {
   if (purpose == "all") return;
   std::set<Place> tested;
   for (const DesignScore& score : scores) {
-    if (score.purpose == "test") tested.insert({score.mission, score.source});
+    if (is_of_campaign(score)) tested.insert({score.mission, score.source});
   }
   std::erase_if(scores, [&](const DesignScore& score) {
     if (!purpose.empty()) return score.purpose != purpose;
-    return score.purpose != "test" && tested.contains({score.mission, score.source});
+    return !is_of_campaign(score) && tested.contains({score.mission, score.source});
   });
 }
 
@@ -39,9 +43,8 @@ bool has_designs_to_compare(const std::vector<DesignScore>& scores) {
 
 /// What the scores are of, in words.
 std::string purposes_of(const std::vector<DesignScore>& scores) {
-  const auto is_test = [](const DesignScore& score) { return score.purpose == "test"; };
-  if (std::ranges::all_of(scores, is_test)) return "tests";
-  return std::ranges::any_of(scores, is_test) ? "tests or later runs" : "later runs";
+  if (std::ranges::all_of(scores, is_of_campaign)) return "tests";
+  return std::ranges::any_of(scores, is_of_campaign) ? "tests or later runs" : "later runs";
 }
 
 }  // namespace

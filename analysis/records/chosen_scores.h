@@ -19,8 +19,8 @@ enum class ScoreUnit {
 };
 
 struct ScoreChoice {
-  /// `test`: of the campaign's own tests; `score`: asked for later; `all`. Empty: of each mission
-  /// and source the tests, and where there are none what was asked for later. So nothing that
+  /// As DesignScore::purpose; `all`. Empty: of each mission and source the campaign's tests,
+  /// further profiles included, and where there are none what was asked for later. So nothing that
   /// a user evaluates afterwards changes the numbers of a campaign that tests its winners.
   std::string purpose;
   /// None: a design, but a run where no mission, method and source has more than one design.

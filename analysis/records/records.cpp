@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "base/text/csv.h"
+#include "storage/stored_enums.h"
 
 namespace swarmsmith {
 namespace {
@@ -81,11 +82,16 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
 }
 
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
+  // Candidate, source, instance and seed are those of one score alone, whatever made it.
+  const std::string transfers =
+      "SELECT candidate, source, instance, seed FROM v_evaluations WHERE purpose IN " +
+      words_in_sql(is_transfer) + " AND candidate IN (SELECT best_candidate FROM v_designs)";
   auto scores = read<DesignScore>(store,
                                   "SELECT design, mission, method, repetition, candidate, source, "
-                                  "purpose, pair, instance, seed,"
-                                  " score FROM v_design_scores" +
-                                      where(filter) + " ORDER BY design, purpose, source, pair",
+                                  "purpose, pair, instance, seed, score, purpose = 'score' AND "
+                                  "ifnull((candidate, source, instance, seed) IN (" +
+                                      transfers + "), 0) FROM v_design_scores" + where(filter) +
+                                      " ORDER BY design, purpose, source, pair",
                                   [](const Cells& row) {
                                     return DesignScore{.design = {row[0].integer()},
                                                        .mission = row[1].text,
@@ -94,6 +100,7 @@ Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const Recor
                                                        .candidate = {row[4].integer()},
                                                        .source = row[5].text,
                                                        .purpose = row[6].text,
+                                                       .is_transfer = row[11].integer() != 0,
                                                        .pair = row[7].integer(),
                                                        .instance = row[8].integer(),
                                                        .seed = row[9].integer(),

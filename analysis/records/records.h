@@ -32,6 +32,8 @@ struct DesignScore {
   CandidateId candidate;
   std::string source;   ///< a simulator profile, `real`, or what an import called it
   std::string purpose;  ///< `test` (on the campaign's own seeds), `score` (asked for later)
+  /// A `score` that its campaign made itself: a test under a further profile of [tests].
+  bool is_transfer = false;
   std::int64_t pair = 0;
   std::int64_t instance = 0;
   std::int64_t seed = 0;

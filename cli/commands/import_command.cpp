@@ -112,9 +112,9 @@ CommandRun declare_import(Options& options) {
   options.text("--into STORE", arguments->into,
                "Store to import into; made if needed for machines and logs, while scores need "
                "their designs");
-  options.text("--flavour FLAVOUR", arguments->flavour,
+  options.text("--flavour FLAVOUR|FILE", arguments->flavour,
                "Flavour of machines whose file names none, or of a log's configurations: " +
-                   joined(flavour_names()));
+                   joined(flavour_names()) + ", or a file");
   options.texts("--mission MISSION|FILE", arguments->missions,
                 "Mission of rows that name none; OLD=NEW renames one; a mission file in place of a "
                 "name says what the mission is, alone that of all rows; may be repeated");

@@ -10,6 +10,7 @@
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
+#include "cli/arguments/world_argument.h"
 #include "cli/commands/irace_converter.h"
 #include "cli/replay/design_worlds.h"
 #include "console/terminal.h"
@@ -146,26 +147,31 @@ Expected<void> compare_missions(const Addition& addition, StoreReader& store, Ou
   return {};
 }
 
+/// That of --flavour, if it is given.
+Expected<std::optional<Flavour>> said_flavour(const ImportArguments& arguments, Output& output) {
+  if (arguments.flavour.empty()) return std::optional<Flavour>();
+  auto found = find_flavour_or_complain(arguments.flavour, "--flavour", output);
+  if (!found) return Unexpected(found.error());
+  return std::optional(std::move(*found));
+}
+
 ExitCode import_machines_into(const ImportArguments& arguments,
                               OrErrors<std::vector<MachineText>> machines, Output& output) {
   if (!machines) return fail_all(output, machines.error());
-  const auto named = flavour_of(*machines, arguments.flavour);
-  if (!named) return fail(output, ExitCode::Usage, named.error());
-  const auto flavour = find_flavour(*named);
-  if (!flavour) {
-    return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
-  }
+  const auto said = said_flavour(arguments, output);
+  if (!said) return fail(output, ExitCode::Usage, said.error());
+  const auto flavour = flavour_of(*machines, *said);
+  if (!flavour) return fail(output, ExitCode::Usage, flavour.error());
   const auto missions = read_mission_words(arguments.missions);
   if (!missions) return fail_all(output, missions.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Make);
   if (!target) return fail(output, ExitCode::Store, target.error());
-  auto addition =
-      import_machines(*machines, {.campaign = campaign_name(arguments),
-                                  .flavour = **flavour,
-                                  .missions = *missions,
-                                  .method = arguments.method.empty() ? *named : arguments.method,
-                                  .designs = target->designs});
+  auto addition = import_machines(
+      *machines, {.campaign = campaign_name(arguments),
+                  .flavour = *flavour,
+                  .missions = *missions,
+                  .method = arguments.method.empty() ? flavour->name : arguments.method,
+                  .designs = target->designs});
   if (!addition) return fail_all(output, addition.error());
   for (const MachineText& machine : *machines) {
     const auto remark = remark_about(machine.text);
@@ -183,14 +189,9 @@ ExitCode import_machines_into(const ImportArguments& arguments,
 ExitCode import_log_into(const ImportArguments& arguments,
                          const std::map<std::string, std::string>& texts, Output& output) {
   IraceImport known{.campaign = campaign_name(arguments), .flavour = {}, .designs = {}};
-  if (!arguments.flavour.empty()) {
-    const auto flavour = find_flavour(arguments.flavour);
-    if (!flavour) {
-      return fail(output, ExitCode::Usage,
-                  Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
-    }
-    known.flavour = **flavour;
-  }
+  auto flavour = said_flavour(arguments, output);
+  if (!flavour) return fail(output, ExitCode::Usage, flavour.error());
+  known.flavour = std::move(*flavour);
   const auto missions = read_mission_words(arguments.missions);
   if (!missions) return fail_all(output, missions.error());
   if (!missions->of_all.empty()) known.mission = missions->of_all;
@@ -202,9 +203,11 @@ ExitCode import_log_into(const ImportArguments& arguments,
   known.designs = target->designs;
   auto addition = irace_log_addition(*log, known);
   if (!addition) return fail_all(output, addition.error());
-  if (const MissionEntry* described = missions->of_file(known.mission)) {
-    addition->campaign->file = imported_text({.missions = {*described}, .profile = {}});
-  }
+  ImportedWorld world;
+  if (const MissionEntry* described = missions->of_file(known.mission))
+    world.missions.push_back(*described);
+  if (known.flavour) world.own_flavour = kept_flavour(*known.flavour);
+  addition->campaign->file = imported_text(world);
   return add_campaign(arguments, std::move(*target), std::move(*addition), "irace log", output);
 }
 

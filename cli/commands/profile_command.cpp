@@ -51,7 +51,8 @@ CommandRun declare(Options& options, const std::string& word, const std::string&
 }  // namespace
 
 CommandRun declare_profile(Options& options) {
-  return declare(options, "PROFILE", "A built-in profile, or a file (default: list them)",
+  return declare(options, "PROFILE PROFILE|FILE",
+                 "A built-in profile, or a file (default: list them)",
                  {.kind = "profile",
                   .names = profile_names(),
                   .built_in = built_in_profile_text,
@@ -60,7 +61,8 @@ CommandRun declare_profile(Options& options) {
 }
 
 CommandRun declare_flavour(Options& options) {
-  return declare(options, "FLAVOUR", "A built-in flavour, or a file (default: list them)",
+  return declare(options, "FLAVOUR FLAVOUR|FILE",
+                 "A built-in flavour, or a file (default: list them)",
                  {.kind = "flavour",
                   .names = flavour_names(),
                   .built_in = built_in_flavour_text,

@@ -29,10 +29,14 @@ std::string optional_text(const std::optional<double>& value, const char* format
 /// How much of the whole budget is used.
 std::string bar(std::int64_t used, std::int64_t budget) {
   constexpr std::int64_t kCells = 20;
-  const std::int64_t filled =
-      budget > 0 ? std::clamp<std::int64_t>(used * kCells / budget, 0, kCells) : 0;
+  const std::int64_t filled = std::clamp<std::int64_t>(used * kCells / budget, 0, kCells);
   return "[" + std::string(static_cast<std::size_t>(filled), '#') +
          std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
+}
+
+/// "1 200/3 000"; "1 200" where the budget is a time.
+std::string spent(std::int64_t used, std::int64_t budget) {
+  return grouped(used) + (budget > 0 ? "/" + grouped(budget) : "");
 }
 
 /// Sums over all campaigns, and how many of them are over.
@@ -74,8 +78,9 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
                              std::to_string(std::max(current->iterations, current->iteration))});
   }
   // A step of many candidates, or of slow ones, may take minutes.
-  pieces.push_back({9, bar(totals.budget - totals.left + totals.in_step, totals.budget)});
-  pieces.push_back({2, grouped(totals.used + totals.in_step) + "/" + grouped(totals.budget)});
+  if (totals.budget > 0)
+    pieces.push_back({9, bar(totals.budget - totals.left + totals.in_step, totals.budget)});
+  pieces.push_back({2, spent(totals.used + totals.in_step, totals.budget)});
   if (current != nullptr && current->best) {
     pieces.push_back({4, (models.front().shows_costs() ? "best cost " : "best ") +
                              mean_text(models.front(), current->best_mean)});
@@ -194,7 +199,7 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
                      " " + progress.method + " " + std::to_string(progress.repetition);
   // Without a budget there is no race.
   if (progress.budget > 0 || state.used > 0) {
-    text += "  " + grouped(state.used) + "/" + grouped(progress.budget);
+    text += "  " + spent(state.used, progress.budget);
   }
   if (state.best && state.used > 0) text += "  best " + to_string(state.best) + " " + best_mean;
   // That its budget is used up is how a race ends as it should.

@@ -19,8 +19,10 @@ std::string percent(double part, double whole) {
   return whole > 0 ? fmt::format("{:.0f} %", 100 * part / whole) : "-";
 }
 
-/// "1 200/3 000 (40 %)": a race that is over is done, whatever its budget has left.
-std::string experiments(const CampaignTotals& totals) {
+/// "1 200/3 000 (40 %)": a race that is over is done, whatever its budget has left. "1 200" where
+/// that is a time.
+std::string experiments(const CampaignTotals& totals, bool is_time) {
+  if (is_time) return std::to_string(totals.used);
   return fmt::format("{}/{} ({})", totals.used, totals.budget,
                      percent(static_cast<double>(totals.budget - totals.left),
                              static_cast<double>(totals.budget)));
@@ -34,6 +36,12 @@ CampaignTotals totals_of(const LiveStatus& status) {
       totals.add(design);
   }
   return totals;
+}
+
+bool has_time_budget(const LiveStatus& status) {
+  return status.campaigns && std::ranges::any_of(*status.campaigns, [](const CampaignStatus& one) {
+           return one.max_time > 0;
+         });
 }
 
 /// As people read it. On one host nothing crosses a network.
@@ -83,8 +91,10 @@ void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
   if (status.campaigns) {
     for (const CampaignStatus& one : *status.campaigns) {
       const CampaignTotals totals = one.totals();
-      lines.push_back(fmt::format("campaign {}  {}  designs {}/{}  experiments {}", one.name,
-                                  one.state, totals.finished, totals.designs, experiments(totals)));
+      lines.push_back(
+          fmt::format("campaign {}  {}  designs {}/{}  experiments {}", one.name, one.state,
+                      totals.finished, totals.designs, experiments(totals, one.max_time > 0)) +
+          (one.max_time > 0 ? fmt::format("  time budget {} a design", one.max_time) : ""));
       if (!one.trouble.empty()) lines.push_back("  trouble: " + one.trouble);
     }
   }
@@ -162,9 +172,11 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         if (is_racing != racing) continue;
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
+        const std::string budget = campaign.max_time > 0 ? fmt::format("time {}", campaign.max_time)
+                                                         : std::to_string(one.budget);
         lines.push_back(
             fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<{}} {} {}{}{}", to_string(one.id),
-                        shown_state(campaign, one), one.used, one.budget, part,
+                        shown_state(campaign, one), one.used, budget, part,
                         one.best ? fmt::format("{:.4g}{}", one.told_mean(),
                                                one.is_tested() ? " in tests" : "")
                                  : "",
@@ -283,9 +295,9 @@ std::string status_summary(const LiveStatus& status) {
   const bool all_there =
       launcher.name.empty() || (launcher.running >= launcher.wanted && launcher.note.empty());
   return fmt::format("experiments {}  workers {}  slots {}  {:.0f}/s  {}{}{}",
-                     experiments(totals_of(status)), status.workers, status.slots,
-                     status.evaluations_per_s, shares(status.slot_times_last_minute), eta(status),
-                     troubles(status)) +
+                     experiments(totals_of(status), has_time_budget(status)), status.workers,
+                     status.slots, status.evaluations_per_s, shares(status.slot_times_last_minute),
+                     eta(status), troubles(status)) +
          (all_there ? "" : "  " + to_text(status.launcher)) +
          (status.trouble.empty() ? "" : "  NOTHING IS STORED: " + status.trouble);
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
+#include "base/text/csv.h"
 #include "cli/output/query_output.h"
 #include "cli/output/stored_stages.h"
 
@@ -15,6 +17,12 @@ constexpr const char* kDesigns =
     "SELECT d.design, d.campaign, d.mission, d.method, d.repetition, d.state, d.used, d.budget, "
     "d.iteration, d.best_candidate, d.best_mean, d.reason, t.test_mean, t.test_runs "
     "FROM v_designs AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design ORDER BY d.design";
+
+/// From the JSON object of what decides the campaign, whose values are texts.
+double max_time_in(const std::string& deciding) {
+  const auto json = nlohmann::json::parse(deciding, nullptr, false);
+  return json.is_object() ? number_in(json.value("race.max_time", "")).value_or(0) : 0;
+}
 
 }  // namespace
 
@@ -37,11 +45,12 @@ Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool 
   std::vector<CampaignStatus> campaigns;
   std::map<std::string, std::size_t> places;  // by number
   const auto heads =
-      select(store, "SELECT campaign, name, state FROM v_campaigns ORDER BY campaign");
+      select(store, "SELECT campaign, name, state, deciding FROM v_campaigns ORDER BY campaign");
   if (!heads) return Unexpected(heads.error());
   for (const auto& cells : heads->cells) {
     places.emplace(cells[0].text, campaigns.size());
     campaigns.push_back({.name = cells[1].text, .state = cells[2].text});
+    campaigns.back().max_time = max_time_in(cells[3].text);
     if (!is_written && campaigns.back().state == "running") campaigns.back().state = "interrupted";
   }
   std::map<DesignId, bool> paused;

@@ -93,6 +93,7 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
     if (entry.mission.name == known->mission) world.mission = CampaignMission{entry, {}};
   }
   world.profile = imported->profile;
+  world.own_flavour = imported->own_flavour;
   return world;
 }
 

@@ -186,7 +186,8 @@ std::vector<ServiceCampaign> CampaignMembers::served() const {
     const Member& member = members_[i];
     served.push_back({campaign_digest(*member.campaign), member.store.get(), member.runner.get(),
                       member.name, design_rows(*member.campaign),
-                      real_store(member.campaign->store), searches_of(*member.campaign)});
+                      real_store(member.campaign->store), searches_of(*member.campaign),
+                      member.campaign->race.max_time});
   }
   return served;
 }

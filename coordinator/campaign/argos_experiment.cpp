@@ -131,11 +131,8 @@ Expected<std::string> experiment_of_rvrs(const ArgosExperiment& experiment) {
   if (mission.robots > kMostRobots) {
     return bad_input(fmt::format("an experiment file has at most {} robots", kMostRobots));
   }
-  if (const auto wrong = check(*machine, watermelon_argos3())) {
-    return unexpected(wrong->kind,
-                      "the original AutoMoDe cannot run this machine: " + wrong->message,
-                      wrong->where);
-  }
+  if (auto runs = check_for_argos(experiment.controller, watermelon_argos3()); !runs)
+    return Unexpected(runs.error());
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<!-- {}\n"
@@ -189,6 +186,13 @@ std::string argos_walls() {
         i + 1, kWalls[i].x, kWalls[i].y, kWalls[i].turn_deg);
   }
   return text;
+}
+
+Expected<void> check_for_argos(const Controller& controller, const Flavour& flavour) {
+  const auto wrong = check(controller, flavour);
+  if (!wrong) return {};
+  return unexpected(wrong->kind, "the original AutoMoDe cannot run this machine: " + wrong->message,
+                    wrong->where);
 }
 
 Expected<std::string> argos_experiment(const ArgosExperiment& experiment) {

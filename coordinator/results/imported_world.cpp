@@ -4,6 +4,7 @@
 
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
+#include "sim/control/flavour_file.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {
@@ -24,6 +25,10 @@ std::vector<Section> imported_sections(const ImportedWorld& world) {
   for (const MissionEntry& mission : world.missions)
     add(mission_sections(mission));
   if (world.profile) add(profile_sections(*world.profile, "simulator.profile"));
+  if (world.own_flavour != nullptr) {
+    sections.push_back({"[[method]]", "", {}});
+    add(flavour_sections(*world.own_flavour, "method.flavour"));
+  }
   return sections;
 }
 
@@ -50,6 +55,11 @@ Expected<ImportedWorld> read_imported_world(std::string_view text) {
   if (auto simulator = root.table("simulator")) {
     if (auto profile = simulator->table("profile")) world.profile = read_profile_table(*profile);
     simulator->finish();
+  }
+  for (TableReader& method : root.tables("method")) {
+    if (auto flavour = method.table("flavour"))
+      world.own_flavour = kept_flavour(read_flavour_table(*flavour));
+    method.finish();
   }
   root.finish();
   if (!complaints.empty()) return Unexpected(complaints.take().front());

@@ -7,17 +7,19 @@
 
 #include "base/expected.h"
 #include "base/text/toml_text.h"
+#include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith {
 
-/// What machines of elsewhere are simulated in, as far as their files say it and no program knows
-/// it by name: the text `file` of the campaign that they become. It has the sections of a campaign
-/// file, but it is none: nothing was raced.
+/// What machines of elsewhere are made of and simulated in, as far as their files say it and no
+/// program knows it by name: the text `file` of the campaign that they become. It has the sections
+/// of a campaign file, but it is none: nothing was raced.
 struct ImportedWorld {
   std::vector<MissionEntry> missions;
   std::optional<Profile> profile;
+  const Flavour* own_flavour = nullptr;  ///< see kept_flavour; null: built in
 
   friend bool operator==(const ImportedWorld&, const ImportedWorld&) = default;
 };

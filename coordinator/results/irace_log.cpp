@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "base/text/csv.h"
+#include "programs/cost.h"
 
 namespace swarmsmith {
 namespace {
@@ -62,6 +63,16 @@ class Reader {
     const auto value = number_in(word);
     if (!value) complain(row, "column " + column + " wants a number, not `" + word + "`");
     return value;
+  }
+  /// Infinite for a rejected run.
+  std::optional<double> cost(const CsvRow& row) {
+    const auto cost = number(row, "cost");
+    if (cost && std::isfinite(*cost) && is_too_large(*cost)) {
+      complain(row, "the cost " + text(row, "cost") +
+                        " is beyond 1e300, where sums of costs are infinite; write Inf for a run "
+                        "that was useless");
+    }
+    return cost;
   }
   void complain(const CsvRow& row, std::string message) {
     errors_.push_back({ErrorKind::BadInput, std::move(message), table_.place(row)});
@@ -175,7 +186,7 @@ void read_runs(Reader reader, const Known& known, IraceLog& log) {
     LogRun run{.iteration = reader.integer(row, "iteration"),
                .pair = known_id(reader, row, "pair", known.pairs),
                .configuration = known_id(reader, row, "configuration", known.configurations),
-               .cost = reader.number(row, "cost"),
+               .cost = reader.cost(row),
                .time = reader.number(row, "time").value_or(0),
                .bound = reader.number(row, "bound").value_or(0)};
     if (run.iteration < 0) reader.complain(row, "iterations count from 0");
@@ -194,7 +205,7 @@ void read_elites(Reader reader, const Known& known, IraceLog& log) {
 
 void read_tests(Reader reader, const Known& known, IraceLog& log) {
   for (const CsvRow& row : reader.table().rows) {
-    const auto cost = reader.number(row, "cost");
+    const auto cost = reader.cost(row);
     const LogTest test{known_id(reader, row, "pair", known.test_pairs),
                        known_id(reader, row, "configuration", known.configurations),
                        cost.value_or(0)};

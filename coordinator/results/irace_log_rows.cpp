@@ -13,6 +13,7 @@
 #include "base/text/toml_text.h"
 #include "coordinator/campaign/machine_space.h"
 #include "coordinator/results/internal/log_races.h"
+#include "sim/control/flavour_file.h"
 #include "sim/control/machine_text.h"
 
 namespace swarmsmith {
@@ -274,6 +275,8 @@ OrErrors<Addition> irace_log_addition(const IraceLog& log, const IraceImport& kn
   for (const std::string& text :
        {std::string("irace"), log.digest, known.mission, known.method, flavour})
     digest.add(text);
+  if (const std::string own = known.flavour ? own_flavour_text(*known.flavour) : ""; !own.empty())
+    digest.add(own);
   return Addition{.campaign = CampaignRow{.name = known.campaign,
                                           .digest = digest.hex(),
                                           .deciding = deciding_of(log),

@@ -210,6 +210,7 @@ OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
                         .mission = head.mission ? head.mission->mission.name : "",
                         .method = std::move(head.method),
                         .flavour = std::move(head.flavour),
+                        .own_flavour = head.own_flavour,
                         .text = std::move(from.text),
                         .place = std::move(from.place),
                         .described = std::move(head.mission),
@@ -246,30 +247,33 @@ OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table) {
   return machines;
 }
 
-Expected<std::string> flavour_of(const std::vector<MachineText>& machines,
-                                 const std::string& said) {
-  std::string flavour = said;
+Expected<Flavour> flavour_of(const std::vector<MachineText>& machines,
+                             const std::optional<Flavour>& said) {
+  std::optional<Flavour> flavour = said;
   for (const MachineText& machine : machines) {
-    if (machine.flavour.empty() || machine.flavour == flavour) continue;
-    if (!said.empty()) {
-      return bad_input("the machine is of the flavour " + machine.flavour + ", not " + said +
-                           "; leave --flavour out",
-                       machine.place);
-    }
-    if (!flavour.empty()) {
-      return bad_input("the machine is of the flavour " + machine.flavour + ", one before it of " +
-                           flavour + "; import a file for each",
-                       machine.place);
-    }
-    flavour = machine.flavour;
+    // A table has the name alone of a flavour that a file describes.
+    const bool is_named =
+        machine.own_flavour == nullptr && flavour && machine.flavour == flavour->name;
+    if (machine.flavour.empty() || is_named) continue;
+    const auto its = find_flavour(machine.flavour, machine.own_flavour);
+    if (!its) return unexpected(its.error().kind, its.error().message, machine.place);
+    if (!flavour) flavour = **its;
+    if (*flavour == **its) continue;
+    const std::string other =
+        flavour->name == machine.flavour ? "another of this name" : flavour->name;
+    return bad_input(said ? "the machine is of the flavour " + machine.flavour + ", not " + other +
+                                "; leave --flavour out"
+                          : "the machine is of the flavour " + machine.flavour +
+                                ", one before it of " + other + "; import a file for each",
+                     machine.place);
   }
   const auto silent = std::ranges::find(machines, "", &MachineText::flavour);
-  if (said.empty() && silent != machines.end()) {
-    return bad_input(
-        "the machine's flavour is unknown; add --flavour with one of " + joined(flavour_names()),
-        silent->place);
+  if (!said && silent != machines.end()) {
+    return bad_input("the machine's flavour is unknown; add --flavour with one of " +
+                         joined(flavour_names()) + ", or a file",
+                     silent->place);
   }
-  return flavour;
+  return *flavour;
 }
 
 OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
@@ -330,7 +334,8 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
                from, *controller, known.flavour);
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
-  const ImportedWorld world = worlds.world();
+  ImportedWorld world = worlds.world();
+  world.own_flavour = kept_flavour(known.flavour);
   std::string file = imported_text(world);
   if (!file.empty()) digest.add(file);  // imports without one keep their digests
   addition.campaign = CampaignRow{.name = known.campaign,

@@ -23,6 +23,7 @@ struct MachineText {
   std::string mission;                    ///< as the file calls it; may be empty
   std::string method;                     ///< may be empty
   std::string flavour;                    ///< as its head says; may be empty
+  const Flavour* own_flavour = nullptr;   ///< of its head, see kept_flavour; null: built in
   std::string text;                       ///< of the grammar
   std::string place;                      ///< file:line
   std::optional<MissionEntry> described;  ///< the mission that its head holds
@@ -38,8 +39,9 @@ OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
 OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table);
 
 /// The flavour of all of them: what their heads say, and `said` of those without one; `said` may be
-/// empty. BadInput when they do not agree, or when it is not given.
-Expected<std::string> flavour_of(const std::vector<MachineText>& machines, const std::string& said);
+/// nothing. BadInput when they do not agree, or when it is not given.
+Expected<Flavour> flavour_of(const std::vector<MachineText>& machines,
+                             const std::optional<Flavour>& said);
 
 /// Whether a table's columns are those of machines.
 bool has_machines(const CsvTable& table);
@@ -54,8 +56,8 @@ struct MachineImport {
 
 /// A campaign with the state "imported": each machine a finished design with one candidate, its
 /// winner. Designs are numbered after those of the store; a design of a mission and method that the
-/// store has is a further repetition. Missions and the profile that heads or files describe are the
-/// campaign's `file` (imported_world.h), unless each program knows them by their names. The
+/// store has is a further repetition. Missions, profile and flavour that heads or files describe
+/// are the campaign's `file` (imported_world.h), unless each program knows them by their names. The
 /// campaign's digest is one over names, missions, methods, flavour and machines, so that the same
 /// file is known again. All that is wrong, with its line.
 OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,

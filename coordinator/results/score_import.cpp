@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/text/json.h"
+#include "programs/cost.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -169,6 +170,10 @@ Expected<double> Importer::read_score(const CsvRow& row, const std::string& miss
   const auto value = number_in(word);
   if (!value || !std::isfinite(*value)) {
     return bad_input(fmt::format("column {} wants a finite number, not `{}`",
+                                 score.empty() ? "cost" : "score", word));
+  }
+  if (is_too_large(*value)) {
+    return bad_input(fmt::format("the {} {} is beyond 1e300, where sums of scores are infinite",
                                  score.empty() ? "cost" : "score", word));
   }
   const bool is_cost =

@@ -78,6 +78,7 @@ void each_field(Like<CampaignStatus> auto& campaign, const Visit& visit) {
   visit("trouble", campaign.trouble);
   visit("queued_units", campaign.queued_units);
   visit("wal_bytes", campaign.wal_bytes);
+  visit("max_time", campaign.max_time);
 }
 
 template <class Visit>
@@ -229,8 +230,11 @@ std::string_view CampaignStatus::word_of_design(const DesignStatus& design) cons
 double seconds_left(const LiveStatus& status) {
   if (!status.campaigns) return -1;
   std::int64_t left = 0;
-  for (const CampaignStatus& campaign : *status.campaigns)
-    left += campaign.totals().left;
+  for (const CampaignStatus& campaign : *status.campaigns) {
+    const CampaignTotals totals = campaign.totals();
+    if (campaign.max_time > 0 && !totals.are_over()) return -1;
+    left += totals.left;
+  }
   if (left == 0) return 0;
   return status.used_per_s > 0 ? static_cast<double>(left) / status.used_per_s : -1;
 }

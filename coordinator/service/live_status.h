@@ -62,6 +62,9 @@ struct CampaignStatus {
   std::string trouble;  ///< why its store cannot write, or why it is stopped; empty when well
   std::int64_t queued_units = 0;  ///< row units that its writer has not committed
   std::int64_t wal_bytes = 0;
+  /// What the programs of a design's runs may take together, where that is the budget of its race,
+  /// and no number of experiments; else 0.
+  double max_time = 0;
   std::vector<DesignStatus> designs;
   CampaignMeters meters;
   Histogram commit_time;  ///< from a unit of rows given to the writer to its commit

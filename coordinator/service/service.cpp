@@ -41,7 +41,8 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
                    .states = campaign.store->design_states(),
                    .tested = campaign.store->tested_designs(),
                    .commands = campaign.store->commands(),
-                   .searches = campaign.searches});
+                   .searches = campaign.searches,
+                   .max_time = campaign.max_time});
   return all;
 }
 

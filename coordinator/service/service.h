@@ -49,6 +49,7 @@ struct ServiceCampaign {
   std::vector<DesignRow> designs{};
   std::filesystem::path file{};  ///< of the store; empty for none
   Searches searches{};
+  double max_time = 0;  ///< as CampaignStatus has it
 };
 
 struct ServiceHooks {

@@ -32,6 +32,7 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
     campaigns_.push_back({.progress = std::move(progress)});
     campaigns_.back().status.name = campaign.name;
     campaigns_.back().status.state = "running";
+    campaigns_.back().status.max_time = campaign.max_time;
   }
 }
 

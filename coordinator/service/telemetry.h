@@ -40,6 +40,7 @@ struct TelemetryCampaign {
   std::vector<TestedDesign> tested{};
   std::vector<CommandRow> commands{};
   Searches searches{};
+  double max_time = 0;  ///< as CampaignStatus has it
 };
 
 /// The live numbers that a coordinator's loop adds to those of the Coordinator: they come from

@@ -108,8 +108,8 @@ Expected<double> TableReader::read_numeric(std::size_t parameter, const std::str
   if (!domain) return Unexpected(domain.error());
   if (!*domain) return bad_input("has a value, but a parameter in its bounds has none");
   if (value >= (*domain)->lower && value <= (*domain)->upper) return value;
-  return bad_input(text + " is not in its domain (" + to_fixed_text((*domain)->lower) + ", " +
-                   to_fixed_text((*domain)->upper) + ")");
+  return bad_input(exact_text(value) + " is not in its domain (" + exact_text((*domain)->lower) +
+                   ", " + exact_text((*domain)->upper) + ")");
 }
 
 Expected<double> TableReader::read_value(std::size_t parameter, const Cell& cell,

@@ -129,8 +129,8 @@ void Builder::round_bound(Bound& bound, const ParameterLine& line) {
   if (irace::fits_digits(*value, *sources_.digits)) return;
   const double rounded = irace::round_to_digits(*value, *sources_.digits);
   warnings_.push_back({ErrorKind::BadInput,
-                       "the bound " + to_fixed_text(*value) + " of '" + line.name.text +
-                           "' is rounded to " + to_fixed_text(rounded) +
+                       "the bound " + exact_text(*value) + " of '" + line.name.text +
+                           "' is rounded to " + exact_text(rounded) +
                            ", for digits = " + std::to_string(*sources_.digits),
                        file_ + ":" + r::to_string(line.domain.place)});
   *value = rounded;

@@ -103,7 +103,7 @@ Expected<void> check_decimals(double bound, int digits, const std::string& name)
   int needed = digits;
   while (!fits_digits(bound, needed))
     ++needed;
-  return bad_input("the bound " + to_fixed_text(bound) + " does not fit digits = " +
+  return bad_input("the bound " + exact_text(bound) + " does not fit digits = " +
                        std::to_string(digits) + "; it needs digits = " + std::to_string(needed),
                    name);
 }
@@ -121,7 +121,7 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
     if (!std::isfinite(*bound)) return bad_input("a bound is not finite", name);
     if (domain.log && *bound <= 0) return bad_input("a logarithmic bound must be positive", name);
     if (whole && *bound != std::floor(*bound)) {
-      return bad_input("the bound " + to_fixed_text(*bound) + " is not a whole number", name);
+      return bad_input("the bound " + exact_text(*bound) + " is not a whole number", name);
     }
     const auto checked = whole ? check_whole(*bound, name) : check_decimals(*bound, digits, name);
     if (!checked) return checked;
@@ -136,9 +136,9 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
 
 Expected<void> check_whole(double bound, const std::string& name) {
   if (std::fabs(bound) <= kLargestWhole) return {};
-  return bad_input("the bound " + to_fixed_text(bound) +
-                       " is too large: whole numbers are exact up to " +
-                       to_fixed_text(kLargestWhole) + "; tune its logarithm instead",
+  return bad_input("the bound " + exact_text(bound) +
+                       " is too large: whole numbers are exact up to " + exact_text(kLargestWhole) +
+                       "; tune its logarithm instead",
                    name);
 }
 

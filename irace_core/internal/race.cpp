@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "irace_core/expression.h"
 
 namespace swarmsmith::irace {
 namespace {
@@ -147,8 +148,8 @@ void Race::take_run(const RaceRun& run, const Measurement& measurement) {
     return fail(run, "reported no time, and capping needs one");
   }
   if (bound > 0 && time > bound + least) {
-    return fail(run, "took " + std::to_string(time) + ", more than its bound of " +
-                         std::to_string(bound) + ": a target must stop itself at the bound");
+    return fail(run, "took " + exact_text(time) + ", more than its bound of " + exact_text(bound) +
+                         ": a target must stop itself at the bound");
   }
   put(times_[c], run.task, time);
   if (settings_.target_evaluator) return;

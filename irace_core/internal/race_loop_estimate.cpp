@@ -65,8 +65,8 @@ Expected<void> IteratedRace::State::check_bounds(std::span<const Measurement> me
     const double took = measurements[i].time;
     if (run.bound == 0 || took <= run.bound + scenario.min_measurable_time) continue;
     return bad_input("the run of configuration " + std::to_string(run.configuration) + " on pair " +
-                     std::to_string(run.pair) + " took " + to_fixed_text(took) +
-                     ", more than its bound of " + to_fixed_text(run.bound) +
+                     std::to_string(run.pair) + " took " + exact_text(took) +
+                     ", more than its bound of " + exact_text(run.bound) +
                      ": a target must stop itself at the bound");
   }
   return {};

@@ -109,4 +109,12 @@ std::string to_fixed_text(double value) {
   return value == 0 ? "0" : fixed(value, to_decimal(value));
 }
 
+std::string exact_text(double value) {
+  std::array<char, 800> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                 value == 0 ? 0 : value, std::chars_format::fixed);
+  SWARMSMITH_ASSERT(end.ec == std::errc{}, "a number in fixed notation fits 800 characters");
+  return {buffer.data(), end.ptr};
+}
+
 }  // namespace swarmsmith

@@ -56,7 +56,7 @@ ExitCode replay_all(const std::vector<std::string>& files, Output& output) {
 
 CommandRun declare_robot_replay(Options& options) {
   auto files = std::make_shared<std::vector<std::string>>();
-  options.words("LOG", *files, "Logs: run07.rvr1.log.csv or run07.rvr1.toml",
+  options.words("LOG FILE", *files, "Logs: run07.rvr1.log.csv or run07.rvr1.toml",
                 Options::Need::Required);
   return [files](Output& output) { return replay_all(*files, output); };
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/suggestion.h"
+#include "base/text/toml_text.h"
 #include "sim/control/internal/module_kinds.h"
 
 namespace swarmsmith {
@@ -19,14 +20,6 @@ namespace {
 constexpr double kLargest = std::numeric_limits<double>::max();
 
 using Type = ParameterSpec::Type;
-
-/// A bound as people write it: 5, 0.5, 1000000.
-std::string text_of(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
-}
 
 }  // namespace
 
@@ -37,8 +30,8 @@ std::optional<std::string> complaint_about(const ParameterSpec& parameter, doubl
   const bool above = parameter.least_included ? value >= parameter.least : value > parameter.least;
   if (above && value <= parameter.most) return std::nullopt;
   std::string range = parameter.least_included ? "at least " : "more than ";
-  range += text_of(parameter.least);
-  if (parameter.most < kLargest) range += " and at most " + text_of(parameter.most);
+  range += number_text(parameter.least);
+  if (parameter.most < kLargest) range += " and at most " + number_text(parameter.most);
   return parameter.name + " must be " + range;
 }
 

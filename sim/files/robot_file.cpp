@@ -99,26 +99,21 @@ void complain_of(TableReader& table, std::string_view key, const Error& error) {
   }
 }
 
-/// How deep the file is that is read now, among files that are each other's bases.
-thread_local int base_depth = 0;
 constexpr int kMostBases = 16;
 
-struct DeeperBase {
-  DeeperBase() { ++base_depth; }
-  ~DeeperBase() { --base_depth; }
-  DeeperBase(const DeeperBase&) = delete;
-  DeeperBase& operator=(const DeeperBase&) = delete;
-};
+/// `depth`: how many files have led here, each by its base.
+RobotOrErrors robot_of_word(const std::string& word, const std::filesystem::path& folder,
+                            int depth);
 
-void read_base(TableReader& table, const std::filesystem::path* folder, Robot& robot) {
+/// `depth` is that of the file with the table.
+void read_base(TableReader& table, const std::filesystem::path* folder, int depth, Robot& robot) {
   if (const auto base = table.text("base")) {
-    const DeeperBase deeper;
     if (names_a_file(*base) && folder == nullptr) {
       table.complain("base", "a robot begins with a built-in one here: " + joined(robot_names()));
-    } else if (base_depth > kMostBases) {
+    } else if (depth >= kMostBases) {
       table.complain("base", "bases of bases go more than " + std::to_string(kMostBases) +
                                  " files deep, or form a circle");
-    } else if (auto found = find_robot(*base, folder == nullptr ? "" : *folder)) {
+    } else if (auto found = robot_of_word(*base, folder == nullptr ? "" : *folder, depth + 1)) {
       robot = std::move(*found);
     } else {
       for (const Error& error : found.error())
@@ -157,6 +152,50 @@ void read_devices(TableReader& table, Robot& robot) {
   settle_idle_fields(table, base, robot);
 }
 
+RobotOrErrors robot_of_text(std::string_view text, const std::filesystem::path& file, int depth) {
+  const auto document = parse_document(text, file.string());
+  if (!document) return tl::unexpected(std::vector<Error>{document.error()});
+  Complaints complaints(file.string());
+  TableReader root(*document, "", complaints);
+  read_format(root);
+  Robot robot;
+  const std::filesystem::path folder = file.parent_path();
+  read_base(root, &folder, depth, robot);
+  robot.name = file.stem().string();
+  if (!is_name(robot.name)) {
+    root.complain(
+        "name",
+        "a robot has its file's name, so that the file's must consist of letters, digits, "
+        "`_`, `-` and `.`; this is \"" +
+            robot.name + "\"");
+  }
+  read_devices(root, robot);
+  root.finish();
+  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  return robot;
+}
+
+RobotOrErrors robot_of_word(const std::string& word, const std::filesystem::path& folder,
+                            int depth) {
+  if (!names_a_file(word)) {
+    if (!built_in_robot_text(word).empty()) return built_in_robot(word);
+    const std::vector<std::string> names = robot_names();
+    return tl::unexpected(std::vector<Error>{
+        {ErrorKind::NotFound, "there is no robot `" + word + "`" + did_you_mean(word, names) +
+                                  "; built in are: " + joined(names) +
+                                  "; a file of your own ends in .toml"}});
+  }
+  const auto text = read_file(folder / word, "robot");
+  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
+  auto robot = robot_of_text(*text, folder / word, depth);
+  if (robot && !built_in_robot_text(robot->name).empty() && *robot != built_in_robot(robot->name)) {
+    const std::string why = "a robot has its file's name, and `" + robot->name +
+                            "` is built in with other values; give the file another name";
+    return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, (folder / word).string()}});
+  }
+  return robot;
+}
+
 }  // namespace
 
 std::vector<std::string> robot_names() {
@@ -175,50 +214,15 @@ std::string_view built_in_robot_text(std::string_view name) {
 }
 
 RobotOrErrors parse_robot(std::string_view text, const std::filesystem::path& file) {
-  const auto document = parse_document(text, file.string());
-  if (!document) return tl::unexpected(std::vector<Error>{document.error()});
-  Complaints complaints(file.string());
-  TableReader root(*document, "", complaints);
-  read_format(root);
-  Robot robot;
-  const std::filesystem::path folder = file.parent_path();
-  read_base(root, &folder, robot);
-  robot.name = file.stem().string();
-  if (!is_name(robot.name)) {
-    root.complain(
-        "name",
-        "a robot has its file's name, so that the file's must consist of letters, digits, "
-        "`_`, `-` and `.`; this is \"" +
-            robot.name + "\"");
-  }
-  read_devices(root, robot);
-  root.finish();
-  if (!complaints.empty()) return tl::unexpected(complaints.take());
-  return robot;
+  return robot_of_text(text, file, 0);
 }
 
 RobotOrErrors find_robot(const std::string& word, const std::filesystem::path& folder) {
-  if (!names_a_file(word)) {
-    if (!built_in_robot_text(word).empty()) return built_in_robot(word);
-    const std::vector<std::string> names = robot_names();
-    return tl::unexpected(std::vector<Error>{
-        {ErrorKind::NotFound, "there is no robot `" + word + "`" + did_you_mean(word, names) +
-                                  "; built in are: " + joined(names) +
-                                  "; a file of your own ends in .toml"}});
-  }
-  const auto text = read_file(folder / word, "robot");
-  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
-  auto robot = parse_robot(*text, folder / word);
-  if (robot && !built_in_robot_text(robot->name).empty() && *robot != built_in_robot(robot->name)) {
-    const std::string why = "a robot has its file's name, and `" + robot->name +
-                            "` is built in with other values; give the file another name";
-    return tl::unexpected(std::vector<Error>{{ErrorKind::BadInput, why, (folder / word).string()}});
-  }
-  return robot;
+  return robot_of_word(word, folder, 0);
 }
 
 Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot) {
-  read_base(table, folder, robot);
+  read_base(table, folder, 0, robot);
   if (table.has("name")) {
     robot.name = table.text("name").value_or("");
     check_name(table, robot.name, {});

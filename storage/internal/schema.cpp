@@ -68,21 +68,18 @@ std::vector<const Flavour*> own_flavours(const sqlite::Connection& connection) {
   return flavours;
 }
 
-/// The store may have been made by a program that knew fewer modules.
+}  // namespace
+
+static_assert(kSchemaFiles.front().version == 1 && kSchemaFiles.back().version <= kSchemaVersion);
+
 void know_flavours(sqlite::Connection& connection) {
   const std::string view = flavour_view(own_flavours(connection));
   const std::string known = sqlite::text_of(
       connection,
       "SELECT sql || ';' FROM sqlite_schema WHERE type = 'view' AND name = 'flavour_name'");
   if (without_blanks(known) == without_blanks(view)) return;
-  sqlite::Transaction transaction(connection);
   connection.execute("DROP VIEW flavour_name; " + view);
-  transaction.commit();
 }
-
-}  // namespace
-
-static_assert(kSchemaFiles.front().version == 1 && kSchemaFiles.back().version <= kSchemaVersion);
 
 std::span<const Migration> migrations() {
   static const std::vector<Migration> kMigrations = [] {
@@ -145,7 +142,7 @@ void create_schema(sqlite::Connection& connection) {
 }
 
 void finish_schema(sqlite::Connection& connection, std::int64_t schema) {
-  if (schema == kSchemaVersion) connection.execute(our_views({}));
+  if (schema == kSchemaVersion) connection.execute(our_views(own_flavours(connection)));
   connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
   set_version(connection, schema);
 }
@@ -163,6 +160,7 @@ void write_campaign(sqlite::Connection& connection, const CampaignRow& campaign)
       connection,
       "INSERT INTO campaign (id, name, digest, deciding, file, seed) VALUES (1,?,?,?,?,?)")
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
+  know_flavours(connection);
 }
 
 void write_designs(sqlite::Connection& connection, const std::vector<DesignRow>& designs,
@@ -206,8 +204,10 @@ void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
              std::span<const Migration> steps) {
   const std::int64_t from = sqlite::integer_of(connection, "PRAGMA user_version");
   if (steps.empty() || steps.back().to <= from) {
-    if (from == kSchemaVersion) know_flavours(connection);
-    return;
+    if (from != kSchemaVersion) return;
+    sqlite::Transaction transaction(connection);
+    know_flavours(connection);
+    return transaction.commit();
   }
   // A copy of that name can only be an earlier, interrupted try: the store has not moved since.
   const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);

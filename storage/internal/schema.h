@@ -45,6 +45,10 @@ bool has_our_views(const sqlite::Connection& connection);
 /// Makes tables and views in an empty database; the caller holds a transaction.
 void create_schema(sqlite::Connection& connection);
 
+/// Gives the store's views the names of all modules, of this program and of the campaigns' own
+/// flavours: to be called where one has been added. The caller holds a transaction.
+void know_flavours(sqlite::Connection& connection);
+
 /// Writes into a new store on which host it was made, and by which SQLite.
 void write_maker(sqlite::Connection& connection);
 

@@ -57,6 +57,32 @@ TEST(Program, NamesWhatIsMissing) {
   EXPECT_THAT(ran.err, HasSubstr("FILE is required"));
 }
 
+TEST(Program, RefusesEveryEmptyPath) {
+  int paths = 0;
+  const json declared = json::parse(run({"--declared"}).out);
+  for (const json& command : declared.at("commands")) {
+    if (command.at("name") == "irace") continue;  // an empty path is R's default
+    bool is_first = true;
+    for (const json& option : command.at("options")) {
+      const bool is_word = option.at("word");
+      const std::string name = option.at("names").back();
+      const std::string value = is_word ? name : std::string(option.at("value"));
+      const bool is_path = value.ends_with("FILE") || value.ends_with("STORE") || value == "DIR";
+      const bool can_be_first = !is_word || is_first;
+      is_first = is_first && !is_word;
+      if (!is_path || !can_be_first) continue;
+      std::vector<std::string> words{command.at("name")};
+      if (!is_word) words.push_back(name);
+      words.emplace_back("");
+      const Ran ran = run(words);
+      EXPECT_EQ(ran.code, 2) << command.at("name") << " " << name;
+      EXPECT_THAT(ran.err, HasSubstr("the path is empty")) << command.at("name") << " " << name;
+      ++paths;
+    }
+  }
+  EXPECT_GT(paths, 60);
+}
+
 /// Help is wrapped, commands with a backslash; a blank between words.
 std::string on_one_line(std::string_view text) {
   std::istringstream words{std::string(text)};

@@ -64,6 +64,19 @@ TEST(StatusText, FitsAScreenWithTheWorstHostFirst) {
   EXPECT_THAT(joined(lines), AllOf(HasSubstr("... and"), HasSubstr("d21")));
 }
 
+TEST(StatusText, TellsTheTimeWhereItIsTheBudget) {
+  CampaignStatus campaign{.name = "c", .state = "running", .max_time = 300.5};
+  campaign.designs.push_back({.id = {1}, .state = DesignState::Racing, .used = 57});
+  LiveStatus status;
+  status.campaigns =
+      std::make_shared<const std::vector<CampaignStatus>>(std::vector<CampaignStatus>{campaign});
+  EXPECT_THAT(joined(status_lines(status, {200, 100})),
+              AllOf(HasSubstr("experiments 57  time budget 300.5 a design"),
+                    HasSubstr("57/time 300.5"), Not(HasSubstr("/0"))));
+  EXPECT_THAT(status_summary(status), HasSubstr("experiments 57  workers"));
+  EXPECT_LT(seconds_left(status), 0) << "how much is left is not known";
+}
+
 TEST(StatusText, TellsTheMeanOfTheTestsOnceADesignIsFinished) {
   CampaignStatus campaign{.name = "c", .state = "running"};
   for (const DesignState state : {DesignState::Testing, DesignState::Finished})

@@ -532,6 +532,9 @@ class Variants(Irace):
         text = self.runs(maxExperiments=0, maxTime=2000, boundMax=8, capping=1)
         self.assertIn("|   Bound|", text)
         self.assertIn("# capping: median", text)
+        status = call("status", self.folder / "irace.db").stdout
+        self.assertRegex(status, r"experiments [0-9]+  time budget 2000 a design\n")
+        self.assertRegex(status, r"[0-9]/time 2000 ")
 
     def test_one_with_a_budget_of_time_goes_on_with_any_number_of_runs_at_a_time(self):
         self.write_runner("echo $cost $(( 1 + cost % 7 ))")

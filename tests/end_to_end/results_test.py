@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import signal
+import sqlite3
 import unittest
 
 from programs import ProgramTest, call, wait_for
@@ -232,6 +233,36 @@ class Results(ProgramTest):
         self.assertEqual(self.query(store, rows + " ORDER BY 1, 2"),
                          self.query(whole, rows + " ORDER BY 1, 2"))
         self.assertEqual(self.query(store, "SELECT count(*) AS n FROM v_designs")[0]["n"], 31)
+
+    def test_machines_of_a_flavour_of_ones_own_work_like_all_others(self):
+        """By a head that describes it, and by --flavour FILE."""
+        flavour = self.folder / "mine.toml"
+        flavour.write_text('format = 1\nbase = "watermelon"\nstates = 6\n[behaviours]\nstop = { number = 7 }\n')
+        text = self.folder / "machines.txt"
+        text.write_text("--nstates 1 --s0 7\n")
+        store, again = self.folder / "one.db", self.folder / "two.db"
+        made = self.imported(text, "--flavour", flavour, "--mission", "aggregation", "--into", store)
+        self.assertEqual(made["designs"], ["d1"])
+        self.done("export", store, "--design", "d1", "-o", self.folder / "d1.fsm")
+        self.imported(self.folder / "d1.fsm", "--into", again)
+        flavour.unlink()  # the store has all of it
+        for each in (store, again):
+            self.assertEqual(self.query(each, "SELECT flavour FROM v_designs"), [{"flavour": "mine"}])
+            modules = "SELECT module, avg_occurrences FROM v_module_frequency"
+            self.assertEqual(self.query(each, modules), [{"module": "stop", "avg_occurrences": 1}])
+            with sqlite3.connect(each) as other_programs:
+                self.assertEqual(other_programs.execute(modules).fetchall(), [("stop", 1)])
+            self.done("evaluate", "best", each, "--seeds", "1-2")
+            self.assertEqual(len(self.query(each, "SELECT * FROM v_design_scores")), 2)
+            self.assertIn("mine", self.done("ls", "designs", each))
+            drawing = self.folder / "d1.svg"
+            self.done("figure", "machine", each, "--design", "d1", "-o", drawing)
+            self.assertIn("Stop", drawing.read_text())
+            self.done("export", each, "--design", "d1", "--format", "svg", "-o", drawing)
+            self.done("report", each, "-o", self.folder / "report.html")
+            self.assertIn("stop", self.done("show", "c1", each))
+        texts = "SELECT file FROM v_campaigns"
+        self.assertEqual(self.query(store, texts), self.query(again, texts))
 
     def evaluations(self, store):
         done = call("query", store, "SELECT count(*) AS n FROM v_evaluations", "--json")

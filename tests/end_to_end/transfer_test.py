@@ -32,6 +32,7 @@ class Transfer(ProgramTest):
         self.one_can_be_looked_at()
         self.table_is_right()
         self.figure_has_pairs()
+        self.casual_evaluations_change_no_figure()
 
     def runs_are_paired(self):
         rows = self.query(self.store, "SELECT design, candidate, seed, purpose, source, pair"
@@ -80,6 +81,23 @@ class Transfer(ProgramTest):
         svg = picture.read_text()
         self.assertIn("narrow boxes: rvr; wide boxes: pseudo-reality", svg)
         self.assertEqual(svg.count(">evostick<"), 2, "one name below the two boxes of a mission")
+
+    def casual_evaluations_change_no_figure(self):
+        def told():
+            table = self.folder / "told.csv"
+            texts = [call("compare", self.store, "--by", "source", "--csv").stdout]
+            for kind in ("box", "gap"):
+                done = call("figure", kind, self.store, "-o", table)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                texts.append(table.read_text())
+            return texts
+        before = told()
+        for profile in ("rvr", "pseudo-reality"):
+            done = call("evaluate", "best", self.store, "--profile", profile, "--seeds", "501-503")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        later = self.query(self.store, "SELECT count(*) AS n FROM v_evaluations WHERE purpose = 'score'")
+        self.assertEqual(later, [{"n": 8 * 2 * 3}])
+        self.assertEqual(told(), before)
 
 
 if __name__ == "__main__":

@@ -164,6 +164,16 @@ TEST(ParameterSpace, ChecksConfigurations) {
   EXPECT_THAT(verdict({1}), HasSubstr("1 values"));
 }
 
+TEST(ParameterSpace, SaysNumbersWithTheDigitsThatDecide) {
+  Configuration configuration(1);
+  configuration.set(0, 1.0000000000000002);
+  const auto checked = space_of({make_real("r", 0, 1)}).check(configuration);
+  ASSERT_FALSE(checked);
+  EXPECT_THAT(checked.error().message, HasSubstr("1.0000000000000002 is not in its domain (0, 1)"));
+  EXPECT_EQ(exact_text(1e-5), "0.00001");
+  EXPECT_EQ(exact_text(-0.0), "0");
+}
+
 TEST(Configuration, TellsInactiveFromEveryValue) {
   Configuration a(2);
   Configuration b(2);

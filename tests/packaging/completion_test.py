@@ -98,7 +98,7 @@ class Offers(CompletionTest):
         self.assertEqual(self.offered("compare", "--by=m"), ["--by=method", "--by=mission"])
         self.assertEqual(self.offered("compare", "--by", "=", "m"), ["method", "mission"])  # as bash cuts it
         self.assertEqual(self.offered("figure", "b"), ["box"])
-        self.assertEqual(self.offered("profile", "p"), ["pseudo-reality"])
+        self.assertEqual(self.offered("profile", "p"), ["pseudo-reality", ":files"])
         self.assertEqual(self.offered("help", "ver"), ["verify", "version"])
         self.assertEqual(self.offered("--v"), ["--version"])
         self.assertIn("--scenario", self.offered("irace", "--s"))

@@ -99,6 +99,9 @@ export interface Spent { used: number; budget: number; left: number }
 /// From 0 to 1; one that is over has done its part, whatever it used.
 export function part_of({ budget, left }: Spent): number { return budget > 0 ? clamp(1 - left / budget, 0, 1) : 0; }
 
+/// "1 200 of 3 000"; "1 200" where a budget is a time.
+export function spent_of({ used, budget }: Spent): string { return whole(used) + (budget > 0 ? ` of ${whole(budget)}` : ""); }
+
 /// Names and what they stand for, with a word on it for the pointer. What is false is left out.
 export function pairs(kind: string, list: ([name: Children, value: Children, title?: string] | false | null | "")[]) {
   return <dl class={kind}>{list.map((one) => one && <div title={one[2]}><dt>{one[0] as JSX.Element}</dt><dd>{one[1] as JSX.Element}</dd></div>)}</dl>;
@@ -107,13 +110,13 @@ export function pairs(kind: string, list: ([name: Children, value: Children, tit
 export function Bar({ of, name }: { of: Spent; name: string }) {
   const part = part_of(of);
   return <div class="bar" role="progressbar" aria-label={name} aria-valuemin={0} aria-valuemax={100}
-    aria-valuenow={Math.round(100 * part)} aria-valuetext={`${whole(of.used)} of ${whole(of.budget)}, ${percent(part)}`}>
+    aria-valuenow={Math.round(100 * part)} aria-valuetext={`${spent_of(of)}, ${percent(part)}`}>
     <div style={{ width: `${100 * part}%` }} /></div>;
 }
 
 /// "1 200 of 3 000, 40 %" of a budget.
 export function used_of(of: Spent): Children {
-  return [whole(of.used), " ", <small>of {whole(of.budget)}, {percent(part_of(of))}</small>];
+  return [whole(of.used), of.budget > 0 && [" ", <small>of {whole(of.budget)}, {percent(part_of(of))}</small>]];
 }
 
 interface ChoiceProps {

@@ -1,7 +1,7 @@
 import { Component, h } from "preact";
 import { feed, is_snapshot } from "./api";
-import { announce, Bar, Empty, is_typing, pairs, part_of, Quiet, state_word, Waiting } from "./components";
-import { clock, count, duration, number, percent, shell_word, whole } from "./format";
+import { announce, Bar, Empty, is_typing, pairs, part_of, Quiet, spent_of, state_word, Waiting } from "./components";
+import { clock, count, duration, number, percent, shell_word } from "./format";
 import { Page } from "./page";
 import { current_route, filled, go, href, match } from "./route";
 import { Design, Live } from "./types";
@@ -66,8 +66,8 @@ function Head({ live }: { live: Live | null }) {
     <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map((one) => one.name).join(", ") || "Swarmsmith"}</a>
     <span class="faint" title={campaigns.map((one) => one.store).join("\n")}>{live.host && `${live.user}@${live.host}`}</span>
     {state_word({ state })}
-    <span class="progress" title={`${whole(spent.used)} of ${whole(spent.budget)} experiments`}>
-      <Bar of={spent} name="experiments used" /> {percent(part_of(spent))}</span>
+    <span class="progress" title={`${spent_of(spent)} experiments`}>
+      {spent.budget > 0 && [<Bar of={spent} name="experiments used" />, " ", percent(part_of(spent))]}</span>
     {status && running && !is_finished && [<span><b>{number(status.evaluations_per_s, 3)}</b> evaluations/s</span>,
       <span>ETA <b>{eta_of(live, status.eta_s)}</b></span>]}
     {looks.length > 0 && <details class="looks"><summary>{count(looks.length, "thing needs", "things need")} a look</summary>{look_list(looks, 12)}</details>}

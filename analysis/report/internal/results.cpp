@@ -110,7 +110,7 @@ void write_scores(ReportDraft& draft, const std::vector<DesignScore>& scores) {
     const ChosenScores taken = chosen(scores, {});
     draft.page().table(score_table(
         "Scores of the winners by mission, method, source and purpose (v_design_scores): \"test\" "
-        "on the campaign's own seeds, \"score\" asked for later; " +
+        "on the campaign's own seeds, \"score\" under further profiles or asked for later; " +
             taken.said + ". Higher is better.",
         taken));
     draft.figure("scores", {.width_mm = kWholeWidth},

@@ -182,11 +182,8 @@ Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experime
   }
   const auto program = program_of(experiment.controller);
   if (!program) return Unexpected(program.error());
-  if (const auto wrong = check(experiment.controller, *program->flavour)) {
-    return unexpected(wrong->kind,
-                      "the original AutoMoDe cannot run this machine: " + wrong->message,
-                      wrong->where);
-  }
+  if (auto runs = check_for_argos(experiment.controller, *program->flavour); !runs)
+    return Unexpected(runs.error());
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<!-- {}\n"

@@ -4,6 +4,8 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/argos_experiment.h"
+#include "sim/control/controller.h"
+#include "sim/control/flavour.h"
 
 namespace swarmsmith {
 
@@ -18,6 +20,9 @@ std::string argos_walls();
 
 /// The file for the e-puck's stack. Errors: BadInput.
 Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experiment);
+
+/// Errors: what the original AutoMoDe cannot run, of the flavour that has its modules.
+Expected<void> check_for_argos(const Controller& controller, const Flavour& flavour);
 
 /// For a comment of XML, where two hyphens must not meet.
 std::string argos_comment(std::string_view text);

@@ -79,8 +79,9 @@ Expected<double> default_value(const ParameterSpace& space, std::size_t index,
   const double value = round_to_digits(*number->to_number({}), space.digits());
   const Interval* interval = space.constant_interval(index);
   if (value >= interval->lower && value <= interval->upper) return value;
-  return bad_input("the default " + text + " of '" + space[index].name + "' is not from " +
-                       to_fixed_text(interval->lower) + " to " + to_fixed_text(interval->upper),
+  return bad_input("the default " + exact_text(value) + " of '" + space[index].name +
+                       "' is not from " + exact_text(interval->lower) + " to " +
+                       exact_text(interval->upper),
                    where);
 }
 

@@ -55,6 +55,17 @@ TEST(ChosenScores, LaterScoresChangeNothingWhereThereAreTests) {
               ElementsAre(1, 3, 90, 7));
 }
 
+TEST(ChosenScores, TestsUnderAFurtherProfileAreTests) {
+  DesignScore transfer = score_of(1, "score", 5, "pseudo-reality");
+  transfer.is_transfer = true;
+  const std::vector<DesignScore> scores = {score_of(1, "test", 1), score_of(2, "test", 2), transfer,
+                                           score_of(1, "score", 9, "pseudo-reality")};
+  const ChosenScores taken = chosen(scores, {});
+  EXPECT_THAT(numbers(taken), ElementsAre(1, 2, 5));
+  EXPECT_EQ(taken.said, "a value is a design: the mean of its tests");
+  EXPECT_THAT(numbers(chosen(scores, {.purpose = "score"})), ElementsAre(5, 9)) << "of the view";
+}
+
 TEST(ChosenScores, ASourceWithoutTestsTakesWhatWasScoredLater) {
   const ChosenScores taken = chosen({score_of(1, "test", 1), score_of(2, "test", 2),
                                      score_of(1, "score", 5, "real"), score_of(1, "score", 9)},

@@ -154,7 +154,7 @@ TEST(IraceLog, HasMachinesWhereAFlavourIsNamed) {
 TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
   Texts texts = by_hand();
   texts.erase("elites.csv");
-  texts["runs.csv"] += "1,9,1,4,,\n1,1,7,4,,\n1,1,1,four,,\n";
+  texts["runs.csv"] += "1,9,1,4,,\n1,1,7,4,,\n1,1,1,four,,\n1,1,1,-1e305,,\n";
   const auto log = read_irace_log(texts);
   ASSERT_FALSE(log);
   std::vector<std::string> complaints;
@@ -163,6 +163,7 @@ TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
   EXPECT_THAT(complaints, ElementsAre("runs.csv:7: there is no pair 9",
                                       "runs.csv:8: there is no configuration 7",
                                       "runs.csv:9: column cost wants a number, not `four`",
+                                      HasSubstr("runs.csv:10: the cost -1e305 is beyond 1e300"),
                                       "elites.csv: the log has no such table"));
 }
 

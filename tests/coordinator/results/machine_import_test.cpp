@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "sim/control/flavour_file.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/profile_file.h"
 
@@ -48,18 +49,62 @@ TEST(MachineImport, TakesTheFlavourThatFilesSay) {
   const std::string machine = "--nstates 1 --s0 1\n";
   const auto all = read_machine_lines(argos3 + machine + argos3 + machine, "m.fsm");
   ASSERT_TRUE(all);
-  EXPECT_EQ(flavour_of(*all, "").value(), "watermelon-argos3");
-  EXPECT_EQ(flavour_of(*all, "watermelon-argos3").value(), "watermelon-argos3");
-  EXPECT_EQ(to_string(flavour_of(*all, "watermelon").error()),
+  EXPECT_EQ(flavour_of(*all, std::nullopt).value(), watermelon_argos3());
+  EXPECT_EQ(flavour_of(*all, watermelon_argos3()).value(), watermelon_argos3());
+  EXPECT_EQ(to_string(flavour_of(*all, watermelon()).error()),
             "m.fsm:3: the machine is of the flavour watermelon-argos3, not watermelon; leave "
             "--flavour out");
   const auto some = read_machine_lines(argos3 + machine + machine, "m.fsm");
-  EXPECT_THAT(to_string(flavour_of(*some, "").error()),
+  EXPECT_THAT(to_string(flavour_of(*some, std::nullopt).error()),
               HasSubstr("m.fsm:4: the machine's flavour is unknown"));
-  EXPECT_EQ(flavour_of(*some, "watermelon-argos3").value(), "watermelon-argos3");
+  EXPECT_EQ(flavour_of(*some, watermelon_argos3()).value(), watermelon_argos3());
   const auto two = read_machine_lines(
       argos3 + machine + "#: format = 1\n#: flavour = \"chocolate\"\n" + machine, "m.fsm");
-  EXPECT_THAT(to_string(flavour_of(*two, "").error()), HasSubstr("m.fsm:6: "));
+  EXPECT_THAT(to_string(flavour_of(*two, std::nullopt).error()), HasSubstr("m.fsm:6: "));
+}
+
+/// Of one's own, of more states than the built-in ones have.
+Flavour mine(int states = 6) {
+  Flavour flavour = watermelon();
+  flavour.name = "mine";
+  flavour.most_states = states;
+  return flavour;
+}
+
+std::string filed(const Flavour& flavour) {
+  return head_text({.flavour = flavour.name, .own_flavour = kept_flavour(flavour)}) +
+         "--nstates 1 --s0 1\n";
+}
+
+TEST(MachineImport, KeepsAFlavourOfOnesOwn) {
+  const auto machines = read_machine_lines(filed(mine()), "m.fsm");
+  ASSERT_TRUE(machines) << to_string(machines.error().front());
+  MachineImport known = into_empty_store();
+  known.missions.of_all = "aggregation";
+  known.flavour = flavour_of(*machines, std::nullopt).value();
+  EXPECT_EQ(known.flavour, mine());
+  const auto addition = import_machines(*machines, known);
+  ASSERT_TRUE(addition) << to_string(addition.error().front());
+  EXPECT_EQ(addition->designs.front().row.flavour, "mine");
+  const std::string& file = addition->campaign->file;
+  EXPECT_THAT(own_flavours_in(file), ElementsAre(kept_flavour(mine())));
+  EXPECT_EQ(read_imported_world(file).value().own_flavour, kept_flavour(mine()));
+  known.flavour = mine(7);
+  EXPECT_NE(import_machines(*machines, known)->campaign->digest, addition->campaign->digest);
+}
+
+TEST(MachineImport, TellsFlavoursOfOneNameApart) {
+  const auto two = read_machine_lines(filed(mine()) + filed(mine(7)), "m.fsm");
+  ASSERT_TRUE(two);
+  EXPECT_THAT(to_string(flavour_of(*two, std::nullopt).error()),
+              HasSubstr("of the flavour mine, one before it of another of this name"));
+  EXPECT_THAT(to_string(flavour_of(*two, mine()).error()),
+              HasSubstr("of the flavour mine, not another of this name; leave --flavour out"));
+  // A table has the name alone.
+  const auto table = parse_csv("flavour,fsm\nmine,--nstates 1 --s0 1\n", "m.csv");
+  EXPECT_EQ(flavour_of(*read_machine_table(*table), mine()).value(), mine());
+  EXPECT_THAT(to_string(flavour_of(*read_machine_table(*table), std::nullopt).error()),
+              HasSubstr("m.csv:2: "));
 }
 
 TEST(MachineImport, RefusesATurnClockThatAStoreWouldForget) {

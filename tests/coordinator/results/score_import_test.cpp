@@ -122,7 +122,8 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
                  "1,,,1,-1,1\n"
                  "1,,,1,,\n"
                  ",,,1,,1\n"
-                 "x,,,1,,1\n"),
+                 "x,,,1,,1\n"
+                 "1,,,1,,1e305\n"),
       ElementsAre("r.csv:2: the store has no such design: design d9",
                   "r.csv:3: the row could be of d1 as well as of d2; name the design",
                   "r.csv:4: d3 is not finished and has no winner; name the candidate",
@@ -131,7 +132,8 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
                   "r.csv:8: column score wants a finite number, not `inf`",
                   "r.csv:9: column time wants a number from 0 on, not `-1`",
                   "r.csv:10: the row has no score", HasSubstr("r.csv:11: the row names no design"),
-                  "r.csv:12: column design wants d3 or 3, not `x`"));
+                  "r.csv:12: column design wants d3 or 3, not `x`",
+                  "r.csv:13: the score 1e305 is beyond 1e300, where sums of scores are infinite"));
   ScoreImport nobody = known_store();
   nobody.source.clear();
   EXPECT_THAT(complaints("design,score\n1,1\n", nobody),

@@ -190,6 +190,9 @@ TEST(ParameterSpec, ComplainsInASentence) {
   const ParameterSpec& beta = watermelon().find(Module::BlackFloor)->parameters.at(0);
   EXPECT_THAT(complaint_about(beta, 1.01).value(),
               HasSubstr("beta must be at least 0 and at most 1"));
+  ParameterSpec narrow = beta;
+  narrow.most = 1e-7;  // not 0
+  EXPECT_EQ(complaint_about(narrow, 0.5), "beta must be at least 0 and at most 1e-07");
   EXPECT_TRUE(complaint_about(beta, std::numeric_limits<double>::quiet_NaN()).has_value());
 }
 
