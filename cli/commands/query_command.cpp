@@ -23,7 +23,7 @@ struct QueryArguments {
 
   StoreReader::QueryLimits limits() const {
     StoreReader::QueryLimits limits{.views_of_file = true};
-    if (limit) limits.rows = *limit;
+    if (limit) limits.rows = *limit > 0 ? *limit : std::numeric_limits<std::int64_t>::max();
     if (seconds) limits.seconds = static_cast<double>(*seconds);
     return limits;
   }
@@ -92,8 +92,8 @@ CommandRun declare_query(Options& options) {
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
   options.flag("--lists", arguments->lists,
                "With --json: each row a list in the order of the columns, not an object");
-  options.integer("--limit", arguments->limit, {1, 1'000'000'000},
-                  "Maximum number of rows (default 1,000,000)");
+  options.integer("--limit", arguments->limit, {0, 1'000'000'000},
+                  "Maximum number of rows; 0 for all (default 1,000,000)");
   options.integer("--seconds", arguments->seconds, {1, 1'000'000},
                   "Longest time of the statement (default 60)");
   return [arguments](Output& output) { return run_query(*arguments, output); };

@@ -102,6 +102,18 @@ TEST_F(Ls, FiltersSortsAndLimits) {
   EXPECT_EQ(list["truncated"], true);
 }
 
+TEST_F(Ls, AndQueryTakeALimitOf0ForAll) {
+  const std::string two = "SELECT 1 AS one UNION SELECT 2";
+  for (const std::string limit : {"0", "2"}) {
+    const Ran ran = run({"query", two, store_, "--limit", limit, "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(json::parse(ran.out)["rows"].size(), 2U);
+  }
+  EXPECT_EQ(
+      json::parse(run({"ls", "candidates", store_, "--limit", "0", "--json"}).out)["truncated"],
+      false);
+}
+
 TEST_F(Ls, ExplainsAConditionThatIsNoSql) {
   const Ran ran = run({"ls", "candidates", store_, "--where", "wombat > 1"});
   EXPECT_EQ(ran.code, 2);

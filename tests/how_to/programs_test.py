@@ -15,7 +15,7 @@ MISSIONS = SOURCE / "docs/missions.md"
 METHODS = SOURCE / "docs/methods.md"
 FLAVOURS = SOURCE / "docs/flavours.md"
 LIST = "sim/mission/CMakeLists.txt"
-FOLDERS = ["cmake", *re.findall(r"^ *add_subdirectory\((\w+)\)", (SOURCE / "CMakeLists.txt").read_text(), re.M)]
+FOLDERS = ["cmake", "examples", *re.findall(r"^ *add_subdirectory\((\w+)\)", (SOURCE / "CMakeLists.txt").read_text(), re.M)]
 
 CAMPAIGN = """\
 format = 1
