@@ -82,30 +82,37 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
 }
 
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
-  // Candidate, source, instance and seed are those of one score alone, whatever made it.
+  // Candidate, source, instance and seed are those of one score alone, whatever made it. As a join:
+  // SQLite looks through all of a list of rows for each row.
   const std::string transfers =
-      "SELECT candidate, source, instance, seed FROM v_evaluations WHERE purpose IN " +
-      words_in_sql(is_transfer) + " AND candidate IN (SELECT best_candidate FROM v_designs)";
-  auto scores = read<DesignScore>(store,
-                                  "SELECT design, mission, method, repetition, candidate, source, "
-                                  "purpose, pair, instance, seed, score, purpose = 'score' AND "
-                                  "ifnull((candidate, source, instance, seed) IN (" +
-                                      transfers + "), 0) FROM v_design_scores" + where(filter) +
-                                      " ORDER BY design, purpose, source, pair",
-                                  [](const Cells& row) {
-                                    return DesignScore{.design = {row[0].integer()},
-                                                       .mission = row[1].text,
-                                                       .method = row[2].text,
-                                                       .repetition = row[3].integer(),
-                                                       .candidate = {row[4].integer()},
-                                                       .source = row[5].text,
-                                                       .purpose = row[6].text,
-                                                       .is_transfer = row[11].integer() != 0,
-                                                       .pair = row[7].integer(),
-                                                       .instance = row[8].integer(),
-                                                       .seed = row[9].integer(),
-                                                       .score = row[10].real()};
-                                  });
+      "SELECT DISTINCT candidate, source, instance, seed FROM v_evaluations WHERE purpose IN " +
+      words_in_sql(is_transfer) + " AND candidate IN (SELECT best_candidate FROM v_designs" +
+      where(filter) + ")";
+  auto scores =
+      read<DesignScore>(store,
+                        "SELECT s.design, s.mission, s.method, s.repetition, "
+                        "s.candidate, s.source, s.purpose, s.pair, s.instance, s.seed, "
+                        "s.score, t.seed IS NOT NULL FROM v_design_scores AS s "
+                        "LEFT JOIN (" +
+                            transfers +
+                            ") AS t ON s.purpose = 'score' AND t.candidate = s.candidate "
+                            "AND t.source = s.source AND t.instance = s.instance AND "
+                            "t.seed = s.seed" +
+                            where(filter, "s.") + " ORDER BY s.design, s.purpose, s.source, s.pair",
+                        [](const Cells& row) {
+                          return DesignScore{.design = {row[0].integer()},
+                                             .mission = row[1].text,
+                                             .method = row[2].text,
+                                             .repetition = row[3].integer(),
+                                             .candidate = {row[4].integer()},
+                                             .source = row[5].text,
+                                             .purpose = row[6].text,
+                                             .is_transfer = row[11].integer() != 0,
+                                             .pair = row[7].integer(),
+                                             .instance = row[8].integer(),
+                                             .seed = row[9].integer(),
+                                             .score = row[10].real()};
+                        });
   if (!scores) return scores;
   // No program writes such a score; no axis and no bin could hold it.
   const auto wrong = std::ranges::find_if(

@@ -225,7 +225,7 @@ Expected<Answer> design_answer(const Question& question) {
   if (auto known = check_design(question); !known) return Unexpected(known.error());
   const std::string id = std::to_string(question.design.value);
   const std::string own = " WHERE design = " + id;
-  auto design = rows_of(question, "SELECT * FROM " + designs_with_means(own));
+  auto design = rows_of(question, "SELECT * FROM " + designs_with_means(question.design));
   auto iterations = rows_of(question,
                             "SELECT iteration, planned, budget, configurations, "
                             "elites, soft_restart, postselection FROM "

@@ -26,19 +26,15 @@ double max_time_in(const std::string& deciding) {
 
 }  // namespace
 
-std::string designs_with_means(const std::string& own) {
-  return "(SELECT d.*, m.test_mean, iif(d.state = 'finished' AND d.best_candidate IS NOT NULL, "
-         "coalesce(m.test_runs, 0), NULL) AS test_runs, iif(m.sources = 1, m.score_mean, NULL) AS "
-         "score_mean, iif(m.sources = 1, m.score_runs, NULL) AS score_runs FROM (SELECT * FROM "
-         "v_designs" +
+std::string designs_with_means(std::optional<DesignId> only) {
+  const std::string own = only ? "design = " + std::to_string(only->value) : "true";
+  return "(SELECT d.*, t.test_mean, t.test_runs, s.score_mean, s.score_runs FROM (SELECT * FROM "
+         "v_designs WHERE " +
          own +
-         ") AS d LEFT JOIN (SELECT design, avg(score) FILTER (WHERE purpose = 'test') AS "
-         "test_mean, "
-         "count(score) FILTER (WHERE purpose = 'test') AS test_runs, avg(score) FILTER (WHERE "
-         "purpose = 'score') AS score_mean, count(*) FILTER (WHERE purpose = 'score') AS "
-         "score_runs, count(DISTINCT source) FILTER (WHERE purpose = 'score') AS sources FROM "
-         "v_design_scores" +
-         own + " GROUP BY design) AS m ON m.design = d.design)";
+         ") AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design LEFT JOIN (SELECT design, "
+         "avg(score) AS score_mean, count(*) AS score_runs FROM v_design_scores WHERE purpose = "
+         "'score' AND " +
+         own + " GROUP BY design HAVING count(DISTINCT source) = 1) AS s ON s.design = d.design)";
 }
 
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,9 @@
 namespace swarmsmith::cli {
 
 /// v_designs with the mean of the winner's tests, and of its other scores where these have one
-/// source: to be asked as a table. `own` is a condition on the column design (" WHERE design = 3"),
-/// or empty: SQLite does not carry it into the part that groups.
-std::string designs_with_means(const std::string& own = {});
+/// source: to be asked as a table. Of all designs, or of `only`: SQLite does not carry a condition
+/// into what groups.
+std::string designs_with_means(std::optional<DesignId> only = {});
 
 /// The campaigns of a store as a coordinator would describe them. `is_written`: a process writes
 /// the store; without one, a campaign that is not finished is "interrupted". Errors: as a query's.
