@@ -139,8 +139,8 @@ class Rivals(Stores):
         ])
         # What is no race says so in a sentence; one that is one does not.
         for name in ("generation", "random search", "annealing"):
-            self.assertIn("This is no race", said[name], name)
-        self.assertNotIn("This is no race", said["one race"])
+            self.assertIn("This is not a race", said[name], name)
+        self.assertNotIn("This is not a race", said["one race"])
         self.assertIn("Generation 4", said["generation"])
         self.assertIn("final stage", said["design of a network"])
         self.assertNotIn("states, transitions", said["network"] + said["tree"])
