@@ -30,7 +30,7 @@ class Search {
   /// then configuration); empty once finished. Valid until the next tell().
   virtual std::span<const Experiment> wanted() const = 0;
   /// What it would probably want after that, in canonical order, on up to `pairs` further pairs:
-  /// for slots that would idle. It moves no generator, and what is told does not depend on it.
+  /// for slots that would idle. It moves no generator, and no result depends on it.
   virtual std::vector<Experiment> ahead(std::int64_t pairs) const = 0;
   /// Costs of all wanted() in the same order, smaller is better; an infinite cost is a rejection.
   /// Throws std::invalid_argument for NaN or a wrong number of costs.
