@@ -135,7 +135,7 @@ class Seen {
     }
     if (told > 0) fit.gain = {both[0] / told, both[1] / told};
     fit.left = std::max(seen - both[0] * fit.gain[0] - both[1] * fit.gain[1], kLeastSquares);
-    // A turn to the other side is no agreement; a way to the other side is a heading that is off.
+    // A turn to the other side is not agreement; a way to the other side is a heading that is off.
     const double common = is_turn_ ? both[0] : hypot(both[0], both[1]);
     if (told > 0 && seen > 0) fit.agreement = common / std::sqrt(told * seen);
     return fit;
