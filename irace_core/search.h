@@ -14,8 +14,8 @@ namespace swarmsmith {
 
 /// How a design is searched for, as ask and tell: iterated racing, evolution, random search, ...
 ///
-/// Every search is a pure function of its space, its options, its seed and the costs that it is
-/// told. It has no clock, no thread, no input and no output, so that a store replays it: the same
+/// Every search is a pure function of its space, its options, its seed and the costs that it
+/// gets. It has no clock, no thread, no input and no output, so that a store replays it: the same
 /// costs lead to the same questions, events and digests, however many workers answer. It counts
 /// each run that it asks for, and never asks for more than its budget.
 class Search {

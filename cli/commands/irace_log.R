@@ -18,7 +18,7 @@ loaded <- new.env()
 names_loaded <- tryCatch(load(words[1], envir = loaded),
                          warning = function(e) fail("this is not a file of R's: ", conditionMessage(e)),
                          error = function(e) fail("this is not a file of R's: ", conditionMessage(e)))
-if (!"iraceResults" %in% names_loaded) fail("this is no log of irace: it has no iraceResults")
+if (!"iraceResults" %in% names_loaded) fail("this is not a log of irace: it has no iraceResults")
 log <- loaded$iraceResults
 folder <- words[2]
 
