@@ -1,4 +1,4 @@
-"""Whoever does everything wrong is told what, where, and what to do, and nothing is damaged."""
+"""Every mistake is answered with what is wrong, where, and what to do, and nothing is damaged."""
 import json
 import os
 import re
