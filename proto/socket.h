@@ -79,7 +79,7 @@ class ServerSocket {
  public:
   struct Received {
     PeerId peer = 0;
-    std::string_view frame;  ///< until the next call; empty when the message was no single frame
+    std::string_view frame;  ///< until the next call; empty when it was not a single frame
     Role role = Role::Anyone;
     std::string_view client;   ///< name of its key in the allow-list, as long; empty without keys
     std::string_view address;  ///< of the peer, a number without a port, as long

@@ -159,11 +159,11 @@ struct LightModel {
   friend bool operator==(const LightModel&, const LightModel&) = default;
 };
 
-/// Where a behaviour goes that has something to go by: along w' - obstacle_gain * obstacles.
+/// Where a behaviour goes that has something to follow: along w' - obstacle_gain * obstacles.
 struct SteeringModel {
   double obstacle_gain = 5;
   double attraction_obstacle_gain = 5;  ///< of Attraction
-  /// Without anything to go by (no neighbour, no light), w' is (1, 0); else it is zero.
+  /// Without anything to follow (no neighbour, no light), w' is (1, 0); else it is zero.
   bool forward_by_default = true;
   /// A shorter result means straight ahead.
   double shortest_result = 0.1;

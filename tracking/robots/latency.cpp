@@ -34,7 +34,7 @@ constexpr double kBlock_s = 2;
 constexpr std::size_t kLeastIntervals = 50;
 constexpr double kLargestError_s = 0.02;
 constexpr double kLeastSurprise = 10;
-/// A limit that explains more than this is more than chance, though it may be no limit.
+/// A limit that explains more than this is more than chance, though it may not be a limit.
 constexpr double kLeastDoubt = 2;
 /// What is commanded below this over a whole run is standing: metres and radians.
 constexpr double kLeastWay_m = 0.05;
