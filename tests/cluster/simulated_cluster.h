@@ -139,7 +139,7 @@ class SimulatedCluster {
     PeerId connection = 0;
   };
   struct Connection {
-    int worker = 0;  ///< kNobody: a stranger's
+    int worker = 0;  ///< kNoWorker: a stranger's
     std::size_t stranger = 0;
     int worker_life = 0;
     int coordinator_life = 0;
