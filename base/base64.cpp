@@ -27,7 +27,7 @@ std::string base64_text(std::string_view bytes) {
 }
 
 Expected<std::string> bytes_from_base64(std::string_view text) {
-  const Unexpected wrong = bad_input("this is no base64 text");
+  const Unexpected wrong = bad_input("this is not base64 text");
   if (text.size() % 4 != 0) return wrong;
   while (text.ends_with('='))
     text.remove_suffix(1);

@@ -17,7 +17,7 @@ struct CgroupLimits {
 
 /// Reads proc/self/cgroup, proc/self/mountinfo and the groups' own files below `root`: version 2
 /// (cpu.max, memory.max) and version 1 (cpu.cfs_quota_us, memory.limit_in_bytes). What is not there
-/// or cannot be read is no limit.
+/// or cannot be read does not limit.
 CgroupLimits cgroup_limits(const std::filesystem::path& root = "/");
 
 }  // namespace swarmsmith

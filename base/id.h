@@ -12,7 +12,7 @@
 namespace swarmsmith {
 
 /// A small integer that names one thing of one kind, so that two kinds cannot be swapped. `Tag` has
-/// a `static constexpr char kLetter`, with which people see it: d3, c812. Zero is no id.
+/// a `static constexpr char kLetter`, with which people see it: d3, c812. Zero is not an id.
 template <class Tag>
 struct Id {
   std::int64_t value = 0;

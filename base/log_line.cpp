@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kLevels = {"debug", "info", "warning", "error", "none"};
 
-/// A text that is no UTF-8 gets question marks: JSON has no escape for a byte.
+/// A text that is not UTF-8 gets question marks: JSON has no escape for a byte.
 void append_quoted(std::string& out, std::string_view text) {
   out += '"';
   while (!text.empty()) {

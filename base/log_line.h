@@ -19,8 +19,8 @@ LogSettings parse_log_settings(std::string_view text);
 
 std::string_view name_of(LogLevel level);
 
-/// The line without its end. `time` is written as it is. Text that is no UTF-8 gets question marks,
-/// and what would steer a terminal an escape (base/shown_text.h).
+/// The line without its end. `time` is written as it is. Text that is not UTF-8 gets question
+/// marks, and what would steer a terminal an escape (base/shown_text.h).
 std::string log_line(bool json, std::string_view time, LogLevel level, std::string_view component,
                      std::string_view event, std::span<const LogField> fields);
 

@@ -2,7 +2,7 @@
 
 namespace swarmsmith {
 
-/// Elementary functions of our own, from + - * / and square root only, all of which IEEE 754 fixes
+/// Elementary functions of our own, from + - * / and square root only, which IEEE 754 all fixes
 /// to the last bit. The C library's differ in their last bits between CPUs, since it picks variants
 /// by what the CPU offers; everything that decides a race or moves a robot calls these instead.
 /// Errors stay below three units in the last place, tested against the C library.

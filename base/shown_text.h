@@ -20,7 +20,7 @@ constexpr bool is_continuation(char byte) {
 
 /// The escape in place of the first character, whose length is given (0: no UTF-8): \n, \t,
 /// \u001b for a control character (C0, DEL, C1), \u202e for one that breaks lines or turns the
-/// order of letters around, \xff for a byte that is no UTF-8. Empty for what is shown as it is.
+/// order of letters around, \xff for a byte that is not UTF-8. Empty for what is shown as it is.
 std::string escape_of(std::string_view text, std::size_t length);
 
 /// Whether line ends and tabs stay: they do in texts of several lines, not in a name or a cell.

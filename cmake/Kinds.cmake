@@ -1,4 +1,4 @@
-# swarmsmith_kinds(NAME FOLDER KIND...): the kinds of something, of which a variant is made. Each KIND is a header
+# swarmsmith_kinds(NAME FOLDER KIND...): the kinds of something, for a variant of them. Each KIND is a header
 # FOLDER/KIND.h, and a source FOLDER/KIND.cpp if there is one, with a struct of the same name in camel case. Sets the lists
 # NAME_headers and NAME_sources, and the texts NAME_includes and NAME_names (of the structs) for made headers.
 function(swarmsmith_kinds name folder)

@@ -1,4 +1,4 @@
-# Warnings for our own code, as an interface target: linked PRIVATE, so that nobody inherits them.
+# Warnings for our own code, as an interface target: linked PRIVATE, so that other targets do not inherit them.
 add_library(swarmsmith_warnings INTERFACE)
 option(SWARMSMITH_WERROR "Warnings are errors, as in the gates: for compilers whose warnings are known" OFF)
 target_compile_options(swarmsmith_warnings INTERFACE

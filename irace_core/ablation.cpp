@@ -358,7 +358,7 @@ Expected<std::unique_ptr<Search>> start_ablation(ParameterSpace space, const Sce
   if (scenario.deterministic && scenario.ablation_pairs > scenario.n_instances) {
     return bad_input("is " + std::to_string(scenario.ablation_pairs) + ", and there are " +
                          std::to_string(scenario.n_instances) +
-                         " instances, each of which is used once (deterministic)",
+                         " instances, and each is used once (deterministic)",
                      "ablation_pairs");
   }
   const std::int64_t most = most_ablation_runs(ends[0], ends[1], scenario.ablation_pairs);

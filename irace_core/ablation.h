@@ -23,7 +23,7 @@ struct AblationChange {
   std::vector<std::size_t> changed;  ///< parameters: the one that was chosen comes first
 };
 
-/// What differs between two configurations, by parameter; both inactive is no difference.
+/// What differs between two configurations, by parameter; two inactive values do not differ.
 std::vector<std::size_t> differences(const Configuration& a, const Configuration& b);
 
 /// `current` with the value of `target` in each of the parameters `open`, one at a time, in their

@@ -14,8 +14,8 @@ namespace swarmsmith {
 
 /// How a design is searched for, as ask and tell: iterated racing, evolution, random search, ...
 ///
-/// Every search is a pure function of its space, its options, its seed and the costs that it is
-/// told. It has no clock, no thread, no input and no output, so that a store replays it: the same
+/// Every search is a pure function of its space, its options, its seed and the costs that it
+/// gets. It has no clock, no thread, no input and no output, so that a store replays it: the same
 /// costs lead to the same questions, events and digests, however many workers answer. It counts
 /// each run that it asks for, and never asks for more than its budget.
 class Search {
@@ -30,7 +30,7 @@ class Search {
   /// then configuration); empty once finished. Valid until the next tell().
   virtual std::span<const Experiment> wanted() const = 0;
   /// What it would probably want after that, in canonical order, on up to `pairs` further pairs:
-  /// for slots that would idle. It moves no generator, and what is told does not depend on it.
+  /// for slots that would idle. It moves no generator, and no result depends on it.
   virtual std::vector<Experiment> ahead(std::int64_t pairs) const = 0;
   /// Costs of all wanted() in the same order, smaller is better; an infinite cost is a rejection.
   /// Throws std::invalid_argument for NaN or a wrong number of costs.

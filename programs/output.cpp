@@ -43,7 +43,7 @@ Expected<double> number_of(std::string_view token, const std::string& program,
   const std::optional<double> number = parse_number(token);
   if (!number) {
     return bad_input("the " + what + " that the " + program +
-                     " printed is no number: " + shown(token));
+                     " printed is not a number: " + shown(token));
   }
   if (std::isnan(*number)) {
     return bad_input("the " + what + " that the " + program + " printed is " + std::string(token) +
@@ -93,7 +93,7 @@ Expected<Reading> parse_numbers(std::string_view output, const Target& target) {
     return bad_input("the targetRunner printed nothing: it has to print " +
                      wanted_of_runner(target));
   }
-  // What is no number at all says more than how many there are.
+  // What is not a number at all says more than how many there are.
   for (const std::string_view token : tokens) {
     if (!parse_number(token)) {
       return bad_input("the targetRunner printed text that is not a number, " + shown(token) +

@@ -35,7 +35,7 @@ struct Target {
 };
 
 /// irace's instances: a text each, whatever the programs make of it. Training instances are counted
-/// from 1; test instances too, and are told apart by a `t` after the number.
+/// from 1; test instances too, with a `t` after the number.
 struct InstanceTexts {
   std::vector<std::string> training;
   std::vector<std::string> test;

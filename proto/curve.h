@@ -44,7 +44,7 @@ struct ServerKeys {
   std::vector<ListedClient> clients;
 };
 
-/// What a client shows, and whom it believes.
+/// What a client shows, and which server it trusts.
 struct ClientKeys {
   std::string secret_key;
   std::string server_key;  ///< the public one; who has another secret cannot answer

@@ -5,8 +5,8 @@
 namespace swarmsmith {
 
 /// An evaluation's key in one word, for hash maps: 6 bits for the campaign (its place among those
-/// of the coordinator), 35 of candidate, 20 of pair, 3 of purpose. Zero is no key, since candidates
-/// count from 1.
+/// of the coordinator), 35 of candidate, 20 of pair, 3 of purpose. Zero is not a key, since
+/// candidates count from 1.
 using PackedKey = std::uint64_t;
 
 inline constexpr std::uint32_t kMaxCampaigns = 64;

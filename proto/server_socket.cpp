@@ -55,7 +55,7 @@ constexpr double kLeastBytesPerSecond = 256U << 10U;
 constexpr Duration kPatience = std::chrono::seconds(5);
 constexpr Duration kLookAgain = std::chrono::milliseconds(50);
 
-/// Where to listen: libzmq looks no host's name up there. What is no such name may be an
+/// Where to listen: libzmq looks no host's name up there. Another name may be an
 /// interface's, which it knows.
 Expected<Address> address_to_bind(const std::string& endpoint) {
   auto address = address_of(endpoint);
@@ -96,7 +96,7 @@ std::string tcp_endpoint(const Address& address) {
 struct ServerSocket::Impl {
   /// What is known of a peer since its first message. Measured: to ask libzmq for the user of a
   /// message takes 18 ns, to find the peer here 14 ns; but then there is no lock and no look-up by
-  /// key a message, and a revocation knows whom to cut off.
+  /// key a message, and a revocation finds the peers to cut off.
   struct Peer {
     std::string key;
     std::optional<ListedClient> client;  ///< nothing once it is cut off

@@ -44,7 +44,7 @@ struct SocketOptions {
   /// A server closes connections beyond these, half-open ones included (orchestration facts, 5
   /// "Limits"); those without a handshake end by themselves after `handshake_timeout`. Each takes a
   /// descriptor: where the process's limit is lower, libzmq leaves newcomers in the system's queue.
-  /// ZMQ_MAX_SOCKETS is no limit here, since one socket has them all.
+  /// ZMQ_MAX_SOCKETS does not limit them, since one socket has them all.
   int max_connections = 10'000;
   /// Of these, of one address; all of loopback is one, and so is an IPv6 network of 64 bits.
   int max_connections_of_host = 6'000;
@@ -79,7 +79,7 @@ class ServerSocket {
  public:
   struct Received {
     PeerId peer = 0;
-    std::string_view frame;  ///< until the next call; empty when the message was no single frame
+    std::string_view frame;  ///< until the next call; empty when it was not a single frame
     Role role = Role::Anyone;
     std::string_view client;   ///< name of its key in the allow-list, as long; empty without keys
     std::string_view address;  ///< of the peer, a number without a port, as long

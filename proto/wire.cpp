@@ -79,7 +79,7 @@ bool has_too_many_parts(std::string_view payload) {
       if (!WireFormatLite::SkipField(&stream, inner)) break;
     }
     stream.PopLimit(limit);
-    // A text of a later version is no body: what follows it counts.
+    // A text of a later version is not a body: what follows it counts.
     if (!stream.Skip(end - stream.CurrentPosition())) return false;
   }
   return false;

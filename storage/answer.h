@@ -9,7 +9,7 @@ namespace swarmsmith {
 
 /// What of a store is the campaign's answer: the part that is the same for any number of workers,
 /// any order of arrival and any history of crashes. Rows of workers, conflicts, events and of the
-/// campaign's state are no part of it, nor are look-aheads, audits, later scorings and evaluations
+/// campaign's state are not part of it, nor are look-aheads, audits, later scorings and evaluations
 /// that the race did not want; nor worker, attempt and wall time of the evaluations that are.
 bool in_answer(const Row& row);
 

@@ -59,7 +59,7 @@ Unexpected copying_failed(const SqliteError& error, const fs::path& from, const 
 }
 
 Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnCopied& on_copied) {
-  // Says what is wrong with a file that is no store, or a newer one.
+  // Says what is wrong with a file that is not a store, or a newer one.
   if (const auto reader = StoreReader::open(store); !reader) return Unexpected(reader.error());
   Backup made;
   try {

@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// Runs of real robots as rows (docs/storage.md). They are no part of a campaign's answer.
+/// Runs of real robots as rows (docs/storage.md). They are not part of a campaign's answer.
 
 /// A calibration file, once for each text.
 struct CalibrationRow {

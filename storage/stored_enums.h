@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// What the values mean that stores keep as numbers or words: the one table of each. Whoever
+/// What the values mean that stores keep as numbers or words: the one table of each. Code that
 /// distinguishes purposes takes it from here, and an enumerator without a line does not compile.
 
 struct PurposeFacts {
@@ -32,7 +32,7 @@ struct PurposeFacts {
   std::string_view why;        ///< as people read why it was made; empty: they need more words
 };
 
-/// Nothing of a number that is no purpose.
+/// Nothing for a number that is not a purpose.
 constexpr std::optional<PurposeFacts> facts_of(Purpose purpose) {
   using Replay = PurposeFacts::Replay;
   switch (purpose) {

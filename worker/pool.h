@@ -16,7 +16,7 @@
 
 namespace swarmsmith {
 
-/// Evaluates a task: an exception and a score that is no number are failures with a sentence.
+/// Evaluates a task: an exception and a score that is not a number are failures with a sentence.
 Result evaluate(const Evaluator& evaluator, const LeasedTask& item);
 
 /// What slots did since the last call, in order.

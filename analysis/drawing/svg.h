@@ -60,7 +60,7 @@ std::string lightened(const std::string& color, double towards_white);
 inline constexpr std::string_view kFigureFonts = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
 
 /// The picture with a font of one's own before these. Widths were measured in DejaVu Sans; a wider
-/// font may run over. Errors: BadInput for what is no font's name.
+/// font may run over. Errors: BadInput for what is not a font's name.
 Expected<std::string> with_font(std::string svg, std::string_view font);
 
 /// Characters of a UTF-8 text.
@@ -119,7 +119,7 @@ class Svg {
   std::string shapes_;  ///< an element a line
 };
 
-/// The points of an open line that matter: what is left out lies within `tolerance` of what is kept
+/// The points of an open line that matter: points left out lie within `tolerance` of those kept
 /// (Douglas and Peucker 1973). Ends are kept.
 std::vector<PagePoint> simplified(std::span<const PagePoint> points, double tolerance);
 

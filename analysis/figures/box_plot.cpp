@@ -26,7 +26,7 @@ constexpr double kMostBand = 24;     ///< boxes that are further apart are hard 
 constexpr double kLongestName = 19;  ///< longer words are cut
 constexpr double kAboveLine = 1.5;   ///< the lowest values
 constexpr double kRatio = 0.62;      ///< height of the area by its width, within limits
-constexpr double kPage = 240;        ///< higher than that is no page of a journal
+constexpr double kPage = 240;        ///< a journal's page is not higher
 constexpr std::string_view kExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
     "n: values, each a point";

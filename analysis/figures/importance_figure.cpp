@@ -126,7 +126,7 @@ std::vector<std::size_t> groups_of(const ParameterColumn& column,
 
 std::map<CandidateId, double> candidate_effects(const std::vector<ScoredPair>& scores) {
   constexpr int kMostSweeps = 200;
-  // Numbers in place of ids, so that a sweep is no search: in the order of the ids, so that sums
+  // Numbers in place of ids, so that a sweep does not search: in the order of the ids, so that sums
   // are those of the list.
   std::map<CandidateId, std::size_t> candidates;
   std::map<std::int64_t, std::size_t> pairs;

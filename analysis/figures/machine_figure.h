@@ -15,7 +15,7 @@ struct StoredController {
   const Flavour* flavour = nullptr;  ///< never null
 };
 
-/// Reads a candidate's text in its design's flavour. Errors: BadInput when it is no control
+/// Reads a candidate's text in its design's flavour. Errors: BadInput when it is not control
 /// software but a program's configuration, when the store does not say the flavour (with how to
 /// make it), or the text is damaged. `schema` is the
 /// store's; `own` a flavour that is not built in.

@@ -32,9 +32,9 @@ constexpr std::string_view kNotRunColor = "#d4d4d4";
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kMarkers = {
     {{"x", "no test"},
      {"-", "some dropped"},
-     {"=", "nobody dropped"},
+     {"=", "none dropped"},
      {"!", "would drop elites"},
-     {".", "nobody had to run"},
+     {".", "none had to run"},
      {"c", "dropped by capping"},
      {":", "only elites ran"}}};
 

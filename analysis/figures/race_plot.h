@@ -42,7 +42,7 @@ struct RacePlot {
 /// several steps share the cell of their mean rank, and the figure says so.
 std::string draw(const RacePlot& plot);
 
-/// What a marker of v_race_steps says, in a few words: "nobody dropped".
+/// What a marker of v_race_steps says, in a few words: "none dropped".
 std::string_view meaning_of_marker(std::string_view marker);
 
 }  // namespace swarmsmith

@@ -9,7 +9,7 @@
 namespace swarmsmith {
 
 /// A laid out machine as text, the same words and, but for DOT, the same places in each form.
-/// Colours and, for prints without them, dashes go by the transition's source.
+/// Colours and, for prints without them, dashes follow the transition's source.
 
 /// A picture; `title` is what a screen reader says and nothing visible. Each state is a part named
 /// `data-state`, so that a page can light up what acts.

@@ -69,7 +69,7 @@ class _Lines:
             try:
                 read = json.loads(line)
             except ValueError as error:
-                raise Error(f"this is no JSON: {error}") from None
+                raise Error(f"this is not JSON: {error}") from None
             if not isinstance(read, dict):
                 raise Error(f"a JSON object with {wanted} is wanted, found {line.strip()}")
             return read

@@ -23,7 +23,7 @@ class OptionError(Error, ValueError):
 
 
 class CostError(Error, TypeError):
-    """A function returned what is no cost."""
+    """What a function returned is not a cost."""
 
 
 def is_number(value):
@@ -153,7 +153,7 @@ def domain_of(value):
         return (Integer if all(isinstance(one, numbers.Integral) for one in value) else Real)(*value)
     if isinstance(value, (list, tuple)):
         return Categorical(value)
-    raise SpaceError(f"{value!r} is no domain: a tuple of two numbers is a range, a list is a choice; "
+    raise SpaceError(f"{value!r} is not a domain: a tuple of two numbers is a range, a list is a choice; "
                      "Real, Integer, Ordinal and Categorical say more")
 
 
@@ -166,7 +166,7 @@ class Space:
         self.domains, self.names = {}, {}
         for name, value in space.items():
             if not isinstance(name, str) or not name:
-                raise SpaceError(f"{name!r} is no name of a parameter: it must be a text")
+                raise SpaceError(f"{name!r} is not a parameter's name: it must be a text")
             try:
                 self.domains[name] = domain_of(value)
             except SpaceError as error:
@@ -194,7 +194,7 @@ class Space:
 
         def written(found):
             if found[1] not in self.written:
-                raise SpaceError(f"`{found[1]}` in {text!r} is no parameter{self._nearest(found[1])}")
+                raise SpaceError(f"`{found[1]}` in {text!r} is not a parameter{self._nearest(found[1])}")
             return self.written[found[1]]
         return re.sub(r"`([^`]*)`", written, text)
 
@@ -209,7 +209,7 @@ class Space:
             raise SpaceError(f"a configuration is a dictionary of names and values, found {configuration!r}")
         for name in configuration:
             if name not in self.domains:
-                raise SpaceError(f"'{name}' is no parameter of the space{self._nearest(name)}")
+                raise SpaceError(f"'{name}' is not a parameter of the space{self._nearest(name)}")
         cells = []
         for name, domain in self.domains.items():
             try:

@@ -44,7 +44,7 @@ class Store:
         except sqlite3.DatabaseError as error:
             raise Error(f"{self.path}: {error}") from error
         if "v_design_scores" not in views:
-            raise Error(f"{self.path}: this is no store of Swarmsmith")
+            raise Error(f"{self.path}: this is not a store of Swarmsmith")
 
     def __enter__(self):
         return self
@@ -78,7 +78,7 @@ class Store:
     def machine(self, candidate):
         """The text of the grammar of a candidate: 812, or "c812"."""
         if isinstance(candidate, bool) or not re.fullmatch(r"c?[0-9]{1,18}", str(candidate)):
-            raise OptionError(f'{candidate!r} is no candidate: its number is wanted, as 812 or "c812"')
+            raise OptionError(f'{candidate!r} is not a candidate: its number is wanted, as 812 or "c812"')
         number = int(str(candidate).removeprefix("c"))
         rows = self.query("SELECT fsm_config FROM v_candidates WHERE candidate = ?", number)
         if not rows:

@@ -72,7 +72,7 @@ Expected<ListeningSocket> listen_for_requests(const std::string& host, int port)
     return unexpected(ErrorKind::Conflict,
                       "another program listens on this port; name another one, or end that", where);
   }
-  if (why == EADDRNOTAVAIL) return bad_input("this is no address of this host", where);
+  if (why == EADDRNOTAVAIL) return bad_input("this is not an address of this host", where);
   return unexpected(ErrorKind::Unavailable,
                     std::string("cannot listen here: ") + std::strerror(why), where);
 }

@@ -72,7 +72,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 constexpr std::size_t kDeepest = 64;
 
 /// Values of a text, far more than any file of ours has: the trees of parser and reader take some
-/// hundred bytes for each, of which a text from elsewhere may have one in two letters.
+/// hundred bytes for each, and a text from elsewhere may have one value in two letters.
 constexpr std::size_t kMostValues = 1'000'000;
 
 /// How deep the tree is at each letter of a file, counted from the letters outside of strings and
@@ -210,12 +210,12 @@ std::string to_string(std::string_view file, FilePlace place) {
 
 Expected<Node> parse_document(std::string_view text, std::string_view file) {
   if (const auto fault = fault_of(text)) {
-    return bad_input("this is no TOML: " + fault->reason, to_string(file, fault->place));
+    return bad_input("this is not TOML: " + fault->reason, to_string(file, fault->place));
   }
   try {
     return converted(toml::parse(text, file));
   } catch (const toml::parse_error& error) {
-    return bad_input("this is no TOML: " + std::string(error.description()),
+    return bad_input("this is not TOML: " + std::string(error.description()),
                      to_string(file, place_of(error.source())));
   }
 }

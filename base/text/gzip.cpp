@@ -55,7 +55,7 @@ Expected<std::string> gunzip(std::string_view packed, std::size_t most) {
   if (state == Z_STREAM_END && bytes.size() <= most) return bytes;
   return unexpected(ErrorKind::Corrupt, state == Z_STREAM_END || state == Z_OK
                                             ? "more comes out of it than may be"
-                                            : "this is no gzip file, or part of one");
+                                            : "this is not a whole gzip file");
 }
 
 }  // namespace swarmsmith

@@ -11,7 +11,7 @@ namespace swarmsmith {
 /// `level` from 1 (fast) to 9 (small).
 std::string gzip(std::string_view bytes, int level = 6);
 
-/// What was packed. Corrupt when it is no gzip file, or more than `most` bytes come out of it.
+/// What was packed. Corrupt when it is not a gzip file, or more than `most` bytes come out of it.
 Expected<std::string> gunzip(std::string_view packed, std::size_t most);
 
 }  // namespace swarmsmith

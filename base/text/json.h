@@ -13,7 +13,7 @@ namespace swarmsmith {
 /// nlohmann's writer is for what others read as any JSON; it puts 1.0 for 1, and the bytes of
 /// `--json` are promised.
 
-/// A text in quotes. Bytes that are no UTF-8 become U+FFFD, one for each.
+/// A text in quotes. Bytes that are not UTF-8 become U+FFFD, one for each.
 std::string json_text(std::string_view text);
 /// A number in the shortest form that reads back to the same value; null for what JSON lacks.
 std::string json_number(double value);

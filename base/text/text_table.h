@@ -24,7 +24,7 @@ struct TextTable {
                              ///< each row
 };
 
-/// A line a row, without blanks at its end. Texts are shown with what is no letter escaped
+/// A line a row, without blanks at its end. Texts are shown with all but letters escaped
 /// (base/shown_text.h).
 std::string aligned(TextTable table);
 /// The same to a stream. Each row is freed once it is written.

@@ -21,8 +21,8 @@ Expected<std::string> read_file(const std::filesystem::path& file, const std::st
                                 std::size_t most = 16U << 20U);
 
 /// Writes a file so that its name never stands for a half of it: beside it first, then renamed,
-/// over another one of its kind if there is; links stay. What is no plain file, such as a pipe, is
-/// written to as it is.
+/// over another one of its kind if there is; links stay. What is not a plain file, such as a pipe,
+/// is written to as it is.
 ///
 /// Errors: those of `output_place`, `cannot_write`; then nothing has changed.
 Expected<void> write_whole_file(const std::string& file, std::string_view bytes);

@@ -30,7 +30,7 @@ struct WorkerShape {
 };
 
 /// Makes this program's later children workers of that shape, which connect to `endpoint`, with
-/// keys if there are any: they are told by the environment.
+/// keys if there are any. The environment tells them.
 void announce(const std::string& endpoint, const WorkerShape& shape,
               const std::optional<ClientKeys>& keys);
 /// Whether this process is such a child. To be asked first of all in main.

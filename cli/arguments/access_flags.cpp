@@ -15,7 +15,7 @@ namespace {
 Error with_hint(Error error, const KeyFolder& folder, bool named) {
   if (error.kind != ErrorKind::NotFound) return error;
   error.message += "; `swarmsmith keygen" + (named ? " " + folder.path.string() : "") +
-                   "` makes keys; without them nobody on another host may connect";
+                   "` makes keys; without them no program on another host may connect";
   return error;
 }
 

@@ -15,7 +15,7 @@ struct ThingId {
   std::string purpose;  ///< letter of an evaluation that was made for no race
 };
 
-/// Nothing when the text is no id.
+/// Nothing when the text is not an id.
 std::optional<ThingId> parse_thing_id(std::string_view text);
 
 /// The design that the thing is of; none of a real run.

@@ -213,7 +213,7 @@ class Evaluation {
       output_.out << as_json({.job = &job, .seed = seed, .score = score, .kept = {}});
     print_error(output_,
                 {ErrorKind::BadInput,
-                 std::string("the score is ") + (std::isnan(score) ? "no number" : "infinite") +
+                 std::string("the score is ") + (std::isnan(score) ? "not a number" : "infinite") +
                      ", and a campaign rejects such an evaluation",
                  "seed " + std::to_string(seed)});
   }

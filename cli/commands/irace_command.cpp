@@ -44,7 +44,7 @@ const ProgramCommand& this_command() {
   for (const ProgramCommand& command : commands()) {
     if (command.run_words == run_irace) return command;
   }
-  throw std::logic_error("irace is no command");
+  throw std::logic_error("irace is not a command");
 }
 
 void print_help(Output& output) {
@@ -54,7 +54,7 @@ void print_help(Output& output) {
              << wrapped(command.details) << '\n';
 }
 
-/// R's files and the store are no copies of each other: .Rdata becomes .db.
+/// R's files and the store are not copies of each other: .Rdata becomes .db.
 std::filesystem::path store_file(std::filesystem::path log_file) {
   const std::string ending = log_file.extension().string();
   if (ending == ".Rdata" || ending == ".RData" || ending == ".rda")

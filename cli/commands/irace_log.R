@@ -16,9 +16,9 @@ words <- commandArgs(trailingOnly = TRUE)
 if (length(words) != 2) fail("two words are wanted: LOG FOLDER")
 loaded <- new.env()
 names_loaded <- tryCatch(load(words[1], envir = loaded),
-                         warning = function(e) fail("this is no file of R's: ", conditionMessage(e)),
-                         error = function(e) fail("this is no file of R's: ", conditionMessage(e)))
-if (!"iraceResults" %in% names_loaded) fail("this is no log of irace: it has no iraceResults")
+                         warning = function(e) fail("this is not a file of R's: ", conditionMessage(e)),
+                         error = function(e) fail("this is not a file of R's: ", conditionMessage(e)))
+if (!"iraceResults" %in% names_loaded) fail("this is not a log of irace: it has no iraceResults")
 log <- loaded$iraceResults
 folder <- words[2]
 

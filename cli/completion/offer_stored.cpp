@@ -59,7 +59,7 @@ void offer_of_store(const fs::path& store, std::string_view query, Offer& offer)
   const auto reader = StoreReader::open(store);
   if (!reader) return;
   const StoreReader::QueryLimits limits{.rows = 1000, .seconds = 0.5, .bytes = 1 << 20};
-  // What a store does not have, such as real runs in an older one, is no value.
+  // What a store does not have, such as real runs in an older one, is not offered.
   (void)(*reader)->query(
       std::string(query), limits, [](const auto&) {},
       [&](const std::vector<StoreReader::Cell>& cells) {

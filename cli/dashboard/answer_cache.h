@@ -105,7 +105,7 @@ class AnswerCache {
   int working_ = 0;  ///< threads of get_within
 };
 
-/// So many at a time, so many wait, the others are turned away.
+/// Runs at most so many at a time, queues so many, and refuses the others.
 class Turnstile {
  public:
   Turnstile(int at_a_time, int waiting) : at_a_time_(at_a_time), most_waiting_(waiting) {}

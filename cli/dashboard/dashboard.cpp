@@ -46,7 +46,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kCacheBytes = std::size_t{32} << 20U;
 /// An answer as young as that is not made again for the next who asks.
 constexpr std::chrono::milliseconds kFresh{500};
-/// Older numbers than that are no numbers of now.
+/// Numbers older than this are stale.
 constexpr std::chrono::seconds kStale{5};
 std::string now_text() {
   const auto now = std::chrono::system_clock::now();
@@ -337,7 +337,7 @@ class Dashboard final : public HttpSite {
   }
 
   Expected<Answer> carry_out(const Act& act, const SiteRequest& request) {
-    if (!options_.act) return bad_input("nobody may act here");
+    if (!options_.act) return bad_input("this dashboard is read-only");
     CommandRow command{.kind = act.kind,
                        .design = act.design,
                        .step = std::nullopt,

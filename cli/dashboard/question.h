@@ -21,7 +21,7 @@ namespace swarmsmith::cli {
 
 using Parameters = std::map<std::string, std::string>;
 
-/// BadInput when the parameter is no whole number within the limits; `otherwise` without it.
+/// BadInput when the parameter is not a whole number within the limits; `otherwise` without it.
 Expected<std::int64_t> integer_parameter(const Parameters& parameters, const std::string& name,
                                          std::int64_t otherwise, std::int64_t least,
                                          std::int64_t most);

@@ -93,7 +93,7 @@ Expected<Sample> sample_of(const Question& question, std::int64_t wanted) {
   return sample;
 }
 
-/// What an iteration is called, and why it is no race where it is none.
+/// What an iteration is called, and why it is not a race, if it is not one.
 struct RoundTexts {
   std::string title{};
   std::string note{};
@@ -109,9 +109,8 @@ Expected<RoundTexts> round_of(const Question& question, std::int64_t iteration) 
   texts.title.front() = static_cast<char>(std::toupper(texts.title.front()));
   const SearchWords& words = words_of(*search);
   if (!words.has_tests)
-    texts.note =
-        fmt::format("This is no race: {} compares means, and no statistical test drops candidates.",
-                    words.name);
+    texts.note = fmt::format(
+        "This is not a race: {} compares means; no statistical test drops candidates.", words.name);
   return texts;
 }
 

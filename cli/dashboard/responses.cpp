@@ -15,7 +15,7 @@ constexpr std::size_t kMostUnpacked = std::size_t{256} << 20U;
 constexpr const char* kPagePolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-/// Of what is no page: figures have styles of their own, and nothing else.
+/// For all but pages: figures have styles of their own, and nothing else.
 constexpr const char* kDataPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'; sandbox";
 

@@ -65,7 +65,7 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
   } else {
     words.insert(words.end(), {"--json", "--lists"});
   }
-  // Behind a blank a comment is no option.
+  // After a blank, a comment is not taken for an option.
   const std::string word = " " + sql;
   words.push_back(word);
   const auto begin = std::chrono::steady_clock::now();

@@ -40,8 +40,8 @@ Expected<std::int64_t> pairs_wanted(const IraceSettings& settings, const IraceSe
   return setup.race.deterministic ? std::min(count, instances) : count;
 }
 
-/// The scenario's campaign with the way in place of its race: what else its races go by decides
-/// nothing here.
+/// The scenario's campaign with the way in place of its race: the other settings of its races
+/// decide nothing here.
 Expected<Campaign> campaign_for(const IraceSetup& setup, const AblationWay& way, AblationType type,
                                 std::int64_t pairs, std::uint64_t seed) {
   const Configuration ends[] = {way.source, way.target};

@@ -307,7 +307,7 @@ StorePlace place_beside(const std::filesystem::path& file, const std::string& en
         StorePlace::beside(file, number == 1 ? ending : fmt::format("{}-{}", ending, number));
     Campaign campaign = campaign_at(place);
     campaign.store = place.file();
-    // What cannot be read is no campaign's yet: who opens it to write says what is wrong.
+    // What cannot be read is not a campaign's yet: opening it to write says what is wrong.
     if (may_begin(campaign) || !StoreReader::open(place.file())) return place;
   }
 }

@@ -9,7 +9,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// None for rows that are no events.
+/// None for rows that are not events.
 using Event = std::optional<JsonObject>;
 
 /// {"v":1,"event":NAME,...

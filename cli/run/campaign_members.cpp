@@ -107,8 +107,8 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
   const std::set<DesignId> all_paused = paused_designs(commands);
   std::erase_if(paused, [&](DesignId design) { return !all_paused.contains(design); });
   if (paused.empty()) return;
-  print_note(output_, listed(paused) + " paused: `swarmsmith resume " + file + " " +
-                          to_string(paused.front()) + "` lets go on");
+  print_note(output_, listed(paused) + " paused: continue with `swarmsmith resume " + file + " " +
+                          to_string(paused.front()) + "`");
 }
 
 void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {

@@ -84,7 +84,7 @@ CoordinatorSearch CoordinatorArgument::search(const std::string& file) const {
                            .role = "operator",
                            .insecure_plaintext = insecure_plaintext};
   if (connect.empty()) return search;
-  // What is no address is refused when it is connected to.
+  // What is not an address is refused when the client connects to it.
   search.endpoint = endpoint_of(connect, true).value_or(connect);
   search.file.clear();
   return search;
@@ -141,7 +141,7 @@ Expected<std::string> ask_status(const FoundCoordinator& coordinator,
   question.mutable_want_status();
   Tries tries(socket, encode(question));
   google::protobuf::Arena arena;
-  const Wakeup nobody;
+  const Wakeup no_wakeup;
   std::string frame;
   const auto until = Clock::now() + patience;
   while (true) {
@@ -157,7 +157,7 @@ Expected<std::string> ask_status(const FoundCoordinator& coordinator,
       return unreachable(tries.why("no coordinator runs there"));
     const auto left = std::chrono::ceil<milliseconds>(until - Clock::now());
     if (left.count() <= 0) return unreachable("the coordinator does not answer");
-    socket.wait(nobody, left);
+    socket.wait(no_wakeup, left);
   }
 }
 

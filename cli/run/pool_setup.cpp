@@ -48,7 +48,7 @@ CampaignPolicy policy_of(const Campaign& campaign) {
 
 std::string bind_of(const RunOptions& options) {
   if (options.bind.empty()) return "tcp://127.0.0.1:*";
-  // What is no address is refused by who listens.
+  // What is not an address is refused by the server that listens.
   return endpoint_of(options.bind, false).value_or(options.bind);
 }
 

@@ -133,7 +133,7 @@ std::string lines_of(const std::vector<std::string>& texts) {
 }
 
 /// The method's space, so that switches and values of a configuration, put together, are its text;
-/// of networks they are the weights alone, of which the target-runner makes it.
+/// of networks they are the weights alone, and the target-runner makes the text from them.
 Expected<ParameterSpace> space_in_grammar(const Method& method, const Flavour& flavour,
                                           int digits) {
   switch (method.architecture) {

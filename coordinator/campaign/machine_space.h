@@ -43,8 +43,8 @@ class MachineSpace {
   Configuration from_machine(const Machine& machine) const;
 
  private:
-  /// The parameters of one state or one transition. Indices are kNoParameter for what is left
-  /// out.
+  /// The parameters of one state or one transition. Indices are kNoParameter for omitted
+  /// ones.
   struct TransitionSlot {
     std::size_t target = 0;
     std::size_t condition = 0;

@@ -47,7 +47,7 @@ class MethodSpace {
   std::vector<Configuration> initial_;
 };
 
-/// What the store says of control software that is no configuration of a space: without parameters.
+/// What the store says of control software that is not a configuration of a space. No parameters.
 CandidateText text_of(const Controller& controller, const Flavour& flavour);
 
 /// The race options of a design on this mission, without its seed: its number of instances, and

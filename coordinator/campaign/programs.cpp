@@ -18,7 +18,7 @@ void check_program(const std::string& path, const std::string& key, std::vector<
   if (!fs::exists(path, trouble)) {
     errors.push_back({ErrorKind::NotFound, "`" + key + "`: there is no such program", path});
   } else if (!fs::is_regular_file(path, trouble)) {
-    errors.push_back({ErrorKind::BadInput, "`" + key + "`: this is no file", path});
+    errors.push_back({ErrorKind::BadInput, "`" + key + "`: this is not a file", path});
   } else if (::access(path.c_str(), X_OK) != 0) {
     errors.push_back({ErrorKind::BadInput,
                       "`" + key + "`: the program may not be run; `chmod +x` allows it", path});

@@ -25,7 +25,7 @@ class EliteTests {
 
   /// The race is over: chooses who is tested and gives their runs, one candidate after the other.
   std::vector<Experiment> begin();
-  /// The run of a candidate on a pair from 1, whoever is tested.
+  /// The run of a candidate on a pair from 1, tested or not.
   Experiment run(std::int64_t candidate, std::int64_t pair) const;
   /// Of the run on a pair: Test, or Transfer under a further profile.
   Purpose purpose_of(std::int64_t pair) const;

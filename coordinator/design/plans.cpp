@@ -26,7 +26,7 @@ Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
     plan.initial = {std::move(*drawn)};
     return {};
   }
-  // It may be no point of the space, whose ranges a person need not keep to.
+  // It need not be a point of the space: a person need not keep to its ranges.
   const auto flavour = flavour_of(method);
   if (!flavour) return Unexpected(flavour.error());
   const auto given = parse_controller(method.baseline, **flavour);

@@ -24,7 +24,7 @@ constexpr std::size_t kComplaintsPerDesign = 20;
 /// Rows of one design as texts. Those that hold a latest value are kept by what they describe.
 struct DesignAnswer {
   std::vector<std::string> rows;
-  /// Pairs of the race by number; those on which no step was held are no part of the answer.
+  /// Pairs of the race by number; the answer omits those on which no step was held.
   std::map<std::int64_t, std::string> pairs;
   std::set<std::int64_t> stepped;
   std::map<CandidateId, std::string> totals;
@@ -133,7 +133,7 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
   }
 }
 
-/// What was asked for and has not come to pass is no part of the answer.
+/// What was asked for and has not come to pass is not part of the answer.
 std::vector<CommandRow> acted(std::vector<CommandRow> commands) {
   std::erase_if(commands, [](const CommandRow& command) { return !command.step; });
   return commands;
@@ -202,7 +202,7 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
 
-/// Evaluations of which two workers gave different bits: a sentence each, the first few. Where the
+/// Evaluations for which two workers gave different bits: a sentence each, the first few. Where the
 /// coordinator made the evaluation again, and the kept score has its bits, the other worker was
 /// wrong.
 void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complaints) {

@@ -49,7 +49,7 @@ class SlurmWorkers final : public Launcher {
   /// Trouble: Slurm refused the first jobs (an unknown account or partition, too many CPUs).
   std::string tend(TimePoint now) override;
   /// Cancels all jobs of the campaign's name, those that a person has submitted too: they would
-  /// wait for a coordinator that is no more.
+  /// wait for a coordinator that has ended.
   std::string stop(Duration grace) override;
   LauncherStatus status() const override;
 

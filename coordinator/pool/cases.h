@@ -56,7 +56,7 @@ struct Case {
 /// does what follows from the rulings.
 class Cases {
  public:
-  /// A further word when the case is open; then it is no mere audit any more unless this is one.
+  /// A further word when the case is open; then the case stays an audit only if this is one.
   void open(Task task, std::optional<Said> said, bool audit);
   /// The next task, when the referee has nothing to do; it is out then, until `close`.
   std::optional<Task> next();

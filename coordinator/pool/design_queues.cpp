@@ -54,7 +54,7 @@ void DesignQueues::change(Design& design, const Change& make) {
   }
   make();
   const bool is_ready = !design.held && !design.wanted.empty();
-  // Who comes again begins where the others are: time without tasks is no credit, or a design that
+  // A design that comes again begins where the others are: idle time gives no credit, or one that
   // waited at a barrier would then keep all others from their turn.
   if (is_ready && !design.by_had) design.had_us = std::max(design.had_us, had_us_);
   put(by_had_, design.by_had, is_ready, design.had_us, design);

@@ -47,7 +47,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
     if (may_have_run) book_->note_attempt(record, entry.number, AttemptOutcome::Lost, now);
     // While another worker has it too, nothing is held against the task: if it kills, it will do so
     // there, and there is no third copy then.
-    Blame to = Blame::Nobody;
+    Blame to = Blame::None;
     if (record.second) {
       record.copied = loss == Loss::Death;
     } else if (may_have_run) {
@@ -82,14 +82,14 @@ LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Lo
   SWARMSMITH_ASSERT(record.lease && !record.second, "only the only holder's loss says something");
   if (!entry.principal->is_proven()) {
     ++record.strays;
-    return Blame::Nobody;
+    return Blame::None;
   }
   if (book_->options.evaluates_programs) return blame_of_program(entry, record, loss);
   const Lease& lease = *record.lease;
   if (loss == Loss::Death && lease.alone && lease.began) return Blame::Task;
   ++record.losses;
   if (loss == Loss::Death || record.losses >= kLossesUntilAlone) record.alone = true;
-  return lease.alone && record.losses >= kLossesUntilRuled ? Blame::Task : Blame::Nobody;
+  return lease.alone && record.losses >= kLossesUntilRuled ? Blame::Task : Blame::None;
 }
 
 /// Programs run nowhere but on workers. A program that goes wrong does not take its worker with it:
@@ -107,7 +107,7 @@ LostWorkers::Blame LostWorkers::blame_of_program(WorkerEntry& entry, TaskRecord&
       entry.charged.push_back(key_of(record.task));
     }
     if (is_new) record.died_with.push_back(name);
-    return record.deaths >= kDeathsOfARejection ? Blame::Rejected : Blame::Nobody;
+    return record.deaths >= kDeathsOfARejection ? Blame::Rejected : Blame::None;
   }
   ++record.losses;
   if (record.losses >= kLossesUntilAlone) record.alone = true;
@@ -116,7 +116,7 @@ LostWorkers::Blame LostWorkers::blame_of_program(WorkerEntry& entry, TaskRecord&
                                           " was lost with its worker " +
                                           std::to_string(record.losses) + " times");
   }
-  return Blame::Nobody;
+  return Blame::None;
 }
 
 }  // namespace swarmsmith

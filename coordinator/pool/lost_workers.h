@@ -36,7 +36,7 @@ class LostWorkers {
 
  private:
   /// What a loss means for a task that only this worker had, and that may have run.
-  enum class Blame { Nobody, Task, Rejected };
+  enum class Blame { None, Task, Rejected };
   Blame blame(WorkerEntry& entry, TaskRecord& record, Loss loss);
   Blame blame_of_program(WorkerEntry& entry, TaskRecord& record, Loss loss);
 

@@ -78,7 +78,7 @@ struct Principal {
   /// Without a key one lie is the doing of one process, not of all that come from there, and each
   /// process has to prove itself.
   bool is_blamed_by_process() const { return swarmsmith::is_blamed_by_process(name); }
-  /// By whom the worker is judged.
+  /// The number under which the worker is judged.
   WorkerNumber judged_as(WorkerNumber worker) const {
     return is_blamed_by_process() ? worker : WorkerNumber{0};
   }

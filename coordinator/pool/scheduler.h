@@ -76,9 +76,8 @@ class Scheduler {
   void on_goodbye(const Sender& sender, TimePoint now);
   /// A worker has started a task that runs alone on it.
   void on_began(const Sender& sender, PackedKey key, TimePoint now);
-  /// Lets those work again whom a person means by a key's name, an address or a host's name; who
-  /// answers for them is on trial as if it were new. Their names; empty when none of
-  /// them is in quarantine.
+  /// Lets workers work again, by a key's name, an address or a host's name. Their principal is
+  /// on trial as if it were new. Their names; empty when none of them is in quarantine.
   std::vector<std::string> forgive(std::string_view word, const std::string& by, TimePoint now) {
     return trust_->forgive(word, by, now);
   }
@@ -91,7 +90,7 @@ class Scheduler {
   }
   /// Any other message: a sign of life. False, and a question, when the peer is not known.
   bool on_sign_of_life(const Sender& sender, TimePoint now);
-  /// The transport says that the connection is no more, and that these leases never got there.
+  /// The transport says that the connection has ended, and that these leases never got there.
   void on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered = {});
   /// The peer sent rubbish and is not listened to any more.
   void on_refused(PeerId peer, TimePoint now);

@@ -128,7 +128,7 @@ void Scheduler::dispatch(TimePoint now) {
 
 void Scheduler::dispatch_wanted(TimePoint now) {
   if (book_->leases.wanted_ready() == 0) return;
-  // Guided self-scheduling (orchestration facts, 5 "Credit"): near the end of what there is, nobody
+  // Guided self-scheduling (orchestration facts, 5 "Credit"): near the end of the work, no worker
   // holds more than half a share of it, or a step would wait for one worker's queue. A worker that
   // is alone may have it all: its slots share what it holds.
   const auto remaining =
@@ -140,7 +140,7 @@ void Scheduler::dispatch_wanted(TimePoint now) {
 }
 
 /// Reserves workers for tasks that may have killed one, at most half of them at a time: a campaign
-/// of which every task kills must not bring all others to a stand.
+/// whose every task kills must not bring all others to a stand.
 void Scheduler::dispatch_alone(TimePoint now) {
   if (!book_->leases.has_alone()) return;
   // A stranger's death would say nothing.

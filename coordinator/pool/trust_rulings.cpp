@@ -29,7 +29,7 @@ std::string text_of(const Said& said) {
   return said.what == Said::What::Score ? fmt::format("{}", said.measured.score) : "no score";
 }
 
-/// Equal scores of runs whose robots ended elsewhere are no evidence without this.
+/// Equal scores of runs whose robots ended elsewhere prove nothing without this.
 std::string text_beside(const Said& said, const Ruling& ruling) {
   const bool is_same = said.what == Said::What::Score && ruling.kind == Ruling::Kind::Score &&
                        said.measured.score == ruling.measured.score;

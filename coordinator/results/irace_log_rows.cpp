@@ -248,7 +248,7 @@ std::string deciding_of(const IraceLog& log) {
   JsonObject object;
   object.add("imported", "irace log").add("irace", log.version).add("log", log.digest);
   const auto texts = print_irace_log(log);
-  // Bytes that are no UTF-8 stay, so that the files are made again as they were.
+  // Bytes that are not UTF-8 stay, so that the files are made again as they were.
   for (const std::string& file : irace_setting_files())
     object.add(file, JsonPiece{quoted_text(texts.at(file))});
   return object.text();

@@ -26,7 +26,7 @@ struct IraceImport {
 /// the log keeps silent about is worked out from its runs: who was alive on a pair is who has a
 /// cost there, who leaves is who is not on the next one, best is who has the largest mean in the
 /// race. Its tests' statistics are not known, nor why one was dropped: markers are `?`. Errors: a
-/// configuration that is no machine of the flavour.
+/// configuration that is not a machine of the flavour.
 OrErrors<Addition> irace_log_addition(const IraceLog& log, const IraceImport& known);
 
 }  // namespace swarmsmith

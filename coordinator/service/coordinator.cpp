@@ -503,7 +503,7 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     scheduler_.close(index, on_disk && campaign.source->finished());
   }
   pool_rows_.clear();
-  // After leasing: slots that are about to be given work are no idle ones.
+  // After leasing: slots that are about to be given work are not idle.
   if (std::exchange(sample_due_, false)) slots_.sample(scheduler_, holding_, now);
   return std::exchange(actions_, {});
 }

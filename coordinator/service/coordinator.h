@@ -83,7 +83,7 @@ class Coordinator {
   /// The order of `campaigns` is that of the scenario and of the scheduler's policies.
   Coordinator(CoordinatorOptions options, const std::vector<CampaignWork>& campaigns);
 
-  /// An empty frame stands for a message that was no single frame.
+  /// An empty frame stands for a message that was not a single frame.
   void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
   /// The peer of a frame that could not be sent has gone. Its last words may wait to be read, a
   /// goodbye among them: what its end means is decided by `on_all_read`.

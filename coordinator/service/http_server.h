@@ -34,8 +34,8 @@ struct HttpOptions {
 /// and time. The pages of health need no token, say no more than "ok" without one, and wait for
 /// no client: not for slow connections, nor for those who read the other pages.
 ///
-/// The site's pages are shown to whom the token lets in; on loopback, without one, to the user of
-/// this process and to root. Only the site's acts may be asked for by POST, always with a token,
+/// The site's pages are for clients with the token; on loopback, without one, for the user of this
+/// process and for root. Only the site's acts may be asked for by POST, always with a token,
 /// and by no page of another origin.
 class HttpServer {
  public:

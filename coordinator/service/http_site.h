@@ -30,7 +30,7 @@ struct SiteAnswer {
   std::vector<std::pair<std::string, std::string>> headers{};
 };
 
-/// Pages that an HttpServer shows besides its own, to whom it lets in. Many threads at once.
+/// Pages that an HttpServer shows besides its own, to clients it lets in. Many threads at once.
 class HttpSite {
  public:
   virtual ~HttpSite() = default;

@@ -81,13 +81,13 @@ class WordReader {
     const IraceOption* known =
         dashes == std::string::npos ? nullptr : find_irace_option(name.substr(dashes));
     if (known != nullptr && !known->long_switch.empty()) {
-      complain(name, "is no option; the switch of `" + std::string(known->name) + "` is " +
+      complain(name, "is not an option; the switch of `" + std::string(known->name) + "` is " +
                          std::string(known->long_switch));
     } else if (known != nullptr) {
-      complain(name, "is no option; `" + std::string(known->name) +
+      complain(name, "is not an option; `" + std::string(known->name) +
                          "` can only be set in a scenario file");
     } else {
-      complain(name, "is no option" + did_you_mean(name, irace_switches()) +
+      complain(name, "is not an option" + did_you_mean(name, irace_switches()) +
                          "; --help lists all of them");
     }
   }

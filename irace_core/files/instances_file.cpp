@@ -25,7 +25,7 @@ std::error_code add_files(const fs::path& folder, std::vector<fs::path>& above,
        entry.increment(error)) {
     const fs::path path = entry->path();
     if (path.filename().string().starts_with('.')) continue;
-    std::error_code gone;  // a link to nothing is no file
+    std::error_code gone;  // a link to nothing is not a file
     if (entry->is_directory(gone)) {
       if (const auto deeper = add_files(path, above, files)) return deeper;
     } else if (entry->exists(gone)) {

@@ -166,7 +166,7 @@ std::vector<double> adjusted(std::vector<double> p_values, TestType type) {
       p = std::min(1.0, static_cast<double>(k) * p);
   }
   if (type == TestType::TTestHolm) {
-    // Stepping down: the i-th smallest of k is multiplied by k - i + 1, and is no smaller than
+    // Stepping down: the i-th smallest of k is multiplied by k - i + 1, and is at least as large as
     // those before it, so that a larger p never passes where a smaller one fails.
     std::vector<std::size_t> order(k);
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -247,7 +247,7 @@ struct Sequence {
   }
 };
 
-/// Nothing when an end is missing or no number.
+/// Nothing when an end is missing or not a number.
 std::optional<Sequence> sequence(const Values& from, const Values& to) {
   const Scalar first = convert(from[0], Type::Real);
   const Scalar last = convert(to[0], Type::Real);

@@ -87,7 +87,7 @@ class SamplingModels {
 
   const ParameterSpace* space_;
   std::map<std::int64_t, Model> models_;
-  std::map<std::int64_t, Model> former_;  ///< of those that are no elites any more
+  std::map<std::int64_t, Model> former_;  ///< of those that are not elites any more
 };
 
 }  // namespace swarmsmith::irace

@@ -140,11 +140,11 @@ class Race {
 
   // race_elimination.cpp: who is dropped, and the sums that decide it
   void eliminate(RaceStep& step);
-  /// Whom the test would drop, protected ones included; ascending.
+  /// Those that the test would drop, protected ones included; ascending.
   std::vector<std::size_t> worse_by_test(RaceStep& step);
   TestResult test_of_two();
   TestResult t_tests();
-  /// Whom capping would drop, protected ones included; ascending.
+  /// Those that capping would drop, protected ones included; ascending.
   std::vector<std::size_t> worse_by_times() const;
   bool is_capping_point() const;
   std::span<const double> costs_so_far(std::size_t column) const;

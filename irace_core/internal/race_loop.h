@@ -153,7 +153,7 @@ class IteratedRace::State {
   void take_over_results();
   void reject(std::int64_t id);
   void choose_elites();
-  /// Those who took part and are no elites: they are seldom looked at again.
+  /// Those who took part and are not elites: they are seldom looked at again.
   void put_away_losers();
   /// Reports how much the time that is left is good for.
   void report_time(std::vector<std::pair<std::int64_t, std::int64_t>> evaluated);

@@ -15,7 +15,7 @@ namespace {
 
 /// A configuration prepared for comparing: what must agree as one number, numbers in their domain.
 struct Prepared {
-  std::uint64_t choices;          ///< digest of all choices and of which parameters are active
+  std::uint64_t choices;          ///< digest of all choices and of the set of active parameters
   std::vector<double> positions;  ///< of active numeric parameters, as multiples of their width
 };
 

@@ -141,7 +141,7 @@ std::vector<double> CmaEs::point_of(std::span<const double> normals) const {
 }
 
 void CmaEs::update(std::span<const std::vector<double>> points) {
-  SWARMSMITH_ASSERT(points.size() >= weights_.size(), "the best half of a generation is told");
+  SWARMSMITH_ASSERT(points.size() >= weights_.size(), "a generation's best half is there");
   constexpr double kLargestStep = 1e10;
   const std::size_t n = dimensions();
   ++generation_;

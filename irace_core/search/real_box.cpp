@@ -11,7 +11,7 @@ namespace {
 /// What keeps the parameter from being a plain real; empty when it is one.
 std::string objection(const ParameterSpace& space, std::size_t index) {
   const auto* real = std::get_if<Real>(&space[index].domain);
-  if (real == nullptr) return "is no real number";
+  if (real == nullptr) return "is not a real number";
   if (space[index].condition) return "has a condition";
   if (real->log) return "is logarithmic";
   if (space.constant_interval(index) == nullptr) return "has a range that depends on others";

@@ -12,7 +12,7 @@
 
 namespace swarmsmith::search {
 
-/// A Search that goes by rounds. It numbers configurations and pairs, counts runs, and reports what
+/// A Search in rounds. It numbers configurations and pairs, counts runs, and reports what
 /// happens; its strategy decides. Pairs come from the stream "instances" of the scenario's seed, as
 /// those of races do.
 class SearchLoop final : public Search {

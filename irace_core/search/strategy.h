@@ -45,7 +45,7 @@ struct Verdict {
   std::vector<std::int64_t> alive;
 };
 
-/// What makes a search that goes by rounds: SearchLoop asks for a round, has it run, and tells its
+/// What makes a search in rounds: SearchLoop asks for a round, has it run, and tells its
 /// costs. A pure function of the options, the seed and the costs.
 class Strategy {
  public:

@@ -105,7 +105,7 @@ class Stage:
         self.made_after = {}  # by the page that they stand behind
 
     def place_of(self, target):
-        """Where a file of the repository is in the manual, copied there if it is no page; None for a folder."""
+        """Where a file of the repository is in the manual, copied there if it is not a page; None for a folder."""
         if target in self.pages:
             return self.pages[target]
         if target.rstrip("/") == "docs/decisions":

@@ -33,7 +33,7 @@ AllowListOrErrors parse_allow_list(std::string_view text, const std::string& fil
 std::string text_of(const AllowedClient& client);
 /// A date as the file writes it: 2027-01-31.
 std::string text_of(std::chrono::year_month_day date);
-/// Nothing for what is no date.
+/// Nothing for what is not a date.
 std::optional<std::chrono::year_month_day> date_of(std::string_view text);
 
 /// The clients as a socket takes them, with those whose day is over by `now` marked.

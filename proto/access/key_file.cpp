@@ -40,7 +40,7 @@ std::string read_key(TableReader& table, const char* name) {
   return "";
 }
 
-/// The first complaint. The parser's own words about what is no TOML are left out: they may quote
+/// The first complaint. The parser's own words about what is not TOML are left out: they may quote
 /// from the line.
 Expected<Fields> parse_fields(std::string_view text, const std::string& file) {
   const auto document = parse_document(text, file);

@@ -64,7 +64,7 @@ Expected<void> make_folder(const std::filesystem::path& folder) {
           "others may write into this folder; take it back: chmod 700 " + folder.string(),
           folder.string());
     }
-    return bad_input("this is no folder", folder.string());
+    return bad_input("this is not a folder", folder.string());
   }
   const std::string why = trouble ? trouble.message() : std::strerror(errno);
   const bool has_home = !variable("HOME").empty();

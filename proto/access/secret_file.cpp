@@ -33,7 +33,7 @@ std::string reason() {
 /// Why others could use the file, if so.
 std::string objection_to(const struct stat& status, const std::filesystem::path& file,
                          Privacy privacy) {
-  if (!S_ISREG(status.st_mode)) return "this is no file";
+  if (!S_ISREG(status.st_mode)) return "this is not a file";
   if (privacy == Privacy::Secret) {
     if (status.st_uid != geteuid()) {
       return "the file belongs to another user (id " + std::to_string(status.st_uid) +

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// Who else may do what with a file; the files of access/ are read only when it is no more than
+/// Who else may do what with a file; the files of access/ are read only when it is not more than
 /// this.
 enum class Privacy {
   Secret,    ///< only its owner may read or write it

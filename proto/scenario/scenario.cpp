@@ -124,7 +124,7 @@ std::string to_bytes(const PoolScenario& scenarios) {
 Expected<PoolScenario> scenarios_from_bytes(std::string_view bytes) {
   pb::PoolScenario message;
   if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-    return bad_input("bytes that are no scenarios");
+    return bad_input("bytes that are not scenarios");
   }
   const int count = message.campaigns_size();
   if (count < 1 || count > static_cast<int>(kMaxCampaigns)) {

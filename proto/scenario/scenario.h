@@ -44,7 +44,7 @@ using PoolScenario = std::vector<WorkerScenario>;
 /// The scenarios as they travel. Equal ones give equal bytes.
 std::string to_bytes(const PoolScenario& scenarios);
 
-/// Errors, with the field in `where`: bytes that are no scenarios (or of none, or too many); of a
+/// Errors, with the field in `where`: bytes that are not scenarios (or of none, or too many); of a
 /// simulation what a campaign file would be refused for, with line and column, and a text that
 /// names a file; of programs paths that are not absolute, numbers out of their limits, texts that
 /// no command line may have.

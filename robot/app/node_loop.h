@@ -79,7 +79,7 @@ class NodeLoop {
   std::string told_;  ///< of what was told, the part that must be told when it changes
   TimePoint world_heard_;
   std::string last_trouble_;
-  std::string last_refused_;  ///< of texts that are no orders
+  std::string last_refused_;  ///< of texts that are not orders
   std::string last_unknown_;  ///< keys of orders
 };
 

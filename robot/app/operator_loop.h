@@ -12,7 +12,7 @@ namespace swarmsmith {
 std::string operator_id();
 
 /// Takes what robots say until then and hands their states to `hear`; troubles and texts that are
-/// no state to `note`. False: the transport has ended.
+/// not a state to `note`. False: the transport has ended.
 bool hear_states(OperatorEnd& end, TimePoint until,
                  const std::function<void(std::size_t, const NodeState&, const Now&)>& hear,
                  const std::function<void(const std::string&)>& note);

@@ -52,7 +52,7 @@ Expected<std::vector<std::string>> robot_names(const std::string& words) {
       const std::int64_t first = number_of(word.substr(0, dash));
       const std::int64_t last = number_of(word.substr(dash + 1));
       if (first < 1 || last < first || last - first >= kMostRobots)
-        return bad_input("`" + word + "` is no range of robots, such as 1-3", "--robots");
+        return bad_input("`" + word + "` is not a range of robots, such as 1-3", "--robots");
       for (std::int64_t i = first; i <= last; ++i)
         names.push_back(kStem + std::to_string(i));
       continue;

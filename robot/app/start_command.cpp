@@ -55,7 +55,7 @@ class Teller {
 /// last.
 std::string unknown(const RolledRobot& robot) {
   return fmt::format(
-      "{}: unknown; it was last heard {:.1f} s ago, {} after {} cycles: look after it, and at its "
+      "{}: unknown; it was last heard {:.1f} s ago, {} after {} cycles: check the robot and its "
       "log",
       robot.name, seconds_of(now_on_both_clocks().clock - robot.heard), name_of(robot.state->phase),
       robot.state->cycle);

@@ -315,7 +315,7 @@ class HeadReader {
 void read_head(TableReader& root, LogHead& head) {
   const std::vector<std::string> kinds = {std::string(kKind)};
   if (!root.choice("kind", kinds) && !root.has("kind"))
-    root.complain("kind", "this is no robot's log: `kind = \"robot log\"` is missing");
+    root.complain("kind", "this is not a robot's log: `kind = \"robot log\"` is missing");
   HeadReader reader(root);
   visit_head(head, reader);
   if (auto topics = root.table("topics")) {

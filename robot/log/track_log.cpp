@@ -70,7 +70,7 @@ Expected<CameraClock> camera_clock_of(std::string_view sidecar, const std::strin
   const auto table = parse_csv(sidecar.substr(0, sidecar.rfind('\n') + 1), file);
   if (!table) return Unexpected(table.error().front());
   if (!table->column("time_s")) {
-    return bad_input("this is no file of frame times: it has no column `time_s`", file);
+    return bad_input("this is not a file of frame times: it has no column `time_s`", file);
   }
   if (!table->column("clock_s")) {
     return bad_input("these frame times have no column `clock_s`: " + std::string(kLackOfClock),

@@ -292,8 +292,8 @@ class RosWorldEnd final : public WorldEnd {
     std::unique_ptr<RosWorldEnd> end(new RosWorldEnd(names, options.end));
     auto session =
         Session::join("/", "world", false, options,
-                      [inbox = end->inbox_, nobody = names.size()](std::string text, bool ended) {
-                        inbox->put({nobody, TroubleMessage{std::move(text), ended}});
+                      [inbox = end->inbox_, no_robot = names.size()](std::string text, bool ended) {
+                        inbox->put({no_robot, TroubleMessage{std::move(text), ended}});
                       });
     if (!session) return tl::unexpected(session.error());
     end->node_.session = std::move(*session);
@@ -407,8 +407,8 @@ class RosOperatorEnd final : public OperatorEnd {
     std::unique_ptr<RosOperatorEnd> end(new RosOperatorEnd(names));
     auto session =
         Session::join("/", "operator", true, options,
-                      [inbox = end->inbox_, nobody = names.size()](std::string text, bool ended) {
-                        inbox->put({nobody, TroubleMessage{std::move(text), ended}});
+                      [inbox = end->inbox_, no_robot = names.size()](std::string text, bool ended) {
+                        inbox->put({no_robot, TroubleMessage{std::move(text), ended}});
                       });
     if (!session) return tl::unexpected(session.error());
     end->node_.session = std::move(*session);

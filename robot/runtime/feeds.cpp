@@ -68,7 +68,7 @@ void Feeds::hear(const RangesMessage& message) {
 
 void Feeds::hear(const GroundColorMessage& message) {
   if (!(std::isfinite(message.r) && std::isfinite(message.g) && std::isfinite(message.b)))
-    return refuse(Feed::Ground, "a colour that is no number");
+    return refuse(Feed::Ground, "a colour that is not a number");
   const double scale = settings_.color_scale;
   ground_as_sent_ = {message.r, message.g, message.b};
   sensed_.ground = nearest_label(
@@ -88,7 +88,7 @@ void Feeds::hear(const NeighboursMessage& message) {
   for (const SeenRobot& robot : message.robots) {
     if (!(robot.distance_m >= 0 && std::isfinite(robot.distance_m) &&
           std::isfinite(robot.direction_x) && std::isfinite(robot.direction_y)))
-      return refuse(Feed::Neighbours, "a neighbour whose place is no number");
+      return refuse(Feed::Neighbours, "a neighbour whose place is not a number");
   }
   sensed_.neighbours.clear();
   for (const SeenRobot& robot : message.robots)

@@ -158,7 +158,7 @@ void RobotNode::hear_alive(const Order& order, const Now& now) {
   if (ahead_s > 0) operator_clock_ = {now.clock, order.sent_unix_s};
 }
 
-/// The run goes by the steady clock. The log names a step of the other one.
+/// The run follows the steady clock. The log names a step of the other one.
 void RobotNode::look_at_clock(const Now& now) {
   constexpr double kStep_s = 0.1;
   const double ahead_s = now.unix_s - clock_s(now.clock);
@@ -274,7 +274,7 @@ Decision RobotNode::tick(const Now& now) {
   return decision;
 }
 
-/// Whatever was decided and why: what leaves for the treads. NaN is no speed within the limit.
+/// Whatever was decided and why: what leaves for the treads. NaN is not a speed within the limit.
 void RobotNode::check_treads(const Command& command) const {
   const auto is_within = [this](double mps) { return std::fabs(mps) <= settings_.max_mps; };
   SWARMSMITH_ASSERT(is_within(command.left_mps) && is_within(command.right_mps),
@@ -395,7 +395,7 @@ Decision RobotNode::step(std::int64_t cycle, Duration late, const Now& now) {
                     .row = row_of(cycle, late, now)};
   decision.row->command = *decision.command;
   if (!limited) {
-    decision.row->event = "the controller's speeds are no finite numbers";
+    decision.row->event = "the controller's speeds are not finite numbers";
     fail(decision.row->event);
   } else if (limited->left_mps != wanted.left_mps || limited->right_mps != wanted.right_mps) {
     ++cut_;

@@ -74,7 +74,7 @@ class RobotNode {
   void hear(const BatteryMessage& message);
   /// Obeys or refuses; a start that is obeyed arms the node.
   void hear(const Order& order, const Now& now);
-  /// Text that is no order.
+  /// Text that is not an order.
   void refuse_order(std::string why) { refused_ = std::move(why); }
 
   /// Why no run can start, by name of what is missing; empty: it can.
@@ -205,7 +205,7 @@ class RobotNode {
   std::vector<std::string> reasons_;
 };
 
-/// Speeds within the limit, or nothing when one of them is no finite number.
+/// Speeds within the limit, or nothing when one of them is not a finite number.
 std::optional<Command> within_limits(const Command& command, double max_mps);
 
 }  // namespace swarmsmith

@@ -41,7 +41,7 @@ Expected<Order> parse_order(std::string_view text) {
   visit_order_fields(order, reader);
   if (!reader.error().empty()) return bad_input(reader.error());
   if (order.id.empty()) return bad_input("an order needs an `id`");
-  // Whom and what it is for must not be guessed.
+  // Its robots and its purpose must not be guessed.
   if (json.contains("robots") &&
       (!json["robots"].is_array() || json["robots"].size() != order.robots.size()))
     return bad_input("`robots` is a list of names");

@@ -26,7 +26,7 @@ struct Order {
   Kind kind = Kind::Echo;
   std::string id;                    ///< of the order, never used twice
   std::string run;                   ///< "run07"; of Stop empty: whatever run it is
-  std::vector<std::string> robots;   ///< whom it is for; empty: all
+  std::vector<std::string> robots;   ///< the robots it is for; empty: all
   double sent_unix_s = 0;            ///< by the operator's clock
   double valid_s = 1;                ///< who gets it later refuses it
   double at_unix_s = 0;              ///< of Start: the agreed instant

@@ -37,7 +37,7 @@ std::optional<std::size_t> nearest(double place, double turn, std::size_t values
 std::optional<std::string> resample(const ScanMessage& scan, double turn_rad, RayRanges& ranges_m) {
   const double increment = scan.angle_increment_rad;
   if (scan.ranges_m.empty()) return "a scan without values";
-  if (!std::isfinite(scan.angle_min_rad)) return "a scan whose angle_min is no number";
+  if (!std::isfinite(scan.angle_min_rad)) return "a scan whose angle_min is not a number";
   if (!(std::fabs(increment) > 1e-5 && std::fabs(increment) < 1))
     return "a scan with an angle_increment of " + std::to_string(increment) + " rad";
   const double turn = 2 * kPi / std::fabs(increment);

@@ -199,7 +199,7 @@ Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& s
     return simulate(run.setup(), recorder, &decider);
   } catch (const RunEnded& ended) {
     return tl::unexpected(ended.error);
-  } catch (const std::invalid_argument& error) {  // a command that is no number
+  } catch (const std::invalid_argument& error) {  // a command that is not a number
     return bad_input(error.what());
   }
 }

@@ -18,7 +18,7 @@ SensesMessage senses_message(const Decider::Question& question, std::int64_t see
 std::vector<ToRobot> driver_messages(const SensorTopics& sensors, SimulatedSenses& senses,
                                      std::int64_t stamp_ns);
 
-/// Time of the run as a header's stamp: exact for instants of 10 ms, and never 0, which is no
+/// Time of the run as a header's stamp: exact for instants of 10 ms, and never 0, which is not a
 /// stamp.
 std::int64_t stamp_of_time(double time_s);
 

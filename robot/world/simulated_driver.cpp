@@ -38,7 +38,7 @@ std::optional<SimulatedDriver::Treads> SimulatedDriver::act(TimePoint now) {
   bool is_new = false;
   if (const auto command = std::exchange(pending_, std::nullopt)) {
     const bool sound = std::isfinite(command->left_mps) && std::isfinite(command->right_mps);
-    if (!sound && !broken_) events_.emplace_back("a command was no number: treads stopped");
+    if (!sound && !broken_) events_.emplace_back("a command was not a number: treads stopped");
     broken_ = !sound;
     wanted = sound ? Treads{command->left_mps, command->right_mps} : Treads{};
     is_new = true;

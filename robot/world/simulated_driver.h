@@ -49,7 +49,7 @@ class SimulatedDriver {
   TimePoint heard_{};
   bool silent_ = true;
   bool rivals_ = false;
-  bool broken_ = false;  ///< the last command was no number
+  bool broken_ = false;  ///< the last command was not a number
   std::vector<std::string> events_;
 };
 

@@ -151,17 +151,18 @@ class ServingEnd final : public RobotEnd {
     }
     const bool is_order = std::holds_alternative<OrderMessage>(*message);
     if (is_order ? !may_command(received.role) : !may_work(received.role)) {
-      return complain(received.peer, is_order
-                                         ? "gave an order, and its key is no operator's"
-                                         : "sent a sensor's message, and its key is no worker's");
+      return complain(received.peer,
+                      is_order ? "gave an order, and its key is not an operator's"
+                               : "sent a sensor's message, and its key is not a worker's");
     }
     message = arrived(*std::move(message));
     if (auto* driven = std::get_if<DrivenMessage>(&*message)) {
       const auto known = peers_.find(received.peer);
       if (known == peers_.end() || !known->second.drives) {
-        return complain(received.peer,
-                        "says what the treads do, and is no driver: it said no `hello driver`, or "
-                        "another hello after it; it is not believed");
+        return complain(
+            received.peer,
+            "says what the treads do, but is not a driver: it said no `hello driver`, or "
+            "another hello after it; it is not believed");
       }
       driven->sender = known->second.name;
     }
@@ -178,7 +179,7 @@ class ServingEnd final : public RobotEnd {
   void greet(const ServerSocket::Received& received, const std::vector<std::string>& words) {
     const bool drives = !words.empty() && words.front() == kDriver;
     if (drives && !may_work(received.role))
-      return complain(received.peer, "wants to drive, and its key is no worker's");
+      return complain(received.peer, "wants to drive, and its key is not a worker's");
     Peer& peer = peers_[received.peer];
     std::optional<TroubleMessage> left;
     if (peer.drives && !drives) {
@@ -334,7 +335,7 @@ class NodeLink {
     }
     auto message = message_from_robot(frame_);
     if (!message) {
-      return tell(place_.name + " sent what is no message of a node: `" + frame_.substr(0, 40) +
+      return tell(place_.name + " sent a message that is not a node's: `" + frame_.substr(0, 40) +
                   "`");
     }
     message = arrived(*std::move(message));
@@ -441,7 +442,7 @@ std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool ha
     const auto address = address_of(place.endpoint);
     if (!address || address->port == 0) {
       return Error{ErrorKind::BadInput,
-                   "`" + place.endpoint + "` is no address; write tcp://HOST:PORT", place.name};
+                   "`" + place.endpoint + "` is not an address; write tcp://HOST:PORT", place.name};
     }
     if (!has_keys && !is_loopback(address->host)) {
       return Error{ErrorKind::BadInput,
@@ -459,7 +460,7 @@ std::optional<Error> check_places(const std::vector<RobotPlace>& places, bool ha
 Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions options) {
   const auto address = address_of(options.endpoint);
   if (!address) {
-    return bad_input("`" + options.endpoint + "` is no address; write tcp://HOST:PORT");
+    return bad_input("`" + options.endpoint + "` is not an address; write tcp://HOST:PORT");
   }
   if (!options.keys && !is_loopback(address->host)) {
     return bad_input(

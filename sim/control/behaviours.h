@@ -19,8 +19,8 @@ Module module_of(const Behaviour& behaviour);
 /// The parameters' values, in the order of the flavour's table.
 std::vector<double> parameters_of(const Behaviour& behaviour);
 
-/// The inverse of the two above. Throws std::invalid_argument when `module` is no behaviour or the
-/// number of parameters is another.
+/// The inverse of the two above. Throws std::invalid_argument when `module` is not a behaviour or
+/// the number of parameters is another.
 Behaviour make_behaviour(Module module, std::span<const double> parameters);
 
 /// One control cycle of a behaviour. Asks `senses` only for what it needs: a turning or a standing

@@ -19,8 +19,8 @@ Module module_of(const Condition& condition);
 /// The parameters' values, in the order of the flavour's table; a label as its enumerator's index.
 std::vector<double> parameters_of(const Condition& condition);
 
-/// The inverse of the two above. Throws std::invalid_argument when `module` is no condition or the
-/// number of parameters is another.
+/// The inverse of the two above. Throws std::invalid_argument when `module` is not a condition or
+/// the number of parameters is another.
 Condition make_condition(Module module, std::span<const double> parameters);
 
 /// Probability with which the condition enables its transition in this cycle; 0 when the reading

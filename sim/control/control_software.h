@@ -11,8 +11,8 @@
 
 namespace swarmsmith {
 
-/// The random numbers of a robot's control software in a run, the robot counted from 0: whoever
-/// starts ControlSoftware with them, in the simulator or on a robot, has the same draws.
+/// The random numbers of a robot's control software in a run, the robot counted from 0: a
+/// ControlSoftware started with them, in the simulator or on a robot, has the same draws.
 Rng control_stream(std::int64_t seed, int robot);
 
 /// One robot's running controller. Senses in, command out; links nothing of a simulator.

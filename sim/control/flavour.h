@@ -82,7 +82,7 @@ struct ObstacleModel {
   enum class Reading {
     Linear,           ///< 1 at `near_m` and closer, falling to 0 at `far_m`
     InverseDistance,  ///< 1/d within [near_m, far_m], nothing outside: blind when touching
-    AsSensed,         ///< what the robot's sensors give is no distance but a reading in [0, 1]
+    AsSensed,         ///< the robot's sensors give no distance but a reading in [0, 1]
   };
   Reading reading = Reading::Linear;
   double near_m = kBlindZone_m;
@@ -116,7 +116,7 @@ struct ExplorationModel {
     FrontThenSum,   ///< one reading of the front is enough; away from the side of the sum of all
   };
   enum class TurnLength {
-    ZeroToTau,    ///< uniform in 0..tau; 0 is no turn
+    ZeroToTau,    ///< uniform in 0..tau; 0: no turn
     OneBelowTau,  ///< uniform in 0..tau-1, but at least one cycle
   };
   Trigger trigger = Trigger::FrontReadings;
@@ -151,7 +151,7 @@ struct NeighbourModel {
 /// full_lux), in their directions.
 struct LightModel {
   double full_lux = 1000;     ///< a reading of 1
-  double least_vector = 0.1;  ///< a shorter sum is no light
+  double least_vector = 0.1;  ///< a shorter sum is not light
   double least_reading = 0;   ///< and no reading above this; 0: whatever the readings
   bool unit_vector = false;   ///< the light is all or nothing: of length 1
   std::optional<RingDirections> directions{};  ///< as those of ObstacleModel
@@ -159,11 +159,11 @@ struct LightModel {
   friend bool operator==(const LightModel&, const LightModel&) = default;
 };
 
-/// Where a behaviour goes that has something to go by: along w' - obstacle_gain * obstacles.
+/// Where a behaviour goes that has something to follow: along w' - obstacle_gain * obstacles.
 struct SteeringModel {
   double obstacle_gain = 5;
   double attraction_obstacle_gain = 5;  ///< of Attraction
-  /// Without anything to go by (no neighbour, no light), w' is (1, 0); else it is zero.
+  /// Without anything to follow (no neighbour, no light), w' is (1, 0); else it is zero.
   bool forward_by_default = true;
   /// A shorter result means straight ahead.
   double shortest_result = 0.1;

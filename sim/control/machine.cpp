@@ -28,7 +28,7 @@ std::optional<Error> check_state(const Machine& machine, std::size_t index,
     const int states = static_cast<int>(machine.states.size());
     if (transition.target < 0 || transition.target >= states) {
       return Error{ErrorKind::BadInput,
-                   "the target " + std::to_string(transition.target) + " is no state", place};
+                   "the target " + std::to_string(transition.target) + " is not a state", place};
     }
     if (transition.target == static_cast<int>(index)) {
       return Error{ErrorKind::BadInput, "a transition leads to another state", place};

@@ -82,7 +82,7 @@ struct BehaviourMemory {
   /// 0: going forward. By TurnClock::Seconds, the drawn number until the turn is over.
   int turn_cycles_left = 0;
   bool turn_left = false;
-  double turn_end_s = 0;      ///< of TurnClock::Seconds: the first time that is no turn any more
+  double turn_end_s = 0;      ///< of TurnClock::Seconds: the first time after the turn
   double turn_left_rad = 0;   ///< of random walks: the rest of the turn; 0: going forward
   int step_cycles_left = -1;  ///< the same of the step; 0: it is over; -1: none was begun
 

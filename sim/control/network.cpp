@@ -252,7 +252,7 @@ Expected<Network> parse_network(std::string_view text, const Flavour& flavour) {
     if (!read_number(rest.substr(0, comma), weight)) {
       return Unexpected(
           error_at(weights->value, "weight " + std::to_string(network.weights.size() + 1) +
-                                       " is no number: " + quoted(rest.substr(0, comma))));
+                                       " is not a number: " + quoted(rest.substr(0, comma))));
     }
     network.weights.push_back(weight);
     if (comma == std::string_view::npos) break;

@@ -48,7 +48,7 @@ struct Network {
 };
 
 /// What is wrong with the network, if anything: another number of weights than its inputs need, one
-/// that is no finite number, inputs of sensors that the flavour lacks.
+/// that is not a finite number, inputs of sensors that the flavour lacks.
 std::optional<Error> check(const Network& network, const Flavour& flavour);
 
 /// Reads `--network rvr --weights -1.25,0.5,...`. `where` of errors is as of parse_machine.

@@ -24,7 +24,7 @@ double inverse_within(double value, double near, double far) {
 }
 
 /// The sum of kProximityDirections, each times its strength, in the order of the sensors. What is
-/// not there adds 0: cheaper than eight branches of which nobody knows where they go.
+/// not there adds 0: cheaper than eight branches that cannot be predicted.
 Vector2 sum_along_sensors(const std::array<double, kProximitySensors>& strengths) {
   const auto& s = strengths;
   const double left_ahead = kSqrtHalf * s[0];

@@ -14,8 +14,8 @@ namespace swarmsmith {
 /// At an instant at which robots are due for a control cycle, the engine says so (`begin`), asks
 /// about each of them (`ask`), and then takes the answers in the same order (`answer`); once more
 /// for those whose period is shorter than 10 ms. Readings do
-/// not depend on commands of the same instant, so that whoever answers what ControlSoftware with
-/// control_stream would answer gets the bits of a run without a decider. The engine waits for
+/// not depend on commands of the same instant, so that a decider that answers as ControlSoftware
+/// with control_stream would gets the bits of a run without a decider. The engine waits for
 /// every call: a decider that has to wait for somebody blocks in `begin` or `answer`. What it
 /// throws ends the run, and comes out of simulate().
 class Decider {

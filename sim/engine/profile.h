@@ -109,7 +109,7 @@ struct Treads {
   double step_mps = 0;  ///< commanded speeds are rounded to multiples of it; 0: not at all
   /// Each speed is multiplied by 1 + N(0, sd), anew in each cycle.
   double sd = 0;
-  /// Treads slip: a robot goes, and turns, so much of what its treads are told. Drawn for the run
+  /// Treads slip: a robot goes, and turns, so much of what is commanded. Drawn for the run
   /// from N(way, way_sd) and N(turn, turn_sd), not below 0. What it senses of its own motion is
   /// that of treads that do not slip.
   double way = 1;

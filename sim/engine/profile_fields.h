@@ -10,7 +10,7 @@
 namespace swarmsmith {
 
 inline constexpr FieldLimits kRate{0, 1};
-/// How far a robot goes of what it is told.
+/// How much of a command a robot does.
 inline constexpr FieldLimits kGrip{0, 2};
 /// Delays of commands and beats of devices are whole sub-steps of 10 ms, up to ten seconds.
 inline constexpr int kLongestDelay = 1000;
@@ -31,7 +31,7 @@ inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", 
 /// A visitor has `device(name)`, which the fields after it belong to, and for fields `number(key,
 /// value, limits)`, `flag(key, value)`, `choice(key, value, choices)`, `colors(key, list)`,
 /// `delays(key, list)`, `beat(key, sub_steps)`, `period(key, least, most)` and `point(key, value,
-/// limits)`. Fields that came later are visited by `later(is_ideal, visit)`: whoever writes leaves
+/// limits)`. Fields that came later are visited by `later(is_ideal, visit)`: a writer leaves
 /// out those that are ideal, so that the texts of older profiles, and the digests of campaigns with
 /// them, stay as they were. Those that do not act on all robots are visited by `only(use, visit)`.
 template <class AnyProfile, class Visitor>

@@ -34,13 +34,13 @@ struct LateCommand {
 };
 
 /// The treads' part of `to` becomes that of `from`. Part by part: after a copy in one piece,
-/// whoever reads a part of it next waits for all of it.
+/// the next read of a part waits for all of it.
 void renew_treads(Command& to, const Command& from) {
   to.left_mps = from.left_mps;
   to.right_mps = from.right_mps;
 }
 
-/// How far a robot goes and turns of what its treads are told.
+/// How much of a command a robot drives and turns.
 struct Grip {
   double way = 1;
   double turn = 1;
@@ -180,7 +180,7 @@ class Run {
 
   int index_of(const Agent& agent) const { return static_cast<int>(&agent - agents_.data()); }
 
-  /// Sensors, scores and digests would go on with what is no number, and say nothing of it.
+  /// Sensors, scores and digests would go on with NaN, and say nothing of it.
   void check(std::int64_t now) const {
     const int unsound = world_.find_unsound();
     if (unsound >= 0) [[unlikely]]
@@ -243,7 +243,7 @@ class Run {
     agent.command.right_mps = within_wheel_speed(command.right_mps, most_mps);
     if (distorts_commands_) [[unlikely]]
       distort(agent.command, profile_of(index_of(agent)));
-    if (recorder_.observe) agent.command.leds = command.leds;  // nobody else sees them
+    if (recorder_.observe) agent.command.leds = command.leds;  // only it sees them
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (!wheel_noises_.empty()) [[unlikely]]
       return send(agent, disturbed(agent), arrival, now);

@@ -43,7 +43,7 @@ struct FiledMachine {
 /// `--nstates` or `--fsm-config`, a tree with `--nroot`, `--rootnode` or `--bt-config`, a network
 /// with `--network`, after a name or none, and goes on in lines that begin with `--`; a name has no
 /// options. A genome goes from `genomestart` to `genomeend`. A head is of the next machine. Other
-/// lines that begin with #, and those in /* */, say nothing. What is wrong with many lines is told
+/// lines that begin with #, and those in /* */, say nothing. What is wrong with many lines is said
 /// once, and a file of another kind is one error. `file` gives the name for errors, and is not
 /// read.
 tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(

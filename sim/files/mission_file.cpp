@@ -88,7 +88,8 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
   if (node == nullptr) return;
   if (const auto* word = std::get_if<std::string>(&node->value)) {
     if (names_a_file(*word) && from == nullptr) {
-      table.complain("robot", "this is no place for a file; robots are " + joined(robot_names()));
+      table.complain("robot",
+                     "a file's name cannot stand here; robots are " + joined(robot_names()));
       return;
     }
     auto robot = find_robot(*word, from == nullptr ? "" : *from);

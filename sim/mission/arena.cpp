@@ -49,7 +49,7 @@ std::optional<Rgb> color_at(const Patch& patch, Point point) {
 
 Rgb floor_at(const Arena& arena, Point point) {
   for (auto patch = arena.patches.rbegin(); patch != arena.patches.rend(); ++patch) {
-    // Without a detour over what may be no colour: that would be most of the work.
+    // Without a detour over what may not be a colour: that would be most of the work.
     if (const auto* disc = std::get_if<Disc>(&patch->shape)) {
       if (covers(*disc, point)) return patch->color;
     } else if (const auto* box = std::get_if<Rectangle>(&patch->shape)) {

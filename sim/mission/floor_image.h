@@ -23,7 +23,7 @@ class Picture {
   static constexpr std::int64_t kMostPixelsInUse = 32'000'000;
 
   /// Reads the bytes of a PNG file: any kind of pixels, told as 8-bit sRGB. More than a megabyte or
-  /// 16 million pixels, and what is no PNG, are errors.
+  /// 16 million pixels, and what is not a PNG, are errors.
   /// So is one that makes the pictures in use larger than `most_in_use` pixels together.
   static Expected<std::shared_ptr<const Picture>> from_png(
       std::string bytes, std::int64_t most_in_use = kMostPixelsInUse);

@@ -34,7 +34,7 @@ Point draw_in_rectangle(Rng& rng, const Rectangle& area) {
 }
 
 /// Points are drawn anew until they lie within the walls: those of the smallest rectangle around
-/// them are no places yet, so that they do not count as tries.
+/// them are not places yet, so that they do not count as tries.
 Point draw_anywhere(Rng& rng, const Arena& arena, const Rectangle& bounds) {
   Point point;
   int draws = 0;

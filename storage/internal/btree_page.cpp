@@ -70,7 +70,7 @@ StoredValue value_of(std::uint64_t serial_type, Bytes bytes) {
   return value;
 }
 
-/// The header must lead to the last byte exactly: half of what is no record fails there.
+/// The header must lead to the last byte exactly: half of what is not a record fails there.
 std::optional<std::vector<StoredValue>> values_of(Bytes payload) {
   Cursor header(payload);
   const auto header_size = header.varint();

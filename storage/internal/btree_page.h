@@ -23,17 +23,17 @@ struct StoredRecord {
   std::vector<StoredValue> values;
 };
 
-/// A page of a b-tree, read without trust: cells that are no whole record are left out.
+/// A page of a b-tree, read without trust: cells without a whole record are left out.
 /// https://www.sqlite.org/fileformat2.html, sections 1.6 and 2.1
 struct BtreePage {
   bool is_leaf = false;
   bool has_rowids = false;  ///< of a table with rowids
   std::vector<std::uint32_t> children;
   std::vector<StoredRecord> records;
-  std::int64_t broken = 0;  ///< cells that are no whole record
+  std::int64_t broken = 0;  ///< cells without a whole record
 };
 
-/// None when the page is no page of a b-tree. `chained` is how many bytes of overflow pages may
+/// None when the page is not one of a b-tree. `chained` is how many bytes of overflow pages may
 /// still be read, and becomes less: in a damaged file every cell may lead to the same long chain.
 std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number,
                                          std::uint64_t& chained);

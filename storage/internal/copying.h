@@ -11,8 +11,8 @@ namespace swarmsmith {
 Expected<Backup> copy_store(const std::filesystem::path& store, const std::filesystem::path& to,
                             const OnCopied& on_copied);
 
-/// The error of a store that cannot be read through: what was found, and that `recover` takes what
-/// is left.
+/// The error of a store that cannot be read through: what was found, and that `recover` takes the
+/// rest.
 Unexpected damaged(const std::filesystem::path& store, const std::string& fault);
 
 /// What an exception of SQLite means to the user who made `to` out of `from`.

@@ -16,8 +16,8 @@ std::string in_use_text(const std::string& holder);
 /// The right to be the next to write the store of a name: an flock on the file `<store>.lock`,
 /// which holds "pid=... host=..." for people. The right to write the file itself is HeldFile's;
 /// this one is there before the file is, and tells how the last writer ended. The kernel gives the
-/// lock back when the process dies, so that a file left behind is no obstacle; it only says that
-/// the last writer did not end well. Removed at the end, unless the store is suspect.
+/// lock back when the process dies, so that a file left behind is not an obstacle; it only says
+/// that the last writer did not end well. Removed at the end, unless the store is suspect.
 class LockFile {
  public:
   /// Conflict when another process (or another store of this one) holds it for as long as that,

@@ -11,7 +11,7 @@ namespace swarmsmith {
 /// SQLite puts beside it, unless it was published; after a kill, by the next one of that name.
 class NewFile {
  public:
-  /// BadInput when there is something of that name, or the folder is no place for a store.
+  /// BadInput when there is something of that name, or the folder cannot hold a store.
   static Expected<NewFile> beside(const std::filesystem::path& wanted);
 
   NewFile(NewFile&& other) noexcept;

@@ -13,7 +13,7 @@ namespace swarmsmith {
 bool cannot_make_files(const std::filesystem::path& path);
 
 /// A connection that only reads, also where no file can be made beside the store. Corrupt when the
-/// file is no database or is cut off. Throws SqliteError.
+/// file is not a database or is cut off. Throws SqliteError.
 Expected<sqlite::Connection> connect_for_reading(const std::filesystem::path& path);
 
 /// One state of the store for several statements; a reader's transaction only ever reads.

@@ -16,7 +16,7 @@
 
 namespace swarmsmith {
 
-/// A hash of the cells of a row in order, by type and value. Finds damage, and is no defence
+/// A hash of the cells of a row in order, by type and value. Finds damage, and does not defend
 /// against damage on purpose.
 class RowHash {
  public:
@@ -53,8 +53,8 @@ class RowHash {
 
 /// For each table of the answer how many rows it has, and a sum over them. Each commit writes it,
 /// so that any state of a file whose rows give what it says is one that its writer committed: not
-/// one in which another program has changed, added or removed rows, and not a copy of which some
-/// pages are older than others. SQLite's own checks find neither.
+/// one in which another program has changed, added or removed rows, and not a copy with some
+/// pages older than others. SQLite's own checks find neither.
 class RowSums {
  public:
   /// `Used`: the iterations of evaluations, which come and go.

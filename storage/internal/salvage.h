@@ -13,7 +13,7 @@ namespace swarmsmith {
 struct TableFind {
   std::string name;
   std::int64_t rows = 0;
-  std::int64_t lost_pages = 0;  ///< that its tree names, and that are no pages of it
+  std::int64_t lost_pages = 0;  ///< that its tree names, and that are not pages of it
   std::int64_t broken = 0;      ///< rows of its pages that are not whole
   bool tree_is_lost = false;    ///< where it begins is not known: there may have been more
 };

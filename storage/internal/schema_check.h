@@ -25,7 +25,7 @@ std::string listed_objects(const std::vector<std::string>& objects);
 Expected<void> check_schema(const sqlite::Connection& connection,
                             const std::filesystem::path& path);
 
-/// For readers, to whom nothing else matters: Corrupt when one of our tables is none, or lacks
+/// For readers, which need nothing else: Corrupt when one of our tables is none, or lacks
 /// columns, or has them in other places.
 Expected<void> check_tables(const sqlite::Connection& connection,
                             const std::filesystem::path& path);

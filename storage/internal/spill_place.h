@@ -8,7 +8,7 @@ namespace swarmsmith {
 /// sorts, rollbacks of a statement) in the database's folder: there is room for the store, while
 /// /tmp may be small, in memory, or full. Null where SQLite shall choose: this user cannot make
 /// files there, the environment has SQLITE_TMPDIR, another VFS is the process's default, or it is
-/// no file.
+/// not a file.
 const char* vfs_that_spills_beside(const std::string& database);
 
 }  // namespace swarmsmith

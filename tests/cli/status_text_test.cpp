@@ -11,7 +11,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A thousand workers on fifty hosts, one of which is bad, at thirty designs.
+/// A thousand workers on fifty hosts, one of them bad, at thirty designs.
 LiveStatus cluster() {
   LiveStatus status;
   status.workers = 1000;

@@ -93,7 +93,7 @@ TEST_P(EachMisdeed, ReallyHappens) {
 
 INSTANTIATE_TEST_SUITE_P(Kind, EachMisdeed, ::testing::ValuesIn(kMisdeeds));
 
-/// What a person forgives is no way around the trial: the answer is right, or cannot be had.
+/// Forgiving is not a way around the trial: the answer is right, or cannot be had.
 TEST(Hostile, AnyNumberOfForgivingsChangesNoAnswer) {
   int forgiven = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -34,7 +34,7 @@ CandidateText text_of(const Configuration& configuration) {
   return {.parameters = "{}", .machine = machine, .call = machine, .modules = "{}"};
 }
 
-/// What keeps a preset's search small; a race without a table is told by `[race]`.
+/// What keeps a preset's search small; `[race]` has it for a race without a table.
 std::string small_options(const std::string& preset) {
   if (preset == "random") return "[method.random]\nruns = 3\nfinalists = 3\nfinal_runs = 4\n";
   if (preset == "vanilla") return "[method.f-race]\nconfigurations = 8\n";

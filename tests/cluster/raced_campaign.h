@@ -70,13 +70,13 @@ class RacedCampaign final : public WorkSource {
   void watch(std::map<PackedKey, Truth>& truths) { truths_ = &truths; }
 
   std::string complaint() const;
-  /// Of a design that is over, and nobody was told of it: it need not be kept.
+  /// Of a design that is over, and was not reported: it need not be kept.
   bool is_void(PackedKey key) const;
 
  private:
   /// What is known of an evaluation that was asked for.
   struct Asked {
-    bool ahead = false;  ///< nobody has wanted it yet
+    bool ahead = false;  ///< it is not wanted yet
     bool told = false;
   };
   void note(const Task& task);

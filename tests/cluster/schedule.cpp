@@ -62,7 +62,7 @@ Schedule hostile_schedule_of(std::uint64_t seed) {
     const int crashes = rng.bernoulli(0.5) ? static_cast<int>(rng.uniform_int(1, 3)) : 0;
     schedule.faults = {.coordinator_crashes = crashes, .until = schedule.faults.until};
   }
-  // Whoever pauses a campaign that stops would wait for it.
+  // A client that pauses a campaign that stops would wait for it.
   schedule.faults.commands = 0;
   const std::int64_t count = rng.uniform_int(1, 4);
   for (std::int64_t i = 0; i < count; ++i)

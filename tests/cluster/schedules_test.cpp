@@ -167,7 +167,7 @@ TEST(SimulatedCluster, RejectsWhatKillsAWorkerAloneAndTheRefereeToo) {
         {.seed = seed, .faults = {}, .campaign = {.seed = seed, .killing = true}});
     EXPECT_EQ(cluster.run(), "") << seed;
     if (cluster.killers() != 1) continue;
-    // Once among others, perhaps once more as a second copy, once alone; or, while nobody has
+    // Once among others, perhaps once more as a second copy, once alone; or, while none has
     // proved itself, six times.
     EXPECT_GE(cluster.crashes(), 2) << seed;
     EXPECT_LE(cluster.crashes(), 8) << seed;

@@ -51,7 +51,7 @@ struct Schedule {
   /// A second campaign in the same pool.
   std::optional<CampaignShape> other{};
   bool slow_worker = false;  ///< one of them takes a hundred times as long
-  /// Peers that are no workers, until the faults end.
+  /// Peers that are not workers, until the faults end.
   std::vector<Misdeed> hostile{};
   bool keys = false;  ///< the workers have one key, and all hostile peers another
   std::int64_t audit_every = 10;
@@ -103,7 +103,7 @@ class SimulatedCluster {
  private:
   static constexpr int kWorkers = 3;
   static constexpr int kCoordinator = -1;
-  static constexpr int kNobody = -2;
+  static constexpr int kNoWorker = -2;
   static constexpr PeerId kPerson = 1'000'000'000;
 
   struct Event {
@@ -139,7 +139,7 @@ class SimulatedCluster {
     PeerId connection = 0;
   };
   struct Connection {
-    int worker = 0;  ///< kNobody: a stranger's
+    int worker = 0;  ///< kNoWorker: a stranger's
     std::size_t stranger = 0;
     int worker_life = 0;
     int coordinator_life = 0;
@@ -211,7 +211,7 @@ class SimulatedCluster {
   void settle_stranger(std::size_t index);
   void hang_up(std::size_t index);
   void cut_strangers_off();
-  bool is_stranger(PeerId peer) const { return connections_.at(peer).worker == kNobody; }
+  bool is_stranger(PeerId peer) const { return connections_.at(peer).worker == kNoWorker; }
   void note_leases_of_strangers(const std::string& frame);
   void to_stranger(PeerId peer, const std::string& frame);
   Peer stranger_at(PeerId connection) const;

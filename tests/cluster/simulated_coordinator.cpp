@@ -210,13 +210,13 @@ void SimulatedCluster::check_leases() {
       const TaskRecord& record = *leases.find(key);
       const bool is_second = record.second && record.second->worker == number;
       if (is_second == (record.lease->worker == number)) fail("a lease of somebody else");
-      if (is_second && (record.task.ahead || record.alone)) fail("a copy that nobody needs");
+      if (is_second && (record.task.ahead || record.alone)) fail("a copy that is not needed");
       if (record.task.ahead) ++ahead;
       if (!record.task.ahead && !is_second) ++wanted;
     }
     if (ahead != load.ahead) fail("look-ahead of a worker is miscounted");
   }
-  if (leased != leases.leased() + leases.copies()) fail("a lease that belongs to nobody");
+  if (leased != leases.leased() + leases.copies()) fail("a lease that belongs to no worker");
   std::size_t of_designs = 0;
   for (const auto& [id, design] : leases.queues().all())
     of_designs += design.wanted_leased;

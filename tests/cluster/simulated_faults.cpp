@@ -109,7 +109,7 @@ void SimulatedCluster::resume_all() {
   }
   command(pb::Command::KIND_RESUME, 0);
   if (!coordinator_->paused().empty() && !coordinator_->finished()) {
-    // Of a design that is over nobody cares.
+    // A design that is over does not matter.
     for (const DesignId design : campaigns_.front().source->unfinished()) {
       if (coordinator_->paused().contains(design)) fail("a design stays paused");
     }

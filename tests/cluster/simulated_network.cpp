@@ -86,9 +86,9 @@ void SimulatedCluster::to_coordinator(int index, std::string frame) {
 
 SendStatus SimulatedCluster::to_worker(PeerId peer, const std::string& frame) {
   const Connection& connection = connections_.at(peer);
-  if (connection.worker == kNobody) note_leases_of_strangers(frame);
+  if (connection.worker == kNoWorker) note_leases_of_strangers(frame);
   if (!connection.open) return SendStatus::Gone;
-  if (connection.worker == kNobody) {
+  if (connection.worker == kNoWorker) {
     to_stranger(peer, frame);
     return SendStatus::Sent;
   }
@@ -98,7 +98,7 @@ SendStatus SimulatedCluster::to_worker(PeerId peer, const std::string& frame) {
   return SendStatus::Sent;
 }
 
-/// Acknowledged means durable; failures are told without a row.
+/// Acknowledged means durable; failures are sent without a row.
 void SimulatedCluster::check_acknowledged(const std::string& frame) {
   google::protobuf::Arena arena;
   const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
@@ -107,7 +107,7 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
     const PackedKey packed = *pack(key);
     const Running& running = campaigns_.at(campaign_of(packed));
     const SimulatedDisk& disk = running.disk;
-    // What nobody wants any more need not be kept: of a campaign that has stopped, nothing.
+    // What is not wanted any more need not be kept: of a campaign that has stopped, nothing.
     if (disk.finished() || running.source->is_void(packed)) continue;
     if (coordinator_->stopped(campaign_of(packed))) continue;
     if (disk.holds(packed)) {
@@ -126,7 +126,7 @@ void SimulatedCluster::check_promises() {
   if (campaigns_.front().disk.commands().size() < confirmed_) fail("a confirmed command is lost");
 }
 
-/// Whoever asked is told when it is on disk: what the disk has is what will be after a crash.
+/// The client hears when it is on disk: what the disk has is what will be after a crash.
 void SimulatedCluster::check_confirmed(const std::string& frame) {
   google::protobuf::Arena arena;
   const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);

@@ -45,7 +45,7 @@ void SimulatedCluster::visit(std::size_t index) {
     return;
   }
   stranger.connection = ++peers_;
-  connections_[stranger.connection] = {.worker = kNobody,
+  connections_[stranger.connection] = {.worker = kNoWorker,
                                        .stranger = index,
                                        .coordinator_life = coordinator_process_.life,
                                        .open = true};
@@ -126,7 +126,7 @@ Peer SimulatedCluster::worker_at(PeerId connection) const {
       .id = connection, .role = Role::Worker, .client = "honest", .address = kAddresses[worker]};
 }
 
-/// Nobody's word rejects what has a score, and a wrong score is one of somebody who was asked.
+/// No worker's word rejects what has a score, and a wrong score is one of somebody who was asked.
 void SimulatedCluster::check_row(const Running& running, const Row& row) {
   const auto* evaluation = std::get_if<EvaluationRow>(&row);
   if (evaluation == nullptr) return;
@@ -134,7 +134,7 @@ void SimulatedCluster::check_row(const Running& running, const Row& row) {
   const auto campaign = static_cast<std::uint32_t>(&running - campaigns_.data());
   const PackedKey packed = pack(key, campaign);
   const auto truth = running.truths.find(pack(key));
-  if (truth == running.truths.end()) return fail("a row of an evaluation that nobody asked for");
+  if (truth == running.truths.end()) return fail("a row of an evaluation that was not asked for");
   const bool has_score = truth->second.kind == Truth::Kind::Score;
   if (evaluation->status == EvaluationStatus::Rejected) {
     // Once a lie has turned a race, a crash may bring another machine under the same number.
@@ -158,7 +158,7 @@ void SimulatedCluster::check_trust() {
   }
 }
 
-/// A person lets hostile peers work again, whoever answers for them.
+/// A person lets hostile peers work again, under any principal.
 void SimulatedCluster::forgive() {
   const auto quarantined = [this] {
     return !coordinator_->quarantine(clock(kCoordinator)).empty();

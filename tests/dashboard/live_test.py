@@ -220,7 +220,7 @@ class Live(DashboardTest):
                 self.assertEqual(page.errors(), [])
                 self.assertEqual(page.hosts(), set())
                 self.assertNotIn("@", page.js("document.querySelector('.head').innerText"))  # of who wrote it
-                # Nobody is there who could answer SQL.
+                # No process is there that could answer SQL.
                 self.assertEqual(page.js("document.querySelectorAll('textarea, [href*=\"/sql\"]').length"), 0)
                 page.close()
 

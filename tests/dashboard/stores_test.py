@@ -36,7 +36,7 @@ method = "{method}"
 max_experiments = 1350
 """
 
-#: Before the example's own lines: one run in 23 fails, one in 61 says that its configuration is no good.
+#: Before the example's own lines: one run in 23 fails, one in 61 says that its configuration is bad.
 FAILS = """case $(( ($3 + $1) % 23 )) in 0) echo "no <b>licence</b> today" >&2; exit 3;; esac
 case $(( $3 % 61 )) in 0) echo Inf; exit 0;; esac
 shift 2
@@ -137,10 +137,10 @@ class Rivals(Stores):
             ("modules", "#/c1/modules", "document.querySelector('table')"),
             ("results", "#/c1/results", "document.querySelectorAll('.svg svg').length >= 3"),
         ])
-        # What is no race says so in a sentence; one that is one does not.
+        # What is not a race says so in a sentence; one that is one does not.
         for name in ("generation", "random search", "annealing"):
-            self.assertIn("This is no race", said[name], name)
-        self.assertNotIn("This is no race", said["one race"])
+            self.assertIn("This is not a race", said[name], name)
+        self.assertNotIn("This is not a race", said["one race"])
         self.assertIn("Generation 4", said["generation"])
         self.assertIn("final stage", said["design of a network"])
         self.assertNotIn("states, transitions", said["network"] + said["tree"])

@@ -36,7 +36,7 @@ def blocks_to_run(page):
 
 
 def unmarked_commands(text):
-    """(line, text) of commands in blocks that nobody runs: without a language, or indented."""
+    """(line, text) of commands in blocks that are not run: without a language, or indented."""
     for block in blocks_of(text):
         if not block.language and COMMAND.match(block.text):
             yield block.line, block.text.split("\n")[0]

@@ -1,4 +1,4 @@
-"""Whoever does everything wrong is told what, where, and what to do, and nothing is damaged."""
+"""Every mistake is answered with what is wrong, where, and what to do, and nothing is damaged."""
 import json
 import os
 import re
@@ -144,7 +144,7 @@ class CampaignFile(BadInput):
         self.assertIn("campaign.toml:1:1: the file begins with its format: format = 1",
                       done.stderr)
         self.file.write_bytes(bytes(range(256)) * 20)
-        self.assert_refused(2, "this is no TOML", "check", "campaign.toml")
+        self.assert_refused(2, "this is not TOML", "check", "campaign.toml")
         (self.folder / "folder").mkdir()
         self.assert_refused(2, "folder: this is a folder; name the campaign file in it", "check",
                             "folder")

@@ -17,7 +17,7 @@ class Commands(ProgramTest):
         self.store = self.folder / "campaign.db"
 
     def expected(self):
-        """Digest of the campaign of which nobody asks anything, computed once."""
+        """Digest of the campaign without any command, computed once."""
         if "plain" not in Commands.references:
             store = self.folder / "reference.db"
             done = self.run_campaign(store, "--workers", "2")

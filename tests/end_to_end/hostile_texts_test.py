@@ -19,7 +19,7 @@ from programs import SWARMSMITH, ProgramTest, call, campaign_text
 LEAST = 1350  # what the whole space needs
 
 # A title of the window, colours, a bell, a return, DEL, C1 in UTF-8, letters from right to left,
-# a byte that is no UTF-8; a line of its own, and what HTML and a spreadsheet would obey.
+# a byte that is not UTF-8; a line of its own, and what HTML and a spreadsheet would obey.
 HOSTILE = (b"\x1b]0;mine\x07\x1b[31m\r\x00\x7f\xc2\x9b1m\xe2\x80\xae\xe2\x81\xa6\x9b\nswarmsmith: all is well\t"
            b"<script>'\"&\\")
 

@@ -224,7 +224,7 @@ def check_whole(row, ran):
         survive = re.search(r"^# minNbSurvival: (\d+)$", ran.done[0].stdout, re.MULTILINE)
         assert survive and len(ran.best(0)) <= int(survive[1]), "more elites than may survive"
         used = re.findall(r"^# experimentsUsed: (\d+)$", ran.done[0].stdout, re.MULTILINE)
-        assert len(ran.done) > 1 or int(used[-1]) == len(calls), f"{used[-1]} are told, {len(calls)} were made"
+        assert len(ran.done) > 1 or int(used[-1]) == len(calls), f"{used[-1]} are reported, {len(calls)} were made"
     if row.every is not None:
         assert calls, "the target was never called"
         for call in calls:

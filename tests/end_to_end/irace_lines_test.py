@@ -118,7 +118,7 @@ line("argparser", "a value with a blank is one word", '--check -p "my parameters
 line("argparser", "and so behind an equals sign", '--check "--parameter-file=my parameters.txt"',
      says="Check successful", files={"my parameters.txt": PARAMETERS}, parameters=None)
 line("argparser", "an option at the end lacks its value", "--check -p", code=1, says=("-p|--parameter-file", "value"))
-line("argparser", "words that are no options", "scenario.txt", code=1,
+line("argparser", "words that are not options", "scenario.txt", code=1,
      says=("scenario.txt", "not an option", "follow their names"))
 line("argparser", "a switch of a scenario's name", "--maxExperiments 100", code=1, says="--max-experiments")
 line("argparser", "the last one wins", "--max-experiments 5 --max-experiments=97", budget=97)
@@ -148,7 +148,7 @@ line("bad_scenario", "others do not", code=1, says=at(r"scenario\.txt:1:1", "`n`
      scenario='n = 50\nmaxExperiments = 2 * n\n')
 line("bad_scenario", "a scenario that is not there", "--scenario other.txt", code=1,
      says=("other.txt", "no such|not"))
-line("bad_scenario", "text that is no R", code=1, says=at(r"scenario\.txt:2"),
+line("bad_scenario", "text that is not R", code=1, says=at(r"scenario\.txt:2"),
      scenario='seed = 1\nmaxExperiments = = 5\n')
 line("bad_scenario", "a value of the wrong kind", code=1, says=at(r"scenario\.txt:1:\d+", "maxExperiments", "many"),
      scenario='maxExperiments = "many"\n')
@@ -218,7 +218,7 @@ line("badoutputraw", "standard error is not read (R mixes it in)", budget=100,
 line("badoutputraw", "-Inf rejects", budget=100, runner="[ $x -gt 70 ] && answer -Inf || answer $x",
      check=lambda ran: want(all(len(calls) == 1 for calls in ran.runs_of().values() if calls[0].values["x"] > 70)))
 line("badoutputraw", "nothing at all is rejected twice", code=1, runner="answer -inf", says="every configuration")
-line("badoutputraw", "a runner that is no program", code=1, says=("targetRunner|target-runner", "chmod"),
+line("badoutputraw", "a runner that is not a program", code=1, says=("targetRunner|target-runner", "chmod"),
      files={"target-runner": "echo 5\n"})
 line("badoutputraw", "a runner that is not there", "--target-runner ./other", code=1,
      says=("--target-runner", "other"))
@@ -238,7 +238,7 @@ def whole_blocks(size, instances):
     def check(ran):
         for calls in ran.runs_of().values():
             counts = [sum(call.number == str(number) for call in calls) for number in range(1, instances + 1)]
-            want(len(calls) % size == 0, f"{len(calls)} runs are no blocks of {size}")
+            want(len(calls) % size == 0, f"{len(calls)} runs are not blocks of {size}")
             if size == instances:
                 want(len(set(counts)) == 1, f"instances {counts}")
     return check
@@ -306,7 +306,7 @@ line("bug-13", "instances without files, digits in the scenario", parameters=COL
                         want(all(len(str(c.values["alpha"]).split(".")[1]) <= 3 for c in ran.calls))))
 line("bug-no-elite", "equal costs with elites", "--elitist 1 --deterministic 1 --max-experiments 300",
      parameters=COLONY, runner="answer 100", check=once_each, budget=300)
-line("bug-no-elite", "nobody is ever dropped by equal costs", "--max-experiments 200", runner="answer 100",
+line("bug-no-elite", "none is ever dropped by equal costs", "--max-experiments 200", runner="answer 100",
      budget=200, check=lambda ran: want(len(ran.best()) == 3))
 
 # --- test-bug-44: digits --------------------------------------------------------------------------
@@ -334,7 +334,7 @@ line("bug-55", "row names and <NA>", "--check", parameters=FOO, scenario={"confi
 line("bug-55", "true and false are words", "--configurations-file configurations.txt", parameters=FOO,
      configurations="foo bar x\n0 true 0.5\n1 NA 0.5\n", every=lambda v: v.get("bar", "true") in ("true", "false"),
      budget=100)
-line("bug-55", "the wrong case is no value", "--configurations-file configurations.txt", parameters=FOO, code=1,
+line("bug-55", "the wrong case is not a value", "--configurations-file configurations.txt", parameters=FOO, code=1,
      configurations="foo bar x\n0 TRUE 0.5\n", says=at(r"configurations\.txt:2", "bar", "TRUE"))
 
 # --- test-bug-87, 90, 94, test-bug1col, test-bug71 ------------------------------------------------
@@ -413,8 +413,8 @@ line("capping", "a target that does not stop", code=1, scenario={**CAPPED, "boun
 # --- test-dependencies ----------------------------------------------------------------------------
 
 for text, what, says in (
-        ('p1 "" r (0, 1)\np2 "" r (p3, 1)', "a bound of nobody", at(r":2:10", "p3")),
-        ('p1 "" c (0, 1)\np2 "" r (1, p1)', "a bound that is no number", at(r":2:", "p2", "p1", "numeric|number")),
+        ('p1 "" r (0, 1)\np2 "" r (p3, 1)', "a bound of an unknown name", at(r":2:10", "p3")),
+        ('p1 "" c (0, 1)\np2 "" r (1, p1)', "a bound that is not a number", at(r":2:", "p2", "p1", "numeric|number")),
         ('p1 "" r (0, 1)\np2 "" r (1, foobar(p1))', "a function that is not known", at(r":2:", "foobar")),
         ('p1 "" r (0, p3)\np2 "" r (1, p1)\np3 "" r (p2, 1)', "a circle of three", at(r":[123]:", "depends on itself|circle")),
         ('p1 "" r (0, 1)\np2 "" i (0.1, p1)', "an integer's bound with decimals", at(r":2:", "p2", "whole|integer")),
@@ -673,7 +673,7 @@ for text, what, says in (
         ('a "" i (0,2)\nb "" r (0,1) | a <> 1', "an operator that is none", (":2:", ">")),
         ('a "" i (0,2)\nb "" r (0,2) | a < b', "a condition on itself", (":2:", r"\bb\b", "itself")),
         ('a "" i (0,2)\nb "" r (0,b)', "a domain of itself", (":2:", r"\bb\b", "itself")),
-        ('a "" i (0,2)\nb "" r (0,2) | a < zz', "a condition on nobody", (":2:", "zz")),
+        ('a "" i (0,2)\nb "" r (0,2) | a < zz', "a condition on an unknown name", (":2:", "zz")),
         ('a "" i (1.1,2.0)', "an integer with decimals", (":1:", r"\ba\b", r"1\.1")),
         ('a "" r (0.01, 0.001)', "bounds the wrong way round", (":1:", r"\ba\b", "lower|below|smaller|less")),
         ('a "" i (1, 1)', "bounds that are equal", (":1:", r"\ba\b", "lower|below|smaller|less")),
@@ -736,7 +736,7 @@ line("read_pcs_file", "with names for aclib", "--check -p space.pcs --aclib 1 --
      says=r"--config -algorithm as -search 0")
 line("read_pcs_file", "a default outside", "-p space.pcs", code=1, files={"space.pcs": "a [1, 5][9]i\n"},
      says=at(r"space\.pcs:1", r"\ba\b", r"\b9\b"))
-line("read_pcs_file", "a condition on nobody", "-p space.pcs", code=1,
+line("read_pcs_file", "a condition on an unknown name", "-p space.pcs", code=1,
      files={"space.pcs": "a [1, 5][2]i\nConditionals:\na | b in {x}\n"}, says=at(r"space\.pcs:3", r"\bb\b"))
 
 # --- test-readconfs -------------------------------------------------------------------------------
@@ -766,7 +766,7 @@ line("readconfs", "columns in another order, quoted",
      "--check --max-experiments 200 --configurations-file configurations.txt", parameters=MODES,
      configurations="real mutation 'mode' two one # names\n3.0 'very low' \"x1\" 2 5 # one\n",
      check=lambda ran: want(ran.calls[0].words == "--one=5 --two=2 --mode=x1 --real=3 --mutation=very low", ran.calls[0].words))
-line("readconfs", "only a header is no configuration",
+line("readconfs", "only a header is not a configuration",
      "--configurations-file configurations.txt --max-experiments 200", parameters=MODES, configurations=HEAD,
      budget=200)
 
@@ -879,7 +879,7 @@ line("sann-irace", "a logarithm from 0", parameters='temp "--temp=" r,log (0, 10
 LIKE = 'c1 "--c1=" c (a, b)\nc2 "--c2=" c (a, b)\nc3 "--c3=" c (a, b)\n'
 line("similar", "alike configurations restart the model", "--max-experiments 200", parameters=LIKE,
      says="Soft restart", budget=0)
-line("similar", "unless nobody wants it", "--max-experiments 200 --soft-restart 0", parameters=LIKE, budget=0,
+line("similar", "unless it is switched off", "--max-experiments 200 --soft-restart 0", parameters=LIKE, budget=0,
      check=lambda ran: want("Soft restart" not in ran.out))
 line("similar", "numbers that are apart", "--max-experiments 200 --soft-restart-threshold 0", budget=0,
      parameters='x "--x=" r (0, 1)\ny "--y=" r (0, 1)\n[global]\ndigits = 10\n',

@@ -161,7 +161,7 @@ class Usual(Irace):
         told = self.irace("--json")
         self.assertIn("Nothing was run: these are the results of 2024-02-0", told.stderr)
         self.assertEqual(json.loads(told.stdout.splitlines()[-1])["event"], "done")
-        # What an extension runs is no old result.
+        # What an extension runs is not an old result.
         self.assertEqual(call("extend", self.folder / "irace.db", "d1", "--budget", "60").returncode, 0)
         self.assertNotIn("Nothing was run", self.irace().stdout)
         self.assertGreater(len(self.calls()), made)

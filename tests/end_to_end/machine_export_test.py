@@ -240,14 +240,14 @@ max_experiments = 1400
 
 
 class NoNumber(ProgramTest):
-    """A score that is no finite number is told, whoever works it out."""
+    """A score that is not a finite number is reported by every program that computes it."""
 
     def test_is_told_by_each_command(self):
         mission = self.folder / "nan.toml"
         mission.write_text('format = 1\nduration = "5 s"\n[score]\nkind = "formula"\nvalue = "0 / (x - x)"\n')
         done = call("evaluate", "--nstates", "1", "--s0", "1", "--flavour", "watermelon", "--mission", mission)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("seed 1: the score is no number", done.stderr)
+        self.assertIn("seed 1: the score is not a number", done.stderr)
         self.assertNotIn("mean", done.stdout)
         self.file.write_text('format = 1\n[[mission]]\npreset = "nan.toml"\n[[method]]\nname = "watermelon"\n'
                              "[race]\nmax_experiments = 1400\n")

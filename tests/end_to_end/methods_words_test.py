@@ -1,4 +1,4 @@
-"""Each search is told of in its own words, and what does not fit it is refused in one sentence."""
+"""Each search is described in its own words, and what does not fit it is refused in one sentence."""
 import json
 import unittest
 
@@ -108,7 +108,7 @@ class Words(ProgramTest):
                                r"the final stage, .* the best mean before it")
         self.assertIn("generation 27 of 27: 10 members, 2 runs each; best c", text)
         self.assertIn("one race", self.answer("explain", "d2", store))
-        # The walk's last iterations are told of, although the final stage ended them.
+        # The walk's last iterations are reported, although the final stage ended them.
         parts = self.answer("explain", "d5", store).split("\n\n")[1].splitlines()
         self.assertEqual([part.split(":")[0].split(";")[0].split(" ")[0] for part in parts],
                          ["scale"] + ["iterations"] * (len(parts) - 2) + ["final"], parts)

@@ -121,7 +121,7 @@ class Observability(ProgramTest):
                 pass
             one.close()
         self.assertLess(time.monotonic() - begin, 15, "a slow client was not cut off")
-        # A header without end is no request.
+        # A header without end is not a request.
         with socket.create_connection(("127.0.0.1", self.port)) as endless:
             endless.settimeout(20)
             try:
@@ -264,7 +264,7 @@ class Observability(ProgramTest):
         self.assertEqual(lost_line["level"], "warning")
         self.assertIsInstance(lost_line["worker"], int)
         self.eventually(lambda: '"race step"' in self.log.read_text())
-        # Quieter by signal: steps are told at the level debug, which is off then.
+        # Quieter by signal: steps are logged at the level debug, which is off then.
         send(process.pid, signal.SIGUSR2)
         send(process.pid, signal.SIGUSR2)
 

@@ -49,7 +49,7 @@ class PythonModule(ProgramTest):
 
     def test_errors_say_what_is_wrong(self):
         for name, text, sentence in (("none.db", None, "no such store"), ("text.db", "text", "not a database"),
-                                     ("empty.db", "", "no store of Swarmsmith")):
+                                     ("empty.db", "", "not a store of Swarmsmith")):
             path = self.folder / name
             if text is not None:
                 path.write_text(text * 1000)
@@ -60,7 +60,7 @@ class PythonModule(ProgramTest):
             store.machine("c999999")
         with swarmsmith.Store(self.store) as store:
             for candidate in ("d1", "", None, 1.5, True):
-                with self.assertRaisesRegex(swarmsmith.OptionError, "is no candidate"):
+                with self.assertRaisesRegex(swarmsmith.OptionError, "is not a candidate"):
                     store.machine(candidate)
             for purpose in ("tset", "transfer", None, ["test"]):
                 with self.assertRaisesRegex(swarmsmith.OptionError, "one of test, score"):

@@ -161,7 +161,7 @@ class Readers(ProgramTest):
         self.assertEqual(self.digest(self.store), self.reference())
         self.assert_clean(self.store)
 
-        # Readers for reading alone leave the log where it is; whoever writes next folds it in.
+        # Readers for reading alone leave the log where it is; the next writer folds it in.
         self.assertGreater(self.log_size(), 0)
         python.execute("COMMIT")
         python.close()

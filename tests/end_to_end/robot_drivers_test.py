@@ -21,7 +21,7 @@ FORWARD = "--nstates 1 --s0 0 --rwm0 1"
 STANDS_AFTER = 0.5
 #: A command may take so long until the treads do it.
 ALLOWED_S = 0.3
-#: Drivers are told of their fault by a line, and see it when they look.
+#: Drivers learn of their fault by a line, and see it when they look.
 TOLD_S = 0.05
 
 

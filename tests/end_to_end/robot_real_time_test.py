@@ -200,7 +200,7 @@ class OverZeroMq(RealTime):
             self.assertRegex(state["reasons"][0], r"the operator is silent for 1\.")
         for robot in ("rvr1", "rvr2", "rvr3"):
             moves = [float(row["clock_s"]) for row in self.rows(robot) if speed(row) > 0]
-            print(f"{robot} is told to stand {moves[-1] + 0.1 - gone_at:.2f} s after the operator is gone")
+            print(f"{robot} is commanded to stand {moves[-1] + 0.1 - gone_at:.2f} s after the operator is gone")
             self.assertLess(moves[-1] + 0.1 - gone_at, STANDS_AFTER)
         self.assert_replays()
 

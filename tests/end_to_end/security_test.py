@@ -140,7 +140,7 @@ class Security(ProgramTest):
         clients.write_text(full)
         wait_for(lambda: self.stored() > before + 100, "its work")
         failed = self.query(self.store, "select * from evaluation where status <> 0")
-        self.assertEqual(failed, [], "nobody is blamed for a cut")
+        self.assertEqual(failed, [], "no worker is blamed for a cut")
         server.send_signal(signal.SIGTERM)
         self.assertEqual(server.wait(timeout=DEADLINE_S), 143)
         self.assertFalse(self.where.exists())

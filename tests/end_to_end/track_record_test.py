@@ -195,8 +195,8 @@ class TrackRecord(unittest.TestCase):
         for code, words, says in [
                 (2, (images, "run.mp4", "--rate", "20"), ".mkv"),
                 (2, (images, "old.mkv", "--rate", "20"), "never overwrites"),
-                (2, (images, "run.mkv", "--rate", "fast"), "`fast` is no positive number"),
-                (2, (images, "run.mkv", "--seconds", "-1"), "`-1` is no positive number"),
+                (2, (images, "run.mkv", "--rate", "fast"), "`fast` is not a positive number"),
+                (2, (images, "run.mkv", "--seconds", "-1"), "`-1` is not a positive number"),
                 (2, (images, "run.mkv", "--codec", "ffv1", "--quality", "50"), "has no quality"),
                 (2, ("camera:first", "run.mkv"), "camera:0:1920x1080@30"),
                 (1, (images, "run.mkv"), "--rate"),

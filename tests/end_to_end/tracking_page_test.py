@@ -1,5 +1,5 @@
-"""Whoever follows docs/tracking.md gets where it leads: its commands run, in their order, in a rendered laboratory whose
-files have the names of the page. And the page speaks of every command, option and message that there is."""
+"""A reader who follows docs/tracking.md gets where it leads: its commands run, in their order, in a rendered laboratory
+whose files have the names of the page. And the page speaks of every command, option and message that there is."""
 import json
 import os
 import pathlib
@@ -121,7 +121,7 @@ class Printing(unittest.TestCase):
             self.refused(2, ".pdf or .svg", *tags, "--ids", "1", "-o", "tags.png")
             self.refused(2, '"x" is not an id', *tags, "--ids", "x", "-o", "tags.pdf")
             self.refused(2, "too large for A4", "print", "board", "chessboard:10x7:0.1", "-o", "b.pdf")
-            self.refused(2, "no positive number", "print", "survey", "--ids", "1", "--edge", "-1", "-o", "s.pdf")
+            self.refused(2, "not a positive number", "print", "survey", "--ids", "1", "--edge", "-1", "-o", "s.pdf")
             self.refused(1, "cannot", *tags, "--ids", "1", "-o", "no/such/folder/tags.svg")
             self.refused(2, "no store", "report", "r1")
             self.refused(3, "no such store", "report", "r1", "--store", "none.db")

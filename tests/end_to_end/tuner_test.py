@@ -95,7 +95,7 @@ class SpaceTest(unittest.TestCase):
     def test_configurations_are_checked(self):
         space = swarmsmith_space.Space({"x": (0.0, 1.0), "m": ["a", None]})
         self.assertEqual(space.configuration_line({"m": None, "x": 1}), '1.0 "None"')
-        for configuration, sentence in (({"y": 1}, "'y' is no parameter of the space: it has x, m"), ({"xx": 1}, "did you mean 'x'"),
+        for configuration, sentence in (({"y": 1}, "'y' is not a parameter of the space: it has x, m"), ({"xx": 1}, "did you mean 'x'"),
                                         ({"x": 2}, "x: 2 is not between 0.0 and 1.0"), ({"x": "a"}, "x: .* a number"),
                                         ({"m": "b"}, "m: 'b' is none of its values")):
             with self.assertRaisesRegex(swarmsmith.SpaceError, sentence):
@@ -321,7 +321,7 @@ class TunerTest(unittest.TestCase):
                 (wrong_space, SPACE, {"initial": [0.2]}, r"^initial\[0\]: a configuration is a dictionary"),
                 (wrong_space, SPACE, {"forbidden": "x > 0.9"}, "^forbidden: a list"),
                 (wrong_space, SPACE, {"forbidden": [3]}, r"^forbidden\[0\]: a condition is a text"),
-                (wrong_space, SPACE, {"initial": [{"x": 0.5, "y": 1}]}, r"^initial\[0\]: 'y' is no parameter"),
+                (wrong_space, SPACE, {"initial": [{"x": 0.5, "y": 1}]}, r"^initial\[0\]: 'y' is not a parameter"),
                 (wrong_space, names, {"initial": [{"learning-rate": 0.6}]}, r"^initial\[0\]: .*'k'"),
                 (wrong_space, names, {"forbidden": ["k > ["]}, r"^forbidden: k > \[: found"),
                 (wrong_space, {"x": (0, 1), "y": swarmsmith.Real(0, 1, when="z > 3")}, {}, "^space: y: there is no parameter 'z'")):
@@ -370,7 +370,7 @@ class TunerTest(unittest.TestCase):
         real = {"type": "real", "lower": 0, "upper": 1}
         first = {"space": {"x": real}, "max_experiments": 180, "seed": 1}
         for lines, sentence in (
-                ([], "line 1: the input ended"), (["{"], "line 1: this is no JSON"), ([[1]], "line 1: a JSON object"),
+                ([], "line 1: the input ended"), (["{"], "line 1: this is not JSON"), ([[1]], "line 1: a JSON object"),
                 ([{"seed": 1}], "line 1: `space` is missing"), ([{"space": [1]}], "line 1: `space` is an object"),
                 ([{"space": {"x": 3}}], "line 1: x: an object with `type`"),
                 ([{"space": {"x": {"type": "foo"}}}], "line 1: x: .*one of real, integer, categorical, ordinal"),

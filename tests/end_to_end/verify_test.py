@@ -88,7 +88,7 @@ class Verify(ProgramTest):
         self.assertIn("the store holds a rejection", call("verify", self.store).stdout)
 
     def test_two_results_of_one_evaluation(self):
-        """A complaint, as long as nobody knows which one is right."""
+        """A complaint, as long as it is not known which one is right."""
         self.change("INSERT INTO conflict (candidate, purpose, pair, kept_score, other_score, other_state_digest, "
                     "other_worker) SELECT candidate, purpose, pair, score, score + 1, 7, 1 FROM evaluation "
                     "WHERE candidate = 3 AND purpose = 0 AND pair = 1")
@@ -104,7 +104,7 @@ class Verify(ProgramTest):
         self.assertEqual(len(one), 50)
         self.assertEqual(self.different("--sample", 50, "--seed", 3), one)
         self.assertNotEqual(self.different("--sample", 50, "--seed", 4), one)
-        # Nobody can know the sample of the next call.
+        # The sample of the next call cannot be known.
         self.assertNotEqual(self.different("--sample", 50), self.different("--sample", 50))
 
     def test_each_key_and_host_has_its_turn(self):

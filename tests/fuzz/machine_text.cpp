@@ -34,7 +34,7 @@ void run(std::string_view input) {
     return;
   }
   for (const FiledMachine& machine : *filed) {
-    require(machine.name.find("--") != 0, "a name is no option");
+    require(machine.name.find("--") != 0, "a name is not an option");
     read_text(machine.text);
   }
 }

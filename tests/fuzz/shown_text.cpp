@@ -21,8 +21,8 @@ std::string unquoted(std::string_view field) {
 
 }  // namespace
 
-/// Whatever a text is, it is shown without control characters, and a field of a table is no formula
-/// and comes back.
+/// Whatever a text is, it is shown without control characters, and a field of a table is not a
+/// formula and comes back.
 void run(std::string_view input) {
   for (const Layout layout : {Layout::Kept, Layout::Escaped}) {
     const std::string shown = as_shown(input, layout);
@@ -38,7 +38,7 @@ void run(std::string_view input) {
   require(csv_text(cell) == input, "a field comes back");
   constexpr std::string_view kFormulas = "=@\t\r\n";
   require(cell.empty() || kFormulas.find(cell.front()) == std::string_view::npos,
-          "a field is no formula");
+          "a field is not a formula");
 }
 
 }  // namespace swarmsmith::fuzz

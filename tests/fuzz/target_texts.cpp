@@ -42,7 +42,7 @@ void run(std::string_view input) {
   if (const auto cost = parse_evaluator_output(input, judged)) {
     require(!std::isnan(cost->cost), "a cost is a number");
   }
-  if (const auto job = parse_job_id(input)) require(job->front() != '-', "a job is no option");
+  if (const auto job = parse_job_id(input)) require(job->front() != '-', "a job is not an option");
   constexpr std::size_t kLongest = 40;
   const std::string shown = printable(input, kLongest);
   require(shown.size() <= kLongest, "what is shown has its length");

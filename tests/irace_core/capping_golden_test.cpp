@@ -139,7 +139,7 @@ void expect_same_step(const RaceStep& step, const nlohmann::json& task) {
   EXPECT_EQ(step.pair, task["pair"]);
   EXPECT_EQ(step.alive_after, task["alive"]);
   EXPECT_EQ(step.experiments_used, task["experiments"]);
-  // Where nobody is run irace 3.5 repeats the best of the task before, who may be gone.
+  // Where none is run irace 3.5 repeats the best of the task before, who may be gone.
   if (step.marker == '.') return;
   EXPECT_EQ(step.best, task["best"]);
   EXPECT_NEAR(step.mean_best, task["mean_best"], 1e-8);

@@ -108,7 +108,7 @@ TEST(Agreement, IsMinusOneForOppositeRows) {
   EXPECT_EQ(spearman_rho(table_of({{1, 2, 3}, {3, 2, 1}}), kThree), -1);
 }
 
-/// Three times 0.1 sums to more than 0.3: what is left of the mean must not be standardised.
+/// Three times 0.1 sums to more than 0.3: the rest of the mean must not be standardised.
 TEST(QualityVariance, TakesARowOfEqualCostsForZeros) {
   QualityVariance quality(3);
   const std::vector<Entry> equal = {{0.1, 0}, {0.1, 1}, {0.1, 2}};

@@ -323,8 +323,8 @@ TEST(IteratedRace, FailsWhenEverythingIsRejected) {
   EXPECT_THAT(race.elites(), IsEmpty());
 }
 
-/// Elites of earlier races are no way out: they were rejected, too, and what lost to them is no
-/// answer.
+/// Elites of earlier races do not help: they were rejected, too, and what lost to them is not
+/// an answer.
 TEST(IteratedRace, FailsWhenASecondRaceRejectsAllOfItsContestants) {
   auto race = IteratedRace::start(small_space(), small_scenario()).value();
   std::vector<IterationEnded> ended;

@@ -12,7 +12,7 @@ using namespace swarmsmith::testing;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// The reason why these parameters are no space.
+/// The reason why these parameters are not a space.
 std::string refusal(std::vector<Parameter> parameters, int digits = 4) {
   const auto space = ParameterSpace::make(std::move(parameters), {}, digits);
   return space ? "accepted" : to_string(space.error());

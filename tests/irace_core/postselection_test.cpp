@@ -121,7 +121,7 @@ TEST(PostselectionRace, UsesWhatIsLeftAndProtectsNobodyLonger) {
     EXPECT_GT(ends.back().used, 0);
     EXPECT_FALSE(ends.back().elites.empty());
     EXPECT_EQ(only<RaceFinished>(events).front().elites, ends.back().elites);
-    // Nobody is dropped before all the pairs are covered.
+    // None is dropped before all the pairs are covered.
     for (const RaceStep& step : only<RaceStep>(events)) {
       if (step.iteration != starts.back().iteration || step.eliminations.empty()) continue;
       for (const Elite& elite : ends.back().elites)

@@ -230,7 +230,7 @@ TEST(Race, EndsAfterTestsThatDropNobody) {
   settings.elitist_limit = 2;
   Race race(settings, newcomers(4));
   const auto alternating = [](std::int64_t id, std::int64_t pair) {
-    return static_cast<double>((id + pair) % 4);  // a Latin square: nobody is better
+    return static_cast<double>((id + pair) % 4);  // a Latin square: none is better
   };
   while (!race.finished())
     answer(race, alternating);

@@ -10,7 +10,7 @@
 
 namespace swarmsmith::testing {
 
-/// Options that can be mixed freely; most mixes are nonsense that nobody would ask for.
+/// Options that can be mixed freely; most mixes are nonsense.
 inline Scenario random_scenario(Rng& rng) {
   Scenario s;
   s.seed = rng.next();

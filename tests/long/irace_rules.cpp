@@ -57,7 +57,7 @@ class Case {
       value = number();
     return values;
   }
-  /// What is left, without the blank before it.
+  /// The rest, without the blank before it.
   std::string rest() {
     std::string text;
     std::getline(words_ >> std::ws, text);

@@ -1,4 +1,4 @@
-"""A laboratory of which the truth is known, filmed and measured: `track profile` gives latency, slip and missed neighbours
+"""A laboratory whose truth is known, filmed and measured: `track profile` gives latency, slip and missed neighbours
 back, and machines that were designed under that profile do there at least as well as those designed under `rvr`.
 """
 import json

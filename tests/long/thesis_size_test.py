@@ -1,5 +1,5 @@
 """A store of the thesis' size, three million evaluations, and everything that is done with stores: each documented view, each
-command that reads one, `verify` as it is typed. What each may take is told by a plain sum over all scores of that store,
+command that reads one, `verify` as it is typed. A plain sum over all scores of that store says what each may take,
 measured beside it: by processor time, so that other work on the machine does not matter, and by the most memory.
 
 A small campaign is run; then copies of its designs, with other numbers, become further campaigns of the same store. All of

@@ -153,7 +153,7 @@ class Release(unittest.TestCase):
         self.assertEqual((self.folder / "build-steps").read_text().split(), ["build", "package", "bundle"])
 
     def test_refuses_with_a_reason_and_leaves_all_as_it_was(self):
-        for version, said in (("0.1.0", "there is the tag v0.1.0 already"), ("0.0.9", "CMakeLists.txt has version 0.1.0 already"),
+        for version, said in (("0.1.0", "tag v0.1.0 already exists"), ("0.0.9", "CMakeLists.txt has version 0.1.0 already"),
                               ("v0.2.0", "three numbers"), ("0.2", "three numbers"), ("00.2.0", "three numbers")):
             self.assert_refused(self.release(version), said)
         self.assert_refused(self.release("0.2.0", "0.3.0"), "one version")
@@ -174,7 +174,7 @@ class Release(unittest.TestCase):
     def test_refuses_to_make_again_what_is_no_release(self):
         (self.clone / "CMakeLists.txt").write_text("project(swarmsmith VERSION 0.2.0 LANGUAGES CXX)\n")
         self.commit("Version by hand")
-        self.assert_refused(self.release(), "this commit is no release: CHANGELOG.md has no section of 0.2.0")
+        self.assert_refused(self.release(), "this commit is not a release: CHANGELOG.md has no section of 0.2.0")
 
     def assert_finished_by_what_it_says(self, said):
         done = self.release("0.2.0")

@@ -15,7 +15,8 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// What as.numeric of R 4.2 gives for each text; nothing where it gives NA for what is no number.
+/// What as.numeric of R 4.2 gives for each text; nothing where it gives NA for what is not a
+/// number.
 TEST(Number, IsReadAsRReadsIt) {
   const std::map<std::string, double> read = {{"1e-3", 0.001},
                                               {"Inf", kInf},

@@ -33,7 +33,7 @@ class RawPeer {
     address.sin_port =
         htons(static_cast<std::uint16_t>(std::stoi(endpoint.substr(endpoint.rfind(':') + 1))));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    // What nobody reads stays with the server.
+    // What is not read stays with the server.
     const int small = 4096;
     setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
     timeval patience = {.tv_sec = 0, .tv_usec = 200'000};
@@ -67,7 +67,7 @@ class RawPeer {
   RawPeer(const RawPeer&) = delete;
   RawPeer& operator=(const RawPeer&) = delete;
 
-  /// False when the connection is closed, or nobody reads.
+  /// False when the connection is closed, or no peer reads.
   bool say(const std::string& bytes) const {
     std::size_t said = 0;
     while (said < bytes.size()) {

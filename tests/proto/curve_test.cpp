@@ -181,7 +181,7 @@ TEST_F(LockedDoor, CutsOffWhoIsNotListedAnyMore) {
   const PeerId peer = last.peer;
   const std::vector<PeerId> gone = server->admit({client(worker, Role::Worker)});
   EXPECT_EQ(gone, std::vector<PeerId>{peer});
-  EXPECT_EQ(server->send(peer, "to nobody"), SendStatus::Gone);
+  EXPECT_EQ(server->send(peer, "to no peer"), SendStatus::Gone);
   desk->send("two");
   EXPECT_TRUE(eventually([&] { return desk->lost(); }));
   EXPECT_FALSE(server->receive(last));

@@ -54,7 +54,7 @@ TEST_F(Sockets, SayThatAPeerHasGone) {
   EXPECT_EQ(next_at_server(), "there");
   client->close(milliseconds(0));
   EXPECT_TRUE(eventually([&] { return server->send(peer, "back") == SendStatus::Gone; }));
-  EXPECT_EQ(server->send(peer + 1000, "to nobody"), SendStatus::Gone);
+  EXPECT_EQ(server->send(peer + 1000, "to no peer"), SendStatus::Gone);
 }
 
 /// So "gone" does not mean that all it said has been read.

@@ -67,7 +67,7 @@ TEST(Wire, NamesThatAreKeptAreShort) {
 
 TEST(Wire, CountsPartsBeforeItMakesThem) {
   const std::string head = encode(pb::ToCoordinator());
-  // Unknown fields whose text is no message: cut short, a wrong tag, the end of no group.
+  // Unknown fields whose text is not a message: cut short, a wrong tag, the end of no group.
   const std::vector<std::string> before = {
       "", {"\x7a\x02\x0a\x50", 4}, {"\x7a\x01\x00", 3}, "\x7a\x01\x0c"};
   Arena arena;

@@ -10,7 +10,7 @@ from network import Proxy
 from rig import FaultTest, call, rows
 from wire import message
 
-#: As people write them: opens for reading and writing, looks, closes. It is no part of the project.
+#: As people write them: opens for reading and writing, looks, closes. It is not part of the project.
 CLIENT = """
 import contextlib, pathlib, sqlite3, sys, time
 folder, pause = pathlib.Path(sys.argv[1]), float(sys.argv[2])
@@ -56,7 +56,7 @@ class Beside(FaultTest):
 
     def overhear(self, address):
         """An address that leads to the coordinator, and remembers what it acknowledges."""
-        # Of the store of now: what comes late, after another one has begun, is no promise of that.
+        # Of the store of now: what comes late, after another one has begun, is not a promise of that.
         return Proxy(self, address, rewrite=functools.partial(self.hear, self.acknowledged))
 
     def hear(self, acknowledged, direction, body):
@@ -70,7 +70,7 @@ class Beside(FaultTest):
 
     def ask(self, kind, *words):
         """A command to the campaign; one that is confirmed is remembered."""
-        if kind == "cancel":  # from then on nobody wants the results of the design
+        if kind == "cancel":  # from then on the results of the design are not wanted
             self.cancelled.add(int(words[0][1:]))
         done = call(kind, self.store, *words)
         if done.returncode == 0:
@@ -89,7 +89,7 @@ class Beside(FaultTest):
         return set(rows(self.reference(), USED_RESULTS))
 
     def assert_promises_are_kept(self):
-        """An acknowledged result is in the store. Only one that nobody wants is not: it was made
+        """An acknowledged result is in the store. Only one that is not wanted is not: it was made
         ahead for a candidate that is out of its race, and is never asked for again."""
         with self.heard:
             acknowledged = set(self.acknowledged)

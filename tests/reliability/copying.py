@@ -169,7 +169,7 @@ def with_swarmsmith(moving, to):
 
 
 def with_the_shell_dump(moving, to):
-    """All rows as SQL, and back: what is no row is lost."""
+    """All rows as SQL, and back: what is not a row is lost."""
     with contextlib.closing(sqlite3.connect(f"file:{moving.store}?mode=ro", uri=True)) as source, \
             contextlib.closing(sqlite3.connect(to / "campaign.db")) as target:
         target.execute("pragma foreign_keys = off")
@@ -177,7 +177,7 @@ def with_the_shell_dump(moving, to):
 
 
 def at_one_moment(moving, to):
-    """All files while nobody writes."""
+    """All files while no program writes."""
     copy(moving, to, ("", "-wal", ".lock"))
 
 

@@ -36,7 +36,7 @@ class Crafted(FaultTest):
             craft(made, CRAFTED[name])
             self.count("crafted store")
             for words in self.words(made, folder, wanted):
-                # Each has its own: what one writes is no matter of the next.
+                # Each has its own: what one writes does not reach the next.
                 store = folder / "campaign.db"
                 for suffix in ("", "-wal", "-shm", ".lock"):
                     store.with_name(store.name + suffix).unlink(missing_ok=True)

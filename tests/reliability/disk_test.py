@@ -257,7 +257,7 @@ class Damaged(FaultTest):
         if self.digest(self.store) == self.expected():
             return "same answer"
         columns = "candidate, purpose, pair, iteration, status, iif(purpose = 2, 0, score)"
-        # What was computed ahead and never used is no part of an answer.
+        # What was computed ahead and never used is not part of an answer.
         used = "purpose <> 0 or iteration is not null"
         raced = "purpose <> 0 or (design, number) in (select design, pair from race_step)"
         for table, what, where in (("evaluation", columns, used), ("candidate", "*", "true"),

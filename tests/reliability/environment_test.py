@@ -115,7 +115,7 @@ class Limits(Environment):
         wait_for(lambda: run.progress().get("trouble"), "trouble in the numbers")
         run.send(signal.SIGINT)
         self.assertEqual(run.wait(), 130, run.tail())
-        # What is told is what is stored.
+        # What is printed is what is stored.
         last = run.progress()
         self.assertGreater(last["uncommitted"], 0)
         self.assertIn(f"{stored(self.store)} evaluations are stored; {last['uncommitted']} more "

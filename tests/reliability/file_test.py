@@ -180,7 +180,7 @@ class Lost(Beside):
         return set()
 
     def happenings(self):
-        away, text = self.folder / "away", "no store, and nobody's to overwrite"
+        away, text = self.folder / "away", "no store, and not to be overwritten"
 
         def replace():
             other = self.folder / "other"

@@ -1,4 +1,4 @@
-"""Stores whose schema is not ours: whoever would write refuses them and names what is foreign; `backup` and `recover` make
+"""Stores whose schema is not ours: writers refuse them and name what is foreign; `backup` and `recover` make
 clean stores of them; who reads answers rightly, or refuses."""
 import functools
 import shutil

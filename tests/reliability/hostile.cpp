@@ -6,7 +6,7 @@
 // time; ten are open at a time. Peers that hang up early say less. MISDEEDS are names with commas
 // between them, as tests/support/hostile_peer.h has them; the connections take them in turn. With a
 // key file it is who the key says. Ends when all is said, when the connections are used up, or when
-// nobody lets it in any more; prints a line of JSON: what it did.
+// no peer lets it in any more; prints a line of JSON: what it did.
 
 #include <charconv>
 #include <chrono>
@@ -36,7 +36,7 @@ using cluster::Misdeed;
 using std::chrono::milliseconds;
 
 constexpr std::size_t kOpen = 10;
-/// Connections in a row that were not welcome: nobody lets it in any more.
+/// Connections in a row that were not welcome: no peer lets it in any more.
 constexpr int kTurnedAway = 300;
 
 struct Job {

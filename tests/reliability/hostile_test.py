@@ -65,7 +65,7 @@ class Hostile(FaultTest):
         return int(found.group(1)) if found else 0
 
     def honest(self):
-        """The same campaign with nobody but honest workers: bytes of store and log."""
+        """The same campaign with honest workers only: bytes of store and log."""
         if "honest" not in type(self).__dict__.get("known", {}):
             store, self.store = self.store, self.folder / "honest.db"
             coordinator = self.begin()

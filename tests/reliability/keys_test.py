@@ -14,7 +14,7 @@ class Keys(FaultTest):
         self.keys = self.keygen(self.folder / "keys")
 
     def key_of_unlisted(self):
-        """A key of this server that is no more on its list."""
+        """A key of this server that is not on its list any more."""
         self.keygen(self.keys, "--client", "gone")
         listed = self.keys / "clients.toml"
         text = listed.read_text()

@@ -45,7 +45,7 @@ class Kill(Beside):
         self.count("worker killed", killed)
         numbers = self.finish(serve)
         self.assertEqual(events(self.store, "evaluation rejected"), [], "a task was blamed")
-        # Not the workers: one that came too late finds nobody, and looks on for ten minutes.
+        # Not the workers: one that came too late finds no coordinator, and looks on for ten minutes.
         self.assert_killed(killed, numbers)
 
     def test_local_workers_at_random(self):
@@ -73,7 +73,7 @@ class Kill(Beside):
         workers = [self.worker(serve.address()) for _ in range(2)]
         self.wait_stored(500)
         workers[0].kill()
-        # By its connection, not by its silence: nobody waits for a lease's end.
+        # By its connection, not by its silence: no wait for a lease's end.
         [lost] = wait_for(lambda: events(self.store, "worker lost"), "the loss of a killed worker")
         self.assertEqual(lost["how"], "connection closed")
         self.count("worker killed", 1)
@@ -194,7 +194,7 @@ class KillBeside(Beside):
 
 
 class KillAfterCommands(Beside):
-    """Commands that change the answer: whatever was confirmed acts, though nobody lives to see it."""
+    """Commands that change the answer: whatever was confirmed acts, though the coordinator died."""
     budget = 2000
     designs = 2
 

@@ -14,7 +14,7 @@ MIXES = {
     "crowd": "leaves alone,rejects,fails,guesses,claims leases,replays,talks nonsense,"
              "talks at random,floods,leaves with leases",
 }
-#: Whoever has a listed key.
+#: Peers that have a listed key.
 LIES = {
     "liars": "lies",
     "liars who change their names": "renames",

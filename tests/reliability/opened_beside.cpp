@@ -1,5 +1,5 @@
 // A library for LD_PRELOAD: writes down who opens a store besides SQLite. A process that closes any
-// descriptor of a file loses its locks on it, so nobody may.
+// descriptor of a file loses its locks on it, so no program may.
 //
 //   SWARMSMITH_BESIDE_LOG  where a line is added for each such call: the caller's library, the path
 //

@@ -70,7 +70,7 @@ class Life:
         wait_for(lambda: not self.running.alive() or stored(self.store) >= wanted, f"{wanted} evaluations")
 
     def rest(self, how=signal.SIGINT):
-        """Nobody writes it any more."""
+        """No program writes it any more."""
         if self.running is None:
             return
         if how == signal.SIGKILL:

@@ -1,4 +1,4 @@
-"""What others do to a store with ordinary tools: it is noticed and told, and the way out that is told works."""
+"""What others do to a store with ordinary tools: it is noticed and reported, with a way out that works."""
 import signal
 import subprocess
 import unittest

@@ -1,4 +1,4 @@
-"""SIGSTOP, a while, SIGCONT: nobody is blamed, nothing is lost, and no storm follows."""
+"""SIGSTOP, a while, SIGCONT: no worker is blamed, nothing is lost, and no storm follows."""
 import pathlib
 import signal
 import time

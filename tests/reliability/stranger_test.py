@@ -212,7 +212,7 @@ class Replays(Visited):
         self.assertEqual(len(rows(self.store, "select id from worker")), 2)
 
     def test_after_the_worker_has_gone(self):
-        """The dead worker's words again: whoever it is, it has nothing that counts twice."""
+        """The dead worker's words again: under any name, it has nothing that counts twice."""
         self.frame_with("results")
         words = self.heard()
         self.workers.pop().kill()

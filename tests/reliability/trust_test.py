@@ -62,7 +62,7 @@ class CutOut(Trust):
         self.said("recover", self.store, "-o", copy, code=3)
         self.assertIn("wrong, or may be", self.said("verify", copy, "--sample", 0, code=3))
         honest = self.folder / "honest.db"
-        self.assertRegex(self.said("recover", self.store, "--without-key", "nobody", "-o", honest, code=4), "are: .*liar")
+        self.assertRegex(self.said("recover", self.store, "--without-key", "nokey", "-o", honest, code=4), "are: .*liar")
         self.assertFalse(honest.exists())
         self.assertRegex(self.said("recover", self.store, "--without-key", "liar", "-o", honest),
                          r"[1-9]\d* evaluations of 1 workers were taken away")

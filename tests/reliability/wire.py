@@ -80,7 +80,7 @@ class Peer:
         self.is_ready = False
         if greet:
             self.socket.sendall(GREETING + ready())
-            # Whoever speaks before both are ready is cut off.
+            # A peer that speaks before both are ready is cut off.
             limit = time.monotonic() + timeout
             try:
                 while not self.is_ready:

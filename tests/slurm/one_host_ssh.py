@@ -61,7 +61,7 @@ def _program(name):
 
 class OneHostSsh:
     """Hosts node1, node2 and so on are this one; `silent` takes connections and says nothing; `closed`
-    has nobody who listens. `client_config` is what ssh -F takes. Accounts keep things in `cache`."""
+    has no program that listens. `client_config` is what ssh -F takes. Accounts keep things in `cache`."""
 
     def __init__(self, folder, max_startups="100"):
         self.folder = pathlib.Path(folder)

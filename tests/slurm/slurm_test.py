@@ -16,7 +16,7 @@ class Campaign(SlurmTest):
         cancelled = wait_for(lambda: len(self.slurm.jobs("CANCELLED")) == 2, "their end", 20)
         self.assertTrue(cancelled)
         self.wait_for_stored(4000, process)
-        # Whoever cancels jobs wants fewer of them.
+        # A person who cancels jobs wants fewer of them.
         self.assertEqual(len(self.live()), 2)
 
         send(process.pid, signal.SIGKILL)

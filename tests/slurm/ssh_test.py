@@ -45,7 +45,7 @@ class SshTest(ProgramTest):
         super().setUp()
         self.ssh = one_host_ssh.OneHostSsh(self.folder, self.max_startups)
         self.addCleanup(self.ssh.stop)
-        # A name of its own, by which this test's workers are told from others.
+        # A name of its own, which tells this test's workers from others.
         self.worker = self.folder / "the worker"
         self.worker.symlink_to(pathlib.Path(SWARMSMITH).parent / "swarmsmith-worker")
         self.hosts = self.folder / "hosts"

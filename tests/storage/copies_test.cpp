@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Cells = std::vector<std::string>;
 using testing::HasSubstr;
 
-const auto kNobodyWatches = [](std::int64_t, std::int64_t) {};
+const auto kUnwatched = [](std::int64_t, std::int64_t) {};
 
 std::string old_store(int schema) {
   return std::string(SWARMSMITH_TEST_DATA) + "/stores/schema-" + std::to_string(schema) + ".sqlite";
@@ -114,7 +114,7 @@ TEST_F(CopiesTest, ABackupHasNoSecretOfACampaignThatGoesOn) {
   store->append(campaign.batches[0]);
   store->flush();
   EXPECT_EQ(store->keep_secret(secret), secret);
-  const auto made = back_up(a, out, kNobodyWatches);
+  const auto made = back_up(a, out, kUnwatched);
   ASSERT_TRUE(made) << to_string(made.error());
   std::ifstream file(out, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
@@ -125,11 +125,11 @@ TEST_F(CopiesTest, ABackupHasNoSecretOfACampaignThatGoesOn) {
 TEST_F(CopiesTest, ABackupOverwritesNothingAndLeavesNothingBehind) {
   write_store(a, campaign_of_all_kinds(1, 1));
   std::ofstream(out) << "mine";
-  const auto refused = back_up(a, out, kNobodyWatches);
+  const auto refused = back_up(a, out, kUnwatched);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("nothing is overwritten"));
   EXPECT_EQ(fs::file_size(out), 4U);
-  EXPECT_FALSE(back_up(folder / "none.db", folder / "copy.db", kNobodyWatches));
+  EXPECT_FALSE(back_up(folder / "none.db", folder / "copy.db", kUnwatched));
   EXPECT_THAT(files(), testing::Not(testing::Contains(HasSubstr(".part"))));
 }
 
@@ -141,7 +141,7 @@ TEST_F(CopiesTest, ABackupOfADamagedStoreIsRefusedWithAWayOut) {
     file.seekp(static_cast<std::streamoff>(size / 8192 / 2 * 8192));
     file << std::string(8192, 'x');
   }
-  const auto refused = back_up(a, out, kNobodyWatches);
+  const auto refused = back_up(a, out, kUnwatched);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::Corrupt);
   EXPECT_THAT(refused.error().message, HasSubstr("swarmsmith recover"));
@@ -152,7 +152,7 @@ struct OldStores : CopiesTest, testing::WithParamInterface<int> {};
 
 TEST_P(OldStores, ABackupMigratesTheCopyAndNotTheOriginal) {
   const std::string digest = open_reader(old_store(GetParam()))->digest();
-  const auto made = back_up(old_store(GetParam()), out, kNobodyWatches);
+  const auto made = back_up(old_store(GetParam()), out, kUnwatched);
   ASSERT_TRUE(made) << to_string(made.error());
   EXPECT_EQ(made->migrated, GetParam());
   EXPECT_EQ(made->digest, digest);
@@ -177,7 +177,7 @@ TEST_P(OldStores, AQueryThatAnOldStoreCannotAnswerSaysHowItCould) {
 
 TEST_P(OldStores, AreMergedAsTheyAre) {
   write_store(b, campaign_of_all_kinds(2, 2));
-  const auto merged = merge_stores({b, old_store(GetParam())}, out, kNobodyWatches);
+  const auto merged = merge_stores({b, old_store(GetParam())}, out, kUnwatched);
   ASSERT_TRUE(merged) << to_string(merged.error());
   const auto reader = open_reader(out);
   EXPECT_EQ(reader->alone(1)->digest(), digest_of(b));
@@ -197,7 +197,7 @@ struct MergeTest : CopiesTest {
 };
 
 TEST_F(MergeTest, KeepsEachCampaignsAnswerAndEveryRow) {
-  const auto merged = merge_stores({a, b}, out, kNobodyWatches);
+  const auto merged = merge_stores({a, b}, out, kUnwatched);
   ASSERT_TRUE(merged) << to_string(merged.error());
   const auto reader = open_reader(out);
   ASSERT_EQ(reader->campaigns().size(), 2U);
@@ -229,14 +229,14 @@ TEST_F(MergeTest, EventsNameTheSameThings) {
                              {{"design", std::string("d3")}, {"text", std::string("t")}})});
     store->flush();
   }
-  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
   EXPECT_EQ(cells_of(*open_reader(out), "SELECT text FROM event ORDER BY seq DESC LIMIT 2"),
             (std::vector<Cells>{{R"({"design":"d5","text":"t"})"},
                                 {R"({"evaluation":"c4000007 on pair 6","worker":3})"}}));
 }
 
 TEST_F(MergeTest, RenumbersWhatTheRowsName) {
-  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
   const auto reader = open_reader(out);
   EXPECT_EQ(cells_of(*reader, "SELECT campaign, name, designs FROM v_campaign_status"),
             (std::vector<Cells>{{"1", "campaign 1", "2"}, {"2", "campaign 2", "3"}}));
@@ -263,7 +263,7 @@ TEST_F(MergeTest, RenumbersWhatTheRowsName) {
 }
 
 TEST_F(MergeTest, RealRunsAndTheirCandidatesMoveAndNoneComesTwice) {
-  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
   const auto reader = open_reader(out);
   const auto heads = reader->real_runs();
   ASSERT_EQ(heads.size(), 5U);
@@ -280,7 +280,7 @@ TEST_F(MergeTest, RealRunsAndTheirCandidatesMoveAndNoneComesTwice) {
   write_store(c, campaign_of_all_kinds(3, 2));
   ASSERT_TRUE((*StoreAtRest::open(c, StoreAtRest::IfMissing::Refuse))
                   ->add_real_run(*open_reader(b)->real_run({2})));
-  const auto refused = merge_stores({b, c}, folder / "all.db", kNobodyWatches);
+  const auto refused = merge_stores({b, c}, folder / "all.db", kUnwatched);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("its real run r3 is r2 of the stores before it"));
   EXPECT_FALSE(fs::exists(folder / "all.db"));
@@ -291,10 +291,10 @@ TEST_F(MergeTest, MergedStoresCanBeMergedAndTheOrderDoesNotChangeTheDigest) {
   const fs::path all = folder / "all.db";
   const fs::path other = folder / "other.db";
   write_store(c, campaign_of_all_kinds(3, 1));
-  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
-  const auto one = merge_stores({c, out}, all, kNobodyWatches);
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
+  const auto one = merge_stores({c, out}, all, kUnwatched);
   ASSERT_TRUE(one) << to_string(one.error());
-  const auto two = merge_stores({b, a, c}, other, kNobodyWatches);
+  const auto two = merge_stores({b, a, c}, other, kUnwatched);
   ASSERT_TRUE(two);
   EXPECT_EQ(one->digest, two->digest);
   EXPECT_EQ(open_reader(all)->alone(3)->digest(), digest_of(b));
@@ -314,7 +314,7 @@ TEST_F(MergeTest, ClearsWhatKilledCopiesHaveLeftAndNothingElse) {
     for (const std::string& name : names)
       std::ofstream(folder / name) << "x";
   }
-  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
   for (const std::string& name : left)
     EXPECT_FALSE(fs::exists(folder / name)) << name;
   for (const std::string& name : kept)
@@ -322,7 +322,7 @@ TEST_F(MergeTest, ClearsWhatKilledCopiesHaveLeftAndNothingElse) {
 }
 
 TEST_F(MergeTest, RefusesTheSameCampaignTwice) {
-  const auto merged = merge_stores({a, b, a}, out, kNobodyWatches);
+  const auto merged = merge_stores({a, b, a}, out, kUnwatched);
   ASSERT_FALSE(merged);
   EXPECT_EQ(merged.error().kind, ErrorKind::Conflict);
   EXPECT_THAT(merged.error().message, HasSubstr("a campaign is merged once"));
@@ -333,13 +333,13 @@ TEST_F(MergeTest, TakesUnfinishedCampaignsWithAWarning) {
   SyntheticCampaign unfinished = campaign_of_all_kinds(4, 1);
   unfinished.batches.resize(2);
   write_store(folder / "c.db", unfinished);
-  const auto merged = merge_stores({a, folder / "c.db"}, out, kNobodyWatches);
+  const auto merged = merge_stores({a, folder / "c.db"}, out, kUnwatched);
   ASSERT_TRUE(merged);
   EXPECT_THAT(merged->warnings, testing::Contains(HasSubstr("campaign 4 is not finished")));
 }
 
 TEST_F(MergeTest, AMergedStoreIsNotWrittenByACampaign) {
-  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  ASSERT_TRUE(merge_stores({a, b}, out, kUnwatched));
   const SyntheticCampaign campaign = campaign_of_all_kinds(1, 2);
   const auto store = Store::open(out, campaign.campaign, campaign.designs);
   ASSERT_FALSE(store);

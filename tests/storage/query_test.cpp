@@ -121,7 +121,7 @@ TEST_F(QueryTest, RefusesMistakesWithTheReasonOfSqlite) {
   EXPECT_THAT(query("SELECT 1; SELECT 2").error().message, testing::HasSubstr("one statement"));
 }
 
-/// The text of a statement is no answer to somebody who did not write it.
+/// The text of a statement is not an answer to somebody who did not write it.
 TEST_F(QueryTest, RepeatsAStatementToNobodyButWhoTypedIt) {
   for (const std::string& sql :
        {std::string("SELECT missing FROM v_designs"), std::string("SELECT zeroblob(900000000)"),

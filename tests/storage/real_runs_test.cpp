@@ -119,7 +119,7 @@ TEST_F(RealRunsTest, OtherInputsOfAStoredRunAreRefusedWithTheWayOut) {
 TEST_F(RealRunsTest, OtherLogsOfRobotsAreOtherInputs) {
   RealRunRows rows = synthetic_real_run(1, kWinner);
   added(rows);
-  // What follows from them is no input.
+  // What follows from them is not input.
   rows.logs[0].latency_s = 0.3;
   const auto again = opened()->add_real_run(rows);
   ASSERT_TRUE(again);

@@ -292,7 +292,7 @@ TEST_F(RecoverTest, ALogMayGiveItsPagesAnyNumber) {
 }
 
 TEST_F(RecoverTest, CellsThatAllLeadToOneLongChainAreNotFollowedForEver) {
-  // Leaves full of cells that are one and the same: 2,048,003 bytes, of which 1,003 are here and
+  // Leaves full of cells that are one and the same: 2,048,003 bytes; 1,003 of them are here and
   // the others on the 250 pages that begin at page 301.
   constexpr std::size_t kCells = 600, kAt = 4096;
   std::string leaf(kPage, '\0');

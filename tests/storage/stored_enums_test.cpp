@@ -163,7 +163,7 @@ TEST_F(StoredEnums, AValueThatNoVersionKnowsIsNoValueOfOurs) {
   const auto reader = open_reader(file);
   try {
     reader->scores();
-    FAIL() << "a purpose that nobody knows was read";
+    FAIL() << "an unknown purpose was read";
   } catch (const StoreFailure& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("the purpose 7, which this version does not know"));
   }

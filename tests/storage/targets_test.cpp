@@ -155,7 +155,7 @@ TEST_F(TargetsTest, RowsComeBackAsTheyWereAndReplayGetsTimesAndBounds) {
     for (const Row& written : campaign.batches.front())
       found += same_answer(row, written) ? 1U : 0U;
   }
-  // All but the failure, which is no part of the answer.
+  // All but the failure, which is not part of the answer.
   EXPECT_EQ(found, campaign.batches.front().size() - 1);
   const auto scores = reader->scores();
   ASSERT_EQ(scores.size(), 2U);

@@ -26,7 +26,7 @@ using testing::IsEmpty;
 using testing::Not;
 using Cells = std::vector<std::string>;
 
-const auto kNobodyWatches = [](std::int64_t, std::int64_t) {};
+const auto kUnwatched = [](std::int64_t, std::int64_t) {};
 
 /// A store, and what others do to it with SQLite alone.
 struct OfOthers : testing::Test {
@@ -112,7 +112,7 @@ TEST_P(ForeignTest, IsLeftOutOfACopyThatGoesOn) {
   make_store();
   const std::string digest = digest_of(path);
   change(path, GetParam().sql);
-  const auto made = back_up(path, folder / "copy.db", kNobodyWatches);
+  const auto made = back_up(path, folder / "copy.db", kUnwatched);
   if (std::string_view(GetParam().named).ends_with("missing)") ||
       std::string_view(GetParam().named).ends_with("text missing")) {
     if (!made) {  // a table or a column of ours is gone
@@ -144,7 +144,7 @@ TEST_F(OfOthers, OldStoresAreComparedWithTheTablesOfTheirSchema) {
     campaign.designs.clear();
     change(old, "CREATE TRIGGER t AFTER INSERT ON evaluation BEGIN SELECT 1; END");
     EXPECT_THAT(refusal(old), HasSubstr("trigger t"));
-    const auto made = back_up(old, folder / fmt::format("new-{}.db", schema), kNobodyWatches);
+    const auto made = back_up(old, folder / fmt::format("new-{}.db", schema), kUnwatched);
     ASSERT_TRUE(made) << to_string(made.error());
     EXPECT_EQ(made->digest, digest_of(old));
     change(old, "DROP TRIGGER t");
@@ -252,7 +252,7 @@ TEST_F(OfOthers, EachCommitSaysWhatRowsThereAre) {
     ASSERT_TRUE((*store)->add(imported));
     expect_said("after an import");
   }
-  ASSERT_TRUE(back_up(path, folder / "copy.db", kNobodyWatches));
+  ASSERT_TRUE(back_up(path, folder / "copy.db", kUnwatched));
   ASSERT_TRUE(merge_stores({path}, folder / "merged.db", [](auto, auto) {}));
   for (const char* name : {"copy.db", "merged.db"}) {
     path = folder / name;
@@ -288,7 +288,7 @@ TEST_F(OfOthers, RowsThatOthersChangedAreFoundAndNamed) {
     EXPECT_THAT(said, HasSubstr("rows are not those that were committed"));
     EXPECT_THAT(said, HasSubstr(named));
     EXPECT_THAT(open_reader(path)->integrity(), Not(IsEmpty()));
-    const auto made = back_up(path, folder / "copy.db", kNobodyWatches);
+    const auto made = back_up(path, folder / "copy.db", kUnwatched);
     EXPECT_FALSE(made);
   }
 }

@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// A disk that fails when it is told to: SQLite's default file system while it lives, in front of
+/// A disk that fails when a test says so: SQLite's default file system while it lives, in front of
 /// the real one. Counts what changes a file (writes, syncs, truncations, deletions).
 class FaultyDisk {
  public:
@@ -26,8 +26,8 @@ class FaultyDisk {
   void cut_power_at(std::int64_t n);
   bool power_is_off() const { return off_; }
 
-  /// After a cut, when nobody has a file open: leaves in each file what a disk may hold then, that
-  /// is what was synced, and of the later writes any part. Gives the power back.
+  /// After a cut, when no program has a file open: leaves in each file what a disk may hold then,
+  /// that is what was synced, and of the later writes any part. Gives the power back.
   void restart(Rng& rng);
 
   std::int64_t changes() const { return changes_; }

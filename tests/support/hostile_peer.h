@@ -43,7 +43,7 @@ const char* name_of(Misdeed misdeed);
 /// What an evaluation really gives.
 using Oracle = std::function<Truth(const pb::Task&)>;
 
-/// One peer that is no worker: frames in, frames and hang-ups out, all by its stream of random
+/// One peer that is not a worker: frames in, frames and hang-ups out, all by its stream of random
 /// numbers. It knows the protocol, and how an honest worker introduces itself.
 class HostilePeer {
  public:

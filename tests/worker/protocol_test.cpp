@@ -430,7 +430,7 @@ TEST(ManyWorkers, DoNotComeBackInStep) {
       for (const WorkerAction& action : worker.take_actions()) {
         if (!std::holds_alternative<OpenConnection>(action)) continue;
         ++hellos.back();
-        worker.on_connection_lost(now);  // nobody listens
+        worker.on_connection_lost(now);  // no peer listens
       }
       // The first one was lost with the coordinator.
       if (tick == 0) worker.on_connection_lost(now);

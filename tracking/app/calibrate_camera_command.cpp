@@ -55,7 +55,7 @@ tl::expected<Target, std::vector<Error>> target_of(const CameraArguments& argume
   return target;
 }
 
-/// Boards that were found, with those of videos apart, of which the differing ones are taken.
+/// Boards that were found. Those of videos are apart: of them, only differing ones are taken.
 struct Finds {
   ImageSize size;
   std::vector<BoardView> views;

@@ -26,7 +26,7 @@ namespace {
 
 /// The sidecar beside a video or a folder, if there is one.
 Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& source) {
-  // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name is no ending.
+  // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name begins no ending.
   std::filesystem::path sidecar(file_of_source(source));
   if (sidecar.filename().empty()) sidecar = sidecar.parent_path();
   std::error_code ignored;

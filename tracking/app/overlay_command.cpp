@@ -218,7 +218,7 @@ Expected<std::optional<double>> instant_of(const OverlayArguments& words) {
   const char* const end = words.at.data() + words.at.size();
   const auto read = std::from_chars(words.at.data(), end, value);
   if (read.ec != std::errc{} || read.ptr != end || !std::isfinite(value))
-    return bad_input("\"" + words.at + "\" is no number of seconds", "--at");
+    return bad_input("\"" + words.at + "\" is not a number of seconds", "--at");
   if (!words.out.ends_with(".png")) return bad_input("one picture is a .png", "-o");
   return std::optional<double>(value);
 }

@@ -25,7 +25,7 @@ Expected<double> number_from(const std::string& text, std::string_view option) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && stop == text.data() + text.size() && value > 0) return value;
-  return bad_input("\"" + text + "\" is no positive number", std::string(option));
+  return bad_input("\"" + text + "\" is not a positive number", std::string(option));
 }
 
 enum class Form { Pdf, Svg };

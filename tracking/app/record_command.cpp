@@ -36,7 +36,7 @@ Expected<std::optional<double>> positive(const std::string& text, const char* op
   constexpr double kMost = 1e7;
   if (read.ec != std::errc{} || read.ptr != text.data() + text.size() ||
       !(value > 0 && value <= kMost)) {
-    return bad_input(fmt::format("`{}` is no positive number", text), option);
+    return bad_input(fmt::format("`{}` is not a positive number", text), option);
   }
   return std::optional<double>(value);
 }

@@ -13,7 +13,7 @@
 
 namespace swarmsmith {
 
-/// BadInput for a name that is no .mkv, and for a file that is there.
+/// BadInput for a name that is not a .mkv, and for a file that is there.
 Expected<void> check_recording_name(const std::string& file);
 
 /// The frame times beside the video: columns frame, time_s from the first frame on, and of a camera

@@ -27,7 +27,7 @@ Rig rig_of_run(const Rig& rig, const RunLog& log);
 std::vector<Error> faults_of_rig(const Rig& rig, const Mission& mission,
                                  bool takes_tags_for_centres);
 
-/// Tags that are expected in the picture and are no robots of the run: that of the sync event, and
+/// Tags that are expected in the picture and are not robots of the run: that of the sync event, and
 /// those of robots that stood by.
 std::vector<int> other_tags(const Rig& rig, const RunLog& log);
 

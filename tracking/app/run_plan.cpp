@@ -64,7 +64,7 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   for (std::size_t i = 0; i < count; ++i) {
     RunVideo& video = log.videos[i];
     if (!arguments.videos.empty()) video.file = arguments.videos[i];
-    // `camera:0` and addresses are no files.
+    // `camera:0` and addresses are not files.
     const bool from_here = !arguments.videos.empty() || video.file.find("://") != std::string::npos;
     files.videos.push_back(from_here ? fs::path(video.file) : folder / video.file);
     if (!arguments.times.empty()) {

@@ -78,7 +78,7 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
   return CandidateId{best.integer()};
 }
 
-/// As robots' logs have it; what is no text of the grammar, as of a program, stays as it is.
+/// As robots' logs have it; what is not a text of the grammar, as of a program, stays as it is.
 RanMachine printed_machine(const std::string& text, const std::string& flavour_name) {
   RanMachine machine{text, flavour_name};
   const auto flavour = find_flavour(flavour_name);

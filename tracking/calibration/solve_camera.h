@@ -40,7 +40,7 @@ struct CameraSolution {
 };
 
 /// The intrinsics that explain the views best, by OpenCV's solvers run until they have converged:
-/// up to 300 iterations to a step of 1e-12, from starts without and with a guess, of which the
+/// up to 300 iterations to a step of 1e-12, from starts without and with a guess; the
 /// lowest RMS is kept; the worst view goes, and all is solved again, as long as its RMS is above
 /// three times the median (tracking facts, section 2: the default of 30 iterations gives a wrong
 /// focal length that still looks fine).

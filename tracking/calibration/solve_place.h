@@ -22,8 +22,8 @@ struct SeenTag {
   friend bool operator==(const SeenTag&, const SeenTag&) = default;
 };
 
-/// Medians, corner by corner, of what was seen of each floor tag in several looks; tags that nobody
-/// has surveyed, and those in less than a quarter of the looks, are left out. By tag.
+/// Medians, corner by corner, of what was seen of each floor tag in several looks; tags that were
+/// not surveyed, and those in less than a quarter of the looks, are left out. By tag.
 struct TagLook {
   int tag = 0;
   TagCorners corners{};

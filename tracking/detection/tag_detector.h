@@ -30,7 +30,7 @@ struct PixelBox {
 };
 
 /// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library; codes with more
-/// than one wrong bit are no tags. Not for two threads at once; each makes its own.
+/// than one wrong bit are not tags. Not for two threads at once; each makes its own.
 class TagDetector {
  public:
   /// BadInput for a family that is not among known_tag_families().

@@ -18,7 +18,7 @@ constexpr double kLeastPatience_s = 0.1;
 /// A tag that was too faint for half the resolution is read at full resolution for so long.
 constexpr double kFineFor_s = 1;
 
-/// A speed is known from two sightings that are no further apart.
+/// A speed is known from two sightings at most this far apart.
 constexpr double kSpeedKnownFor_s = 0.5;
 
 double length(const ImagePoint& a, const ImagePoint& b) {

@@ -18,7 +18,7 @@ struct ClockSpan {
 };
 
 /// Frames of one camera that show the picture before once more, as recorders write them that hang,
-/// or that are asked for more frames than the camera has. They are no samples.
+/// or that are asked for more frames than the camera has. They are not samples.
 struct Repeats {
   std::vector<bool> again;        ///< one a frame
   std::size_t count = 0;          ///< of them
@@ -35,9 +35,9 @@ struct Repeats {
 ///   dead in one frame, each after a full step. One robot that does so is doubtful.
 /// Where robots come back, all at once and for three pictures or more, to where they were shortly
 /// before, the recorder repeats a few pictures.
-/// A film in which nothing moves before and after is no repeat: its robots are where it shows them,
-/// but at its end it is doubtful when no corner differs by a thousandth of a pixel any more, and
-/// nothing tells whether the codec hides noise.
+/// A film in which nothing moves before and after is not a repeat: its robots are where it shows
+/// them, but at its end it is doubtful when no corner differs by a thousandth of a pixel any more,
+/// and nothing tells whether the codec hides noise.
 Repeats repeats_of(const Observations& observations, int camera,
                    std::span<const RobotSetup> robots);
 

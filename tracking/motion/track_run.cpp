@@ -219,7 +219,7 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
   if (2 * static_cast<std::size_t>(bad) > samples.samples.size()) {
     return error_of(
         IssueCode::RobotMissing,
-        fmt::format("{} was seen {} times, and in {} of them its tag is no square of {:g} m at "
+        fmt::format("{} was seen {} times, and in {} of them its tag is not a square of {:g} m at "
                     "{:g} m above the floor: it does not lie level, or is bent; mount it flat{}",
                     who, samples.samples.size(), bad, robot.setup.edge_m, robot.setup.height_m,
                     causes),
@@ -282,7 +282,7 @@ void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
   }
 }
 
-/// A frame that was dropped is no gap at 12 frames a second, and five of them are at 30.
+/// A frame that was dropped is not a gap at 12 frames a second, and five of them are at 30.
 TrackOptions for_rate(TrackOptions options, double frame_rate) {
   constexpr double kLeast_s = 0.15;
   constexpr double kJitter = 1.1;

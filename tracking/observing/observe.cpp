@@ -89,7 +89,7 @@ Issue truncated(const std::string& name, const std::string& what) {
   return {IssueCode::VideoTruncated, name + ": " + what, {}, std::nullopt, std::nullopt};
 }
 
-/// What the end of a video says of it: an issue, or an error when it was no video at all.
+/// What the end of a video says of it: an issue, or an error when it was not a video at all.
 Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& broken,
                         CameraObservations& seen) {
   const SourceInfo& info = video.source.info();

@@ -154,10 +154,11 @@ Expected<std::vector<int>> ids_from_text(std::string_view text) {
         dash == std::string_view::npos ? first : number_from(part.substr(dash + 1), part);
     if (!last) return tl::unexpected(last.error());
     if (*last < *first || static_cast<std::size_t>(*last - *first) >= kMostIds) {
-      return bad_input(fmt::format("\"{}\" is no range: it goes from the smaller to the larger id, "
-                                   "over at most {} of them",
-                                   part, kMostIds),
-                       "--ids");
+      return bad_input(
+          fmt::format("\"{}\" is not a range: it goes from the smaller to the larger id, "
+                      "over at most {} of them",
+                      part, kMostIds),
+          "--ids");
     }
     for (int id = *first; id <= *last; ++id) {
       if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);

@@ -21,7 +21,7 @@ struct TagSheetOptions {
 inline constexpr double kLeastPrintedEdge_m = 0.015;
 inline constexpr double kMostPrintedEdge_m = 1;
 
-/// Ids from "1-3,100-105": in that order, each once. BadInput with the part that is no id.
+/// Ids from "1-3,100-105": in that order, each once. BadInput with the part that is not an id.
 Expected<std::vector<int>> ids_from_text(std::string_view text);
 
 /// Pages as SVG in true scale, as many tags on each as fit, on the paper standing or lying. Around

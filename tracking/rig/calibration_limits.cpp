@@ -14,7 +14,7 @@ constexpr double kDegree = kPi / 180;
 /// Collects faults of one kind.
 class Faults {
  public:
-  /// `wrong`: written so that what is no number is wrong.
+  /// `wrong`: written so that what is not a number is wrong.
   void add_if(bool wrong, IssueCode code, std::string text) {
     if (wrong) errors_.push_back(error_of(code, std::move(text), ""));
   }

@@ -34,7 +34,7 @@ constexpr double kBlock_s = 2;
 constexpr std::size_t kLeastIntervals = 50;
 constexpr double kLargestError_s = 0.02;
 constexpr double kLeastSurprise = 10;
-/// A limit that explains more than this is more than chance, though it may be no limit.
+/// A limit that explains more than this is more than chance, though it may not be a limit.
 constexpr double kLeastDoubt = 2;
 /// What is commanded below this over a whole run is standing: metres and radians.
 constexpr double kLeastWay_m = 0.05;
@@ -135,7 +135,7 @@ class Seen {
     }
     if (told > 0) fit.gain = {both[0] / told, both[1] / told};
     fit.left = std::max(seen - both[0] * fit.gain[0] - both[1] * fit.gain[1], kLeastSquares);
-    // A turn to the other side is no agreement; a way to the other side is a heading that is off.
+    // A turn to the other side is not agreement; a way to the other side is a heading that is off.
     const double common = is_turn_ ? both[0] : hypot(both[0], both[1]);
     if (told > 0 && seen > 0) fit.agreement = common / std::sqrt(told * seen);
     return fit;

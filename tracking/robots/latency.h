@@ -33,7 +33,7 @@ inline constexpr double kLeastAgreement = 0.5;
 /// The shift at which the commanded motion explains best what the camera saw: least squares over
 /// the way and the turn between each two samples. Treads follow their commands with a limited
 /// acceleration, of the way and of the turn, which is looked for with it, so that the time they
-/// take to reach a speed is no part of the latency. The way ahead, the way aside and the turn have
+/// take to reach a speed is not part of the latency. The way ahead, the way aside and the turn have
 /// a gain each (treads slip; a heading may be off by a constant angle), and weigh as their own
 /// residuals say. That is the likelihood of normal errors whose variances are not known, and its
 /// curvature gives the standard error; the sandwich over blocks of 2 s takes its place where it is

@@ -118,7 +118,7 @@ class Count {
     for (const auto& [number, block] : blocks_)
       squares += std::pow(block.seen - seen / there * block.there, 2);
     const auto count = static_cast<double>(blocks);
-    // None missed is no proof that none ever will be: one chance in two is taken for a miss.
+    // None missed does not prove that none ever will be: one chance in two is taken for a miss.
     const double least =
         std::sqrt((seen + 0.5) * (there - seen + 0.5)) / (there + 1) / std::sqrt(there);
     result.error = std::max(std::sqrt(squares * count / (count - 1)) / there, least);

@@ -24,7 +24,7 @@ JsonObject gain_json(const Gain& gain) {
 }  // namespace
 
 std::string reality_text(const Reality& reality) {
-  std::string text = fmt::format("of what its treads are told it drives {} and turns {}",
+  std::string text = fmt::format("of what is commanded it drives {} and turns {}",
                                  gain_text(reality.slip.way), gain_text(reality.slip.turn));
   const NeighboursSeen& neighbours = reality.neighbours;
   if (neighbours.is_told()) {

@@ -177,11 +177,11 @@ class Judge {
     const Gain& way = reality.slip.way;
     if (way.gain && way.is_against) {
       add(IssueCode::TagTurned, known,
-          "its camera sees it drive back where its treads are told to drive ahead; is its tag "
+          "its camera sees it drive back where it is commanded to drive ahead; is its tag "
           "turned by 180 degrees since it was calibrated, or do its treads turn the wrong way?");
     } else if (is_off(way)) {
       add(IssueCode::MotionUnlikeLog, known,
-          fmt::format("it drives {:.0f} % of the way that its treads are told ({:.0f} to {:.0f} % "
+          fmt::format("it drives {:.0f} % of the way that is commanded ({:.0f} to {:.0f} % "
                       "are usual); is its driver's scale right?",
                       100 * *way.gain, 100 * (1 - kWayOff), 100 * (1 + kWayOff)));
     }

@@ -83,7 +83,7 @@ function Connection() {
   const again_s = next_try ? Math.ceil((next_try.getTime() - Date.now()) / 1000) : 0;
   const command = `swarmsmith dashboard ${live?.campaigns.map((one) => shell_word(one.store)).join(" ") ?? "STORE"}`;
   if (live && failure.unreachable && !live.campaigns.some((one) => one.state === "running"))
-    return <p class="banner" role="status">{live.campaigns.every((one) => one.state === "finished") ? "Finished" : "Nothing runs any more"}, and the process that served this page has ended. See it again: <code>{command}</code></p>;
+    return <p class="banner" role="status">{live.campaigns.every((one) => one.state === "finished") ? "Finished" : "No campaign is running"}, and the process that served this page has ended. To open it again, run: <code>{command}</code></p>;
   return <p class="banner warn" role="status">{failure.unreachable
     ? `No answer since ${at ? clock(at) : "the page was opened"}, trying again ${again_s > 0 ? `in ${again_s} s` : "now"}. The numbers below are old. If the process has ended, the command that began it goes on where it was, and this shows what there is: ${command}`
     : `${failure.where && failure.where + ": "}${failure.message}`}</p>;

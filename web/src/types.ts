@@ -153,7 +153,7 @@ export interface Event {
 
 export interface Race {
   iteration: number;
-  /// "Race 4", "Generation 4"; and why it is no race.
+  /// "Race 4", "Generation 4"; and why it is not a race.
   title: string;
   note: string;
   ended: boolean;

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// Swarms up to this size are told apart robot by robot.
+/// Swarms up to this size show each robot apart.
 inline constexpr std::size_t kMostNamedRobots = 8;
 
 /// The whole picture, with its texts.

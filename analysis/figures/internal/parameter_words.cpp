@@ -16,7 +16,7 @@ bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
 }
 
-/// "0" stays, "0x1" becomes "0.1"; nothing for what is no place.
+/// "0" stays, "0x1" becomes "0.1"; nothing for what is not a place.
 std::optional<std::string> place_in(std::string_view text) {
   std::string place(text);
   const std::size_t cross = place.find('x');

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// A laid out tree as shapes. Colours and dashes go by the subtree.
+/// A laid out tree as shapes. Colours and dashes follow the subtree.
 Sketch sketch_of(const TreeLayout& layout);
 
 std::string dot_of(const TreeLayout& layout, std::string_view title);

@@ -5,7 +5,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A report has a dozen of them at most for each design, and should go by mail.
+/// A report has a dozen of them at most for each design, and should fit in a mail.
 constexpr std::size_t kMostFigureBytes = 300'000;
 
 /// How a person draws the same figure.

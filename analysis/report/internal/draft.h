@@ -41,7 +41,7 @@ class ReportDraft {
   void table(const std::string& caption, const std::vector<ViewColumn>& columns,
              const std::string& sql, std::size_t most = 200);
   void facts(std::string_view caption, const std::string& sql);
-  /// The figure of this kind. One of a kind that this program lacks, that does not apply, or of
+  /// The figure of this kind. One of a kind that this program lacks, that does not apply, or for
   /// which the store has nothing, is left out; one that would fill the report is replaced by the
   /// command that draws it.
   void figure(std::string_view kind, const FigureOptions& options, std::string_view caption);

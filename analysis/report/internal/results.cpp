@@ -26,7 +26,7 @@ struct ScoreGroup {
   std::vector<double> values;
 };
 
-/// Mission, method, whether it is no test, source, purpose: the world that designs were made in
+/// Mission, method, whether it is not a test, source, purpose: the world that designs were made in
 /// comes before the others.
 using Key = std::tuple<std::string, std::string, bool, std::string, std::string>;
 

@@ -143,7 +143,7 @@ void read_numbers(TableReader& table, Method& method) {
     if (kind == SearchKind::Irace) {
       if (table.has(name)) {
         table.take(name);
-        table.complain(name, "[method.irace] has no keys: what irace goes by is in [race]");
+        table.complain(name, "[method.irace] has no keys: irace's settings are in [race]");
       }
       continue;
     }

@@ -115,7 +115,7 @@ std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& mo
   const std::string name = module.id + "." + parameter.name;
   if (entry.has(other)) {
     entry.take(other);
-    entry.complain(other, name + " is no " + other + " parameter; write { " + type + " = [...] }");
+    entry.complain(other, name + " is not of type " + other + "; write { " + type + " = [...] }");
   }
   if (entry.has("digits")) {
     entry.take("digits");

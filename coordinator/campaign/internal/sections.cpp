@@ -90,7 +90,7 @@ SectionLine choice_line(std::string_view key, const std::vector<std::string>& na
   return {std::string(key), quoted_text(names.at(static_cast<std::size_t>(value)))};
 }
 
-/// What only races go by.
+/// What only races use.
 void add_race_options(const Scenario& race, Section& section) {
   for (const IntegerOption& option : kIntegerOptions) {
     if (option.member != &Scenario::max_experiments)

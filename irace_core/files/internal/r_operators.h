@@ -14,7 +14,7 @@ struct Spelling {
   int binding = 0;  ///< larger binds more tightly; 0 for functions
 };
 
-/// Bindings of what is no binary operator.
+/// Bindings of operators that are not binary.
 inline constexpr int kBindingOfNot = 3;
 inline constexpr int kBindingOfSign = 9;
 inline constexpr int kBindingOfPower = 10;

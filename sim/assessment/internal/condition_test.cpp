@@ -45,7 +45,7 @@ Arena arena_with_stripes(const std::vector<LabelSpec>& labels) {
   return arena;
 }
 
-/// In degrees from red, for a colour that is no gray: sixths of a turn between the corners of the
+/// In degrees from red, for a colour that is not gray: sixths of a turn between the corners of the
 /// hexagon of full colours.
 double hue_of(Rgb color, int largest, int spread) {
   const auto slope = [&](int a, int b) {

@@ -77,7 +77,7 @@ class Block {
   std::optional<Field> take(std::string_view stem);
   /// Takes a field that must be there.
   Expected<Field> need(std::string_view stem);
-  /// Complains about a field that nobody took; `owner` is the module that has no use for it.
+  /// Complains about a field that was not taken; `owner` is the module that has no use for it.
   std::optional<Error> check_empty(std::string_view owner) const;
 
  private:

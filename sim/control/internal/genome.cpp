@@ -132,7 +132,7 @@ class GenomeReader {
                                           " with the bias"));
     }
     if (!has_bias_)
-      return Unexpected(error_at(end, "the last input of the genome is no bias, as that of rm1.2"));
+      return Unexpected(error_at(end, "the last input of the genome is not a bias, as in rm1.2"));
     if (outputs_.size() != kWheels)
       return Unexpected(error_at(end, "a genome has 2 outputs, the left wheel and the right one"));
     network.weights.resize(kWheels * count);

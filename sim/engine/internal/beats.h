@@ -9,7 +9,7 @@
 namespace swarmsmith {
 
 /// The sub-steps at which a device of a robot does something of its own accord: regular ones, from
-/// a first one that is drawn for robot and run, since nobody switches all devices on at once.
+/// a first one that is drawn for robot and run, since devices are not all switched on at once.
 class Beats {
  public:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();

@@ -7,8 +7,8 @@
 
 namespace swarmsmith {
 
-/// The part of a line p + t d that lies in a closed convex set: t from `from` to `to`. Whoever only
-/// touches the set has a stretch of one point.
+/// The part of a line p + t d that lies in a closed convex set: t from `from` to `to`. A line that
+/// only touches the set has a stretch of one point.
 struct Stretch {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();

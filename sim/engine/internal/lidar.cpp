@@ -267,7 +267,7 @@ class Scanner {
   }
 
   /// Other robots, RVRs: body(i) for i from 0 to `many` - 1. A few dozen are worked out before any
-  /// of them is met. How many rays meet a robot is what nobody can guess, and a wrong guess would
+  /// of them is met. How many rays meet a robot cannot be guessed, and a wrong guess would
   /// throw away what was begun of the next one's corners.
   template <class Bodies>
   void meet_robots(int many, const Bodies& body) {
@@ -414,7 +414,7 @@ class Scanner {
         store_two(meet_one(before, load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)),
                   ranges_ + i);
       };
-      // By itself in any case, since nobody can guess whether it has a partner.
+      // By itself in any case, since it cannot be guessed whether it has a partner.
       const Two last_met =
           meet_one(both(border - last), both(x_[last]), both(y_[last]), both(ranges_[last]));
       Two before = border - first - Two{0, 1};

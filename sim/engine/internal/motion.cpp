@@ -18,7 +18,7 @@ void rotate(Body& body, double cosine, double sine) {
   body.sin = s * scale;
 }
 
-/// |angle| up to 1/16, a sub-step's: sine to x^7, cosine to x^8; what is left out is below 4e-17.
+/// |angle| up to 1/16, a sub-step's: sine to x^7, cosine to x^8; the omitted terms are below 4e-17.
 void turn_slightly(Body& body, double angle_rad) {
   const double s = angle_rad * angle_rad;
   const double sine = angle_rad * (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040))));
@@ -26,7 +26,7 @@ void turn_slightly(Body& body, double angle_rad) {
   rotate(body, cosine, sine);
 }
 
-/// |angle| up to 0.5: sine to x^11, cosine to x^12; what is left out is below 3e-14.
+/// |angle| up to 0.5: sine to x^11, cosine to x^12; the omitted terms are below 3e-14.
 void turn_part(Body& body, double angle_rad) {
   const double s = angle_rad * angle_rad;
   const double sine =
@@ -114,8 +114,8 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps,
   if (dx != 0 || dy != 0) {
     const double distance = std::sqrt(dx * dx + dy * dy);
     if (distance == 0) {
-      // Below 1e-162 m/s the square is 0, and the quotients below are no numbers. Robots that
-      // pressed and then stand come there: in contact, what is left of their speeds shrinks by a
+      // Below 1e-162 m/s the square is 0, and the quotients below are not numbers. Robots that
+      // pressed and then stand come there: in contact, the rest of their speeds shrinks by a
       // factor in each sub-step, until Reach takes them for standing and they are free.
       body.vx = set_point.vx;
       body.vy = set_point.vy;

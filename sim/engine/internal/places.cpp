@@ -30,7 +30,7 @@ void Places::update(std::span<const Mover> movers) {
   list_near();
 }
 
-/// Not, with a place that is no number.
+/// Not with a place that is not a number.
 bool Places::is_valid(std::span<const Mover> movers) const {
   bool valid = !made_at_.empty();
   for (std::size_t i = 0; i < made_at_.size(); ++i) {
@@ -59,7 +59,7 @@ void Places::sort_into_cells() {
 
 void Places::list_near() {
   constexpr double kReach_m = kListed_m + kSkin_m + kSlack_m;
-  // Each is written, and counted where it is near: which are near nobody can guess.
+  // Each is written, and counted where it is near: which are near cannot be guessed.
   std::size_t count = 0;
   for (std::size_t i = 0; i < made_at_.size(); ++i) {
     list_[i] = count;
@@ -77,7 +77,7 @@ void Places::list_near() {
   }
   list_.back() = count;
   if (near_.size() < count) near_.resize(found_.size());
-  // Whom it has on its list has it on theirs. So each is added to the lists of the others, which
+  // Those on its list have it on theirs. So each is added to the lists of the others, which
   // are ascending then without being sorted.
   std::copy(list_.begin(), list_.end() - 1, end_.begin());
   for (std::size_t i = 0; i < made_at_.size(); ++i) {

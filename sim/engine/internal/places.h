@@ -15,7 +15,7 @@ inline double distance2_of(const Body& a, const Body& b) {
   return dx * dx + dy * dy;
 }
 
-/// Where all movers are, for whoever asks what is near a place. A few are looked at one by one. Of
+/// Where all movers are, to find what is near a place. A few are looked at one by one. Of
 /// more, each has a list of those near it (Verlet, "Computer experiments on classical fluids I",
 /// Phys. Rev. 159, 1967): it reaches a little further than is asked for, and holds until somebody
 /// has moved half as far. Lists are made through a grid, so that their price is what is near and
@@ -100,7 +100,7 @@ class Places {
 
   std::size_t column_of(double x) const { return cell_of((x - left_m_) / cell_m_, columns_); }
   std::size_t row_of(double y) const { return cell_of((y - bottom_m_) / cell_m_, rows_); }
-  /// Also what is no number lies in a cell.
+  /// NaN is put into the first cell.
   static std::size_t cell_of(double place, std::size_t cells) {
     if (!(place >= 1)) return 0;
     return place < static_cast<double>(cells) ? static_cast<std::size_t>(place) : cells - 1;

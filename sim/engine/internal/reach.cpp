@@ -119,7 +119,7 @@ bool Reach::join_pairs(const Swarm& swarm) {
   const bool anew = grouped_.empty();
   bool joined = false;
   for (const Pair& pair : near_) {
-    // Whom no group has made faster reaches what it did in the round before.
+    // A robot that no group has made faster reaches what it did in the round before.
     if (!anew && !in_group_[pair.a] && !in_group_[pair.b]) continue;
     const std::size_t a = root(pair.a);
     const std::size_t b = root(pair.b);

@@ -15,7 +15,7 @@ namespace swarmsmith {
 namespace {
 
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
-  // As a whole number first: on black and on white floors nobody could guess the way of a branch.
+  // As a whole number first: on black and on white floors the way of a branch cannot be guessed.
   const double raised = value + noise + 0.5;
   return static_cast<std::uint8_t>(std::clamp(static_cast<int>(raised), 0, 255));
 }

@@ -8,7 +8,7 @@ namespace swarmsmith {
 
 /// Two numbers that are worked on at once: + - * / and comparisons act on each, `a < b ? c : d`
 /// selects in each. For loops that the compiler, left to itself, takes one by one and with branches
-/// of which nobody knows where they go. Each has the bits that it would have alone.
+/// that cannot be predicted. Each has the bits that it would have alone.
 using Two [[gnu::vector_size(16)]] = double;
 
 inline Two both(double x) {

@@ -104,7 +104,7 @@ std::string rectangle_text(const Rectangle& shape) {
          ", width = " + number_text(shape.width_m) + ", height = " + number_text(shape.height_m);
 }
 
-/// The thesis' walls go by their name; others by their corners, whatever they were told as.
+/// The thesis' walls are written by name; others by their corners, however they were given.
 std::vector<SectionLine> arena_lines(const Mission& mission) {
   const Arena& arena = mission.arena;
   std::vector<SectionLine> lines;

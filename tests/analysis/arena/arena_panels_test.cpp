@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Runs of three robots in a square of 2 m, of which the second does the longest things.
+/// Runs of three robots in a square of 2 m, where the second one does the longest things.
 ArenaPanels four_runs(double width_mm) {
   ArenaPanels panels{.title = "push", .details = {"c12"}, .pictures = {}, .width_mm = width_mm};
   for (const char* seed : {"seed 1", "seed 1138953375", "seed 3", "seed 4"}) {

@@ -7,7 +7,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Ten designs of each of two methods, the first of which is clearly better.
+/// Ten designs of each of two methods; the first one is clearly better.
 std::vector<Scored> of_two_methods(double lead) {
   std::vector<Scored> designs;
   for (int i = 1; i <= 10; ++i) {

@@ -137,7 +137,7 @@ TEST(RacePlot, SaysWhatTheMarkersMeanThatOccur) {
   const DrawnPage page = drawn_page(draw(random_race(20, 15, 84)));
   EXPECT_TRUE(page.has_text("x  no test"));
   EXPECT_TRUE(page.has_text("-  some dropped"));
-  EXPECT_FALSE(page.has_text(".  nobody had to run"));
+  EXPECT_FALSE(page.has_text(".  none had to run"));
   EXPECT_EQ(std::ranges::count(page.texts, "x", &DrawnPage::Text::text), 4);
   EXPECT_TRUE(page.has_text("alive"));
   EXPECT_TRUE(page.has_text("20"));
@@ -179,7 +179,7 @@ TEST(RacePlot, TextsStandClearOfEachOtherAtEverySize) {
 
 TEST(RacePlot, LargeRacesStaySmallFiles) {
   EXPECT_LT(draw(random_race(400, 200, 174)).size(), 200'000U);
-  // Nobody dropped and no two neighbours alike: steps share cells, and the figure says so.
+  // None dropped and no two neighbours alike: steps share cells, and the figure says so.
   const std::string worst = draw(random_race(400, 200, 174, false));
   EXPECT_LT(worst.size(), 200'000U);
   EXPECT_THAT(worst, HasSubstr("cells: mean rank of"));

@@ -50,7 +50,7 @@ TEST(ScoreBins, OfOthersAreRoundAndHoldEveryValue) {
     EXPECT_GE(value, low);
     EXPECT_LT(value, low + bins.width);
   }
-  // Ends of bins belong to the bin above, also where the width is no binary fraction.
+  // Ends of bins belong to the bin above, also where the width is not a binary fraction.
   const ScoreBins tenths = score_bins({0, 0.1, 0.2, 0.3, 0.4, 0.5});
   EXPECT_EQ(tenths.bin_of(0.3), static_cast<std::size_t>(0.3 / tenths.width + 0.5));
   EXPECT_EQ(score_bins({0.5, 0.5}).count, 1U);

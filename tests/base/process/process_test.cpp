@@ -29,7 +29,7 @@ ProcessCall hostile(std::vector<std::string> words) {
       .words = std::move(words), .term_grace = milliseconds(50), .pipe_grace = milliseconds(50)};
 }
 
-/// Gone, or about to be reaped by whoever is its parent now.
+/// Gone, or about to be reaped by its parent of now.
 bool is_dead(pid_t pid) {
   std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
   std::string text;

@@ -197,7 +197,7 @@ TEST(TurnstileTest, SomePassSomeWaitOthersAreTurnedAway) {
     const auto pass = turnstile.enter();
     inside = pass.has_value();
   });
-  // Whoever waits takes the only place of those who wait: from then on all others are refused.
+  // This one takes the only place to wait: from then on all others are refused.
   while (turnstile.waiting() == 0)
     std::this_thread::yield();
   EXPECT_FALSE(turnstile.enter().has_value());

@@ -102,7 +102,7 @@ TEST_F(DashboardTest, WhatTakesLongIsToldAndFetchedFromTheSameAddress) {
     EXPECT_THAT(body_of(answer), HasSubstr("design")) << answer;
   }
   EXPECT_GT(told, 0);
-  // What is wrong with a question is told in the same way.
+  // What is wrong with a question is said in the same way.
   std::string wrong = get("/api/v1/c1/designs/d77/race");
   while (wrong.starts_with("HTTP/1.1 202"))
     wrong = get("/api/v1/c1/designs/d77/race");

@@ -28,7 +28,7 @@ json told(const History& history, double after_s) {
 TEST(HistoryTest, AfterATimeThatWasToldComesOnlyWhatIsLater) {
   History history;
   LiveStatus status;
-  // Times are told in milliseconds, and taken more exactly.
+  // Answers have times in milliseconds; they are taken more exactly.
   for (const double time : {1000.0004, 1001.0004, 1002.0004}) {
     status.done += 10;
     history.add(status, at(time));

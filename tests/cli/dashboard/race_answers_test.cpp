@@ -58,7 +58,7 @@ TEST_F(RaceAnswersTest, WhoWasDroppedHasNoFurtherScores) {
       if (dropped.is_null() || dropped.get<int>() > race["steps"][s].get<int>()) ++left;
       EXPECT_EQ(dropped.is_null(), race["reasons"][i].is_null());
     }
-    // At the end of the race those who are no elites go, too.
+    // At the end of the race all but the elites go, too.
     if (s + 1 < race["steps"].size()) {
       EXPECT_EQ(left, race["alive"][s].get<std::size_t>());
     }

@@ -46,7 +46,7 @@ inline RaceStepRow ant_step(std::int64_t step, std::int64_t iteration, std::int6
   return row;
 }
 
-/// A run of two races, of which the second one has begun.
+/// A run of two races; the second one has begun.
 inline std::vector<Row> ant_rows() {
   const IterationRow first{.design = kOne, .number = 1, .of = 2, .budget = 10, .configurations = 3};
   IterationRow second = first;

@@ -172,7 +172,7 @@ const Mistake kMistakes[] = {
      "exploration has no parameter `tua` (did you mean \"tau\"?)"},
     {"RangeOfOtherType",
      {.method = "name = \"m\"\nparameters.exploration.tau = { real = [1, 2] }\n"},
-     "in/x.toml:7:39: exploration.tau is no real parameter; write { int = [...] }"},
+     "in/x.toml:7:39: exploration.tau is not of type real; write { int = [...] }"},
     {"RangeUpsideDown",
      {.method = "name = \"m\"\nparameters.exploration.tau = { int = [9, 2] }\n"},
      "in/x.toml:7:38: exploration.tau: the range's lower end must be below its upper end"},

@@ -62,7 +62,7 @@ TEST(CampaignFile, ReadsFurtherProfilesOfTheTests) {
   FileText file;
   file.rest = "[tests]\nprofiles = [\"rvr\", \"pseudo-reality\", \"argos3\"]\n";
   const Campaign campaign = parsed(file.text());
-  ASSERT_THAT(campaign.test_profiles, SizeIs(2)) << "its own is no further one";
+  ASSERT_THAT(campaign.test_profiles, SizeIs(2)) << "its own is not a further one";
   EXPECT_EQ(campaign.test_profiles[0], *built_in_profile("pseudo-reality"));
   EXPECT_EQ(campaign.test_profiles[1], *built_in_profile("argos3"));
   EXPECT_NE(campaign_digest(campaign), campaign_digest(parsed(plain.text())));

@@ -40,7 +40,7 @@ std::vector<DesignPlan> one_design() {
   return batched(plans(campaign_with("max_experiments = 600", "", "test = [\"t1\", \"t2\"]")));
 }
 
-/// Wherever it comes, with whatever in flight: what is left is a function of the step.
+/// Wherever it comes, with whatever in flight: the rest is a function of the step.
 TEST(Cancel, LeavesWhatTheStepsHaveUsed) {
   Rng rng(3);
   int cut = 0;

@@ -9,7 +9,7 @@
 
 namespace swarmsmith {
 
-/// Slots that take tasks in any order, idle now and then, and are told then what may be wanted
+/// Slots that take tasks in any order, idle now and then, and hear then what may be wanted
 /// later. What is dropped has been begun already in half of the cases.
 class IdlePool {
  public:
@@ -20,7 +20,7 @@ class IdlePool {
   IdlePool& operator=(const IdlePool&) = delete;
   ~IdlePool() { take(); }
 
-  /// Runs one task; false when there is none, or all is finished and nobody waits any more.
+  /// Runs one task; false when there is none, or all is finished and nothing waits any more.
   bool step() {
     take();
     if (held_.empty() || (runner_.finished() && rng_.bernoulli(0.2))) return false;

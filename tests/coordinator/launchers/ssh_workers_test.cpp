@@ -64,7 +64,7 @@ TEST_F(Ssh, WorkersRunUntilTheirInputEnds) {
   EXPECT_EQ(starts(), 2);
 }
 
-/// A process that runs is no worker yet, and one that lost its coordinator is none any more.
+/// A process that runs is not a worker yet, and one that lost its coordinator is none any more.
 TEST_F(Ssh, WorkersCountWhenTheyAreConnected) {
   const std::string log = (folder / "log").string();
   const std::string go = (folder / "go").string();

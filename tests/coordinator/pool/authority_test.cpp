@@ -274,7 +274,7 @@ TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
                        .worker = worker};
   };
   const std::vector<StoredScore> known{stored(1, 1), stored(2, 1), stored(3, 2)};
-  // The second one was made again, and nobody knows whose the third one is.
+  // The second one was made again, and whose the third one is is not known.
   const std::deque<StoredWord> words =
       scheduler.know(0, known, {.principals = {{1, "10.0.0.1"}}, .audited = {unpack(key(2))}});
   ASSERT_EQ(words.size(), 1U);
@@ -317,7 +317,7 @@ TEST_F(Authority, MakesTheFirstResultsAgainMoreOften) {
   EXPECT_LT(ruled - audited, 40U);
 }
 
-// --- nobody's word rejects an evaluation of the simulator ---
+// --- no worker's word rejects an evaluation of the simulator ---
 
 TEST_F(Authority, BringsARejectionBeforeTheReferee) {
   hello(1);
@@ -406,7 +406,7 @@ TEST_F(Authority, StopsWhereTheRefereeCannotSay) {
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
 }
 
-// --- trust goes by key and address ---
+// --- trust is by key and address ---
 
 TEST_F(Authority, KeepsALiarInQuarantineUnderEveryId) {
   enter(1, "10.0.0.1", 1, 1, "node");
@@ -467,7 +467,7 @@ TEST_F(Authority, TellsAWorkerThatItIsInQuarantineAndWhenThatIsOver) {
   EXPECT_EQ(all<SendNotice>().size(), 2U);
   EXPECT_EQ(all<WorkerChanged>().back().row.state, WorkerState::Connected);
   EXPECT_EQ(std::ranges::count(kinds(), "workers forgiven"), 1);
-  // It works again as one that nobody knows: the referee makes its first results again.
+  // It works again as an unknown one: the referee makes its first results again.
   credit(1, 1);
   ASSERT_GT(given[1].size(), before);
   const std::size_t accepted = all<OutcomeAccepted>().size();
@@ -513,7 +513,7 @@ TEST_F(Authority, BelievesNothingOfAnEarlierProcessThatMayHaveBeenTheLiar) {
   want(5, 1);
   answer(1, 5);
   if (asked()) rule_score(5);
-  // A result of it that nobody made again; then it leaves, and one comes that lies.
+  // A result of it that was not made again; then it leaves, and one comes that lies.
   for (std::int64_t i = 6; i < 60; ++i) {
     credit(1, 1);
     want(i, 1);

@@ -78,7 +78,7 @@ TEST_F(Queues, PreferWhoIsNextToABarrier) {
   want(2, 3);
   EXPECT_EQ(lease(0).design, 1);
   EXPECT_EQ(lease(2).design, 2) << "its turn";
-  EXPECT_EQ(lease(2).design, 2) << "what is left of it fits, and it had no more than the other";
+  EXPECT_EQ(lease(2).design, 2) << "the rest of it fits, and it had no more than the other";
   EXPECT_EQ(lease(1).design, 1) << "now it had more, and nothing is lent";
   EXPECT_EQ(lease(1, 100, 1000).design, 2);
 }

@@ -87,7 +87,7 @@ TEST_F(IdleSlots, CountTheSlotThatStillRunsTheOtherCopy) {
   make_straggler();
   answer(2, 1, 2.5, "", 2);
   want(2, 3);
-  EXPECT_EQ(given[1], Candidates{1}) << "its only slot is busy with what nobody needs";
+  EXPECT_EQ(given[1], Candidates{1}) << "its only slot is busy with what is not needed";
   EXPECT_EQ(given[2], (Candidates{1, 2}));
   answer(1, 1, 2.5);
   EXPECT_EQ(given[1], (Candidates{1, 3}));

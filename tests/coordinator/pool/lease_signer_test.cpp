@@ -55,7 +55,7 @@ TEST(LeaseSigner, MakesSecretsThatDiffer) {
   EXPECT_NE(random_secret(), random_secret());
   EXPECT_TRUE(same_secret("ab", "ab"));
   EXPECT_FALSE(same_secret("ab", "ac"));
-  EXPECT_FALSE(same_secret("", "")) << "no secret is nobody's";
+  EXPECT_FALSE(same_secret("", "")) << "an empty secret fits none";
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ TEST_F(ProgramSchedulers, RunAgainWhatALostWorkerHad) {
   scheduler.on_unreachable(2, now);
   hello(3, 2);
   credit(3, 4);
-  EXPECT_EQ(given[3].size(), 1U);  // twice is no accident any more
+  EXPECT_EQ(given[3].size(), 1U);  // twice is not an accident any more
 }
 
 TEST_F(ProgramSchedulers, RejectWhatFailedOnce) {
@@ -170,7 +170,7 @@ TEST_F(Schedulers, KeepEveryFailureOfTheSimulatorToo) {
   ASSERT_EQ(all<FailureKept>().size(), 2U);
   EXPECT_EQ(all<FailureKept>()[0].row.worker, 1);
   EXPECT_EQ(all<FailureKept>()[1].row.reason, "not a number");
-  EXPECT_EQ(all<FailureKept>()[1].row.worker, 0) << "the referee is no worker";
+  EXPECT_EQ(all<FailureKept>()[1].row.worker, 0) << "the referee is not a worker";
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST_F(Schedulers, AskTheRefereeAfterADeathAlone) {
   ASSERT_EQ(asked(), key(1));
   hello(3);
   credit(3, 10);
-  EXPECT_TRUE(given[3].empty()) << "nobody else gets it meanwhile";
+  EXPECT_TRUE(given[3].empty()) << "no other worker gets it meanwhile";
   rule_rejected(1);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
@@ -169,7 +169,7 @@ TEST_F(Schedulers, TakeTheRefereesScoreWhereAWorkerDiedByAccident) {
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.measured.score, 4.5);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 0);
-  EXPECT_EQ(scheduler.counters().quarantined, 0U) << "a death is no lie";
+  EXPECT_EQ(scheduler.counters().quarantined, 0U) << "a death is not a lie";
 }
 
 TEST_F(Schedulers, CountNoDeathOfAWorkerThatDidNotBegin) {

@@ -65,7 +65,7 @@ class Schedulers : public ::testing::Test {
   void rule_rejected(std::int64_t candidate) {
     rule({.key = key(candidate), .kind = Ruling::Kind::Rejected, .reason = "not a number"});
   }
-  /// An evaluation of which a worker says the truth while the referee says the same.
+  /// An evaluation about which a worker says the truth while the referee says the same.
   void prove(PeerId peer, std::int64_t first) {
     for (std::int64_t candidate = first; candidate < first + 2; ++candidate) {
       credit(peer, 1);

@@ -134,9 +134,9 @@ TEST(ScoreImport, NamesEveryBadRowByItsLine) {
                   "r.csv:10: the row has no score", HasSubstr("r.csv:11: the row names no design"),
                   "r.csv:12: column design wants d3 or 3, not `x`",
                   "r.csv:13: the score 1e305 is beyond 1e300, where sums of scores are infinite"));
-  ScoreImport nobody = known_store();
-  nobody.source.clear();
-  EXPECT_THAT(complaints("design,score\n1,1\n", nobody),
+  ScoreImport without_source = known_store();
+  without_source.source.clear();
+  EXPECT_THAT(complaints("design,score\n1,1\n", without_source),
               ElementsAre(HasSubstr("does not say who made the score")));
   EXPECT_THAT(complaints("design\n1\n"), ElementsAre("r.csv: there is no column score (or cost)"));
 }

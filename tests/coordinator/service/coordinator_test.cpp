@@ -210,7 +210,7 @@ TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {
   hello();
   say(command(pb::Command::KIND_PAUSE, 0), 5);
   EXPECT_EQ(coordinator.paused().size(), static_cast<std::size_t>(shape.designs));
-  // A person is told that nothing will happen by itself.
+  // A person hears that nothing will happen by itself.
   EXPECT_TRUE(std::holds_alternative<EventRow>(rows.back()));
   answer();
   coordinator.on_committed(0, ticket);

@@ -113,7 +113,7 @@ TEST(HttpServerTest, ARequestWithTwoMeaningsIsRefused) {
       StartsWith("HTTP/1.1 200"));
 }
 
-/// Of a site that computes for whoever asks.
+/// Of a site that computes for any client.
 class Computing final : public HttpSite {
  public:
   bool is_open(std::string_view) const override { return false; }

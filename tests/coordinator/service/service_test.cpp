@@ -240,7 +240,7 @@ TEST_F(SecureServices, LetAKeyDoWhatItsRoleAllowsAndNothingElse) {
     worker_key->send(encode(command));
     worker_key->send(encode(question));
     ASSERT_TRUE(eventually([&] { return malformed.load() == 4; })) << malformed.load();
-    // Each is told why.
+    // Each gets the reason.
     std::string frame;
     google::protobuf::Arena arena;
     for (ClientSocket* peer : {reader.get(), worker_key.get()}) {

@@ -84,11 +84,12 @@ TEST(IraceCommandLine, OurOwnOptionsAreFoundByTheirSwitches) {
 TEST(IraceCommandLine, EverythingWrongIsReportedTogether) {
   EXPECT_THAT(
       errors_of({"--max-experiment", "5", "6", "--seed", "x", "--elitist"}),
-      ElementsAre("--max-experiment: is no option (did you mean \"--max-experiments\"?); --help "
-                  "lists all of them",
-                  HasSubstr("6: is not an option and belongs to none"),
-                  "--seed: must be a whole number, 0 or more, found \"x\"",
-                  "--elitist: needs a value after it"));
+      ElementsAre(
+          "--max-experiment: is not an option (did you mean \"--max-experiments\"?); --help "
+          "lists all of them",
+          HasSubstr("6: is not an option and belongs to none"),
+          "--seed: must be a whole number, 0 or more, found \"x\"",
+          "--elitist: needs a value after it"));
 }
 
 TEST(IraceCommandLine, NamesOfScenarioFilesLeadToSwitches) {

@@ -16,7 +16,7 @@ class RandomExpressions {
 
   /// Any tree of at most that depth.
   Expression any(int depth);
-  /// One that a bound may have: arithmetic over `names`, at least one of which occurs.
+  /// One that a bound may have: arithmetic over `names`; at least one of them occurs.
   Expression bound(int depth);
 
  private:

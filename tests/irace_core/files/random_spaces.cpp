@@ -75,7 +75,7 @@ ParameterSpace random_space(Rng& rng) {
     Parameter parameter{kNames[i], pick(rng, kSwitches), random_domain(rng, digits, numeric), {}};
     if (i == 0) parameter.domain = Integer{1.0, 4.0};
     if (!names.empty() && below(rng, 2) == 0) {
-      // A constant that is neither TRUE nor FALSE is no condition.
+      // A constant that is neither TRUE nor FALSE is not a condition.
       do {
         parameter.condition = RandomExpressions(rng, names).any(4);
       } while (parameter.condition->operands().empty() && parameter.condition->name().empty());

@@ -125,7 +125,7 @@ TEST_P(EverySearch, FindsTheSphereBetterThanItsFirstDraws) {
   EXPECT_LT(distance, 9);
 }
 
-/// Stores take finite numbers alone, and a step or an iteration may have nobody who is any good.
+/// Stores take finite numbers alone, and a step or an iteration may have no good one.
 void expect_finite(const Played& played) {
   for (const RaceStep& step : only<RaceStep>(played.events))
     EXPECT_TRUE(std::isfinite(step.mean_best)) << "step of iteration " << step.iteration;

@@ -76,7 +76,7 @@ TEST(CoordinatorFiles, AreRemovedByWhoWroteThem) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-/// On loopback without keys nobody but the coordinator's own user comes in.
+/// On loopback without keys only the coordinator's own user comes in.
 TEST(CoordinatorFiles, AreForThoseWhoMayConnect) {
   const TemporaryFolder folder;
   const auto mode = [&](const std::string& endpoint, const std::string& key) {

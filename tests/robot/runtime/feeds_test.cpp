@@ -60,7 +60,7 @@ TEST(Feeds, ScaleAndLabelTheFloor) {
   EXPECT_EQ(labelled.sensed().ground, (Rgb{0, 0, 0}));
   labelled.hear(GroundColorMessage{at_ms(9), std::nan(""), 20, 10});
   EXPECT_EQ(labelled.heard(Feed::Ground), 1);
-  EXPECT_THAT(labelled.trouble(Feed::Ground), testing::HasSubstr("no number"));
+  EXPECT_THAT(labelled.trouble(Feed::Ground), testing::HasSubstr("not a number"));
 }
 
 TEST(Feeds, HearNeighboursReadyOrByScan) {

@@ -19,7 +19,7 @@ using testing::IsEmpty;
 TEST(RobotNode, IsIdleUntilEverySensorThatTheMachineNeedsHasSpoken) {
   BenchRobot robot;
   robot.ground = robot.neighbours = false;
-  EXPECT_FALSE(robot.cycle().command) << "whoever carries the robot may do so";
+  EXPECT_FALSE(robot.cycle().command) << "a person may carry the robot";
   EXPECT_EQ(robot.state().phase, Phase::Idle);
   EXPECT_THAT(robot.state().not_ready,
               ElementsAre("ground: no message yet", "neighbours: no message yet"));

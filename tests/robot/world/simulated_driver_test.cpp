@@ -69,7 +69,7 @@ TEST(SimulatedDriver, ACommandThatIsNoNumberStops) {
   EXPECT_EQ(left(driver, 0, 0), 0.3);
   driver.hear(command(100, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_EQ(left(driver, 100, 0.3), 0);
-  EXPECT_THAT(driver.take_events(), ElementsAre(HasSubstr("no number")));
+  EXPECT_THAT(driver.take_events(), ElementsAre(HasSubstr("not a number")));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(ZmqEnds, KeysSayWhoMayDoWhat) {
   (*other)->send(OrderMessage{{}, "{\"order\":\"kill\"}"});
   const auto refused = next<TroubleMessage>(*node->end);
   ASSERT_TRUE(refused.has_value());
-  EXPECT_THAT(refused->text, HasSubstr("its key is no operator's"));
+  EXPECT_THAT(refused->text, HasSubstr("its key is not an operator's"));
   (*operating)->send(OrderMessage{{}, "{\"order\":\"stop\"}"});
   EXPECT_EQ(next<OrderMessage>(*node->end)->text, "{\"order\":\"stop\"}");
 

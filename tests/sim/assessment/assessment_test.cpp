@@ -56,7 +56,7 @@ TEST(Assessment, AllModulesOfChocolatePass) {
 }
 
 // The published program counts centimetres: 1.2 x 3 / (1 + 50) = 0.07 is too short a vector to be
-// followed, and nearer the neighbour is an obstacle. Its Attraction gathers nobody.
+// followed, and nearer the neighbour is an obstacle. Its Attraction gathers no robot.
 TEST(Assessment, TheAttractionOfThePublishedProgramFails) {
   const Report report = assessed("watermelon-argos3", "argos3");
   EXPECT_THAT(failing(report), ElementsAre("attraction"));

@@ -233,7 +233,7 @@ TEST(Attraction, AvoidsAnObstacleWithWeightFive) {
 }
 
 TEST(Attraction, CountsAVeryNearNeighbourAsTenCentimetresAway) {
-  // Neighbours at 90 degrees of both sides, 0.05 and 0.10 m: they cancel, and what is left is
+  // Neighbours at 90 degrees of both sides, 0.05 and 0.10 m: they cancel, and the rest is
   // too short, so straight ahead.
   const auto senses = FakeSenses{}.neighbour(0.05, 90).neighbour(0.10, -90);
   expect_command(steered(Attraction{1}, senses, watermelon()), kSpeed, kSpeed);

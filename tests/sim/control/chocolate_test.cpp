@@ -73,7 +73,7 @@ TEST(Phototaxis, WithoutLightGoesStraightOnButForObstacles) {
 TEST(Phototaxis, PerceivesLightFromAVectorOfOneTenthOn) {
   expect_command(steered(Phototaxis{}, FakeSenses{}.light_from(90, 99.9)), kSpeed, kSpeed);
   expect_command(steered(Phototaxis{}, FakeSenses{}.light_from(90, 100.1)), 0, kSpeed);
-  // Strong readings that cancel are no light either.
+  // Strong readings that cancel are not light either.
   expect_command(steered(Phototaxis{}, FakeSenses{}.light_from(90, 900).light_from(-90, 950)),
                  kSpeed, kSpeed);
 }
@@ -106,7 +106,7 @@ TEST(AttractionOfChocolate, HasNoWeightOfItsOwn) {
   // Alone: (1, 0).
   expect_command(steered(Attraction{2}, FakeSenses{}.obstacle(90, 0.225)), kSpeed,
                  kSpeed / std::hypot(1, 2.5));
-  // A neighbour at arm's length is no obstacle: 1 / 0.3 to the left, and nothing against it.
+  // A neighbour at arm's length is not an obstacle: 1 / 0.3 to the left, and nothing against it.
   expect_command(steered(Attraction{1}, FakeSenses{}.neighbour(0.3, 90)), 0, kSpeed);
 }
 

@@ -200,8 +200,8 @@ TEST(FlavourDifferences, Row12ColoursAreAHueOnACircleOrAHueOnALineAndASaturation
 }
 
 TEST(FlavourDifferences, Row16NeighboursAreNearerThan075MetresInBoth) {
-  // Whoever senses leaves the others out (tests/sim/engine/robot_senses_test.cpp); a flavour heeds
-  // everyone it is told of.
+  // The sensors leave the others out (tests/sim/engine/robot_senses_test.cpp); a flavour heeds
+  // everyone it gets.
   EXPECT_EQ(kNeighbourRange_m, 0.75);
   FakeSenses senses;
   senses.neighbour(0.749, 90);

@@ -148,7 +148,7 @@ TEST(MachineControl, ManyNeighboursAreBeyondTheTableAndStillCount) {
 }
 
 TEST(MachineControl, EachCycleLooksAtTheFloorThatIsThere) {
-  // Black leads on, and nothing else; what a floor gave before is no answer for another one.
+  // Black leads on, and nothing else; what a floor gave before is not an answer for another one.
   const Machine machine = machine_of(
       "--nstates 2 --s0 1 --n0 2 --n0x0 0 --c0x0 0 --p0x0 1 --n0x1 0 --c0x1 6 --p0x1 1 --l0x1 0 "
       "--s1 1 --n1 1 --n1x0 0 --c1x0 2 --p1x0 1");

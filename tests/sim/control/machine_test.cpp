@@ -39,9 +39,9 @@ TEST(Machine, ATransitionLeadsToAnotherState) {
   machine.states[1].transitions[0].target = 1;
   EXPECT_EQ(complaint(machine), "state 1, transition 0: a transition leads to another state");
   machine.states[1].transitions[0].target = 2;
-  EXPECT_EQ(complaint(machine), "state 1, transition 0: the target 2 is no state");
+  EXPECT_EQ(complaint(machine), "state 1, transition 0: the target 2 is not a state");
   machine.states[1].transitions[0].target = -1;
-  EXPECT_EQ(complaint(machine), "state 1, transition 0: the target -1 is no state");
+  EXPECT_EQ(complaint(machine), "state 1, transition 0: the target -1 is not a state");
 }
 
 TEST(Machine, ParametersKeepToTheirLimits) {

@@ -154,8 +154,8 @@ TEST(NetworkText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("--network e-puck --weights 1"),
               HasSubstr("token 2, column 11: no inputs `e-puck`"));
   EXPECT_THAT(complaint("--network rvr --weights 1,2"), HasSubstr("has 26 weights, not 2"));
-  EXPECT_THAT(complaint("--network rvr --weights 1,x"), HasSubstr("weight 2 is no number"));
-  EXPECT_THAT(complaint("--network rvr --weights 1,"), HasSubstr("weight 2 is no number"));
+  EXPECT_THAT(complaint("--network rvr --weights 1,x"), HasSubstr("weight 2 is not a number"));
+  EXPECT_THAT(complaint("--network rvr --weights 1,"), HasSubstr("weight 2 is not a number"));
   EXPECT_THAT(complaint("--network rvr --weights 1 --weights 2"), HasSubstr("twice"));
   EXPECT_THAT(complaint("--network rvr --weights 1 --s0 2"),
               HasSubstr("does not belong to a network"));

@@ -11,7 +11,7 @@ namespace swarmsmith {
 /// A recorded run driven again by its own commands, and by nothing else of the log than its start.
 struct OpenLoop {
   std::vector<std::array<Pose, 3>> poses;  ///< [tick][robot]
-  /// The first tick at the end of which two robots, or a robot and a wall, touched; the number of
+  /// The first tick at whose end two robots, or a robot and a wall, touched; the number of
   /// ticks when there is none.
   int first_contact = 0;
   double worst_m = 0;         ///< largest distance from the log before that

@@ -240,7 +240,7 @@ Pose driven(const Treads& treads, double left_mps, double right_mps, int robot_s
 }
 
 TEST(Treads, ThatSlipGoAndTurnSoMuchOfWhatTheyAreTold) {
-  // As a robot without slip that is told less: to the bit where the products are exact.
+  // As a robot without slip that gets smaller commands: to the bit where the products are exact.
   EXPECT_EQ(driven({.way = 0.5}, 0.25, 0.25), driven({}, 0.125, 0.125));
   EXPECT_EQ(driven({.turn = 0.5}, -0.0625, 0.0625), driven({}, -0.03125, 0.03125));
   EXPECT_EQ(driven({.way = 0.5}, -0.0625, 0.0625), driven({}, -0.0625, 0.0625));

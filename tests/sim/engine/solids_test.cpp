@@ -164,7 +164,7 @@ TEST(Solids, ABoxThatNeitherOneNorTwoRobotsMoveYieldsToThree) {
   EXPECT_NEAR(pushed_by(1), 0, 0.001);
   // Ten rounds leave a little: measured 1.4 mm in 20 s.
   EXPECT_NEAR(pushed_by(2), 0, 0.004);
-  // 4.5 N drive, 3.6 N brake: they go as fast as they are told.
+  // 4.5 N drive, 3.6 N brake: they go as fast as commanded.
   EXPECT_NEAR(pushed_by(3), 20 * 0.3, 0.1);
 }
 

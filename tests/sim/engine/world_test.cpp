@@ -69,7 +69,7 @@ TEST_P(Worlds, TimeMayBeCutAnywhereBetweenCommands) {
 }
 
 TEST_P(Worlds, RobotsThatPressedAndThenStandComeToRest) {
-  // What is left of their speeds shrinks by the same factor in each sub-step of contact. By the
+  // The rest of their speeds shrinks by the same factor in each sub-step of contact. By the
   // exact solver it is below 1e-162 m/s after 10 s, where its square is 0.
   World world = world_with({{0.3, 0, 3.5}, {-0.15, 0.26, 4.9}, {-0.15, -0.26, 1.1}});
   for (int tick = 0; tick < 150; ++tick) {

@@ -214,7 +214,7 @@ TEST(Images, ThatCannotBeReadAreExplained) {
   EXPECT_THAT(complaints(spot(", file = \"..\"")), ElementsAre(HasSubstr("this is a folder")));
   EXPECT_THAT(complaints(spot(", file = \"maze.toml\"")),
               ElementsAre(HasSubstr("maze.toml: this is not a PNG image")));
-  EXPECT_THAT(complaints(spot(", data = \"AAA\"")), ElementsAre(HasSubstr("no base64")));
+  EXPECT_THAT(complaints(spot(", data = \"AAA\"")), ElementsAre(HasSubstr("not base64")));
   EXPECT_THAT(complaints(spot(", data = \"AAAA\"")), ElementsAre(HasSubstr("not a PNG image")));
 }
 

@@ -75,7 +75,7 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& clip) {
-  // A dot in a folder's name is no ending.
+  // A dot in a folder's name begins no ending.
   const std::filesystem::path ending = clip.extension();
   std::filesystem::path file = clip;
   if (ending == ".mkv" || ending == ".mp4" || ending == ".avi") file.replace_extension();

@@ -44,7 +44,7 @@ Expected<RecordedRun> run_of_trajectory(const RunWish& wish, const Mission& miss
   run.instance = *instance;
   Trajectory& trajectory = recorded->trajectory;
   if (trajectory.robots != mission.robots || trajectory.instants() < run.mission.cycles)
-    return bad_input("it is no trajectory of a whole run of " + mission.name, wish.trajectory);
+    return bad_input("it is not a trajectory of a whole run of " + mission.name, wish.trajectory);
   run.instance.starts = recorded->starts.empty() ? run.instance.starts : recorded->starts;
   run.poses.resize(static_cast<std::size_t>(trajectory.robots));
   for (std::size_t i = 0; i < run.poses.size(); ++i) {

@@ -149,7 +149,7 @@ class BadInput(unittest.TestCase):
         self.assert_refused(self.score(log), "E_VIDEO_UNREADABLE", r"gone\.mkv")
 
     def test_video_that_is_none(self):
-        for name, content in (("text.mkv", b"this is no video\n" * 100), ("empty.mkv", b"")):
+        for name, content in (("text.mkv", b"this is not a video\n" * 100), ("empty.mkv", b"")):
             (self.folder / name).write_bytes(content)
             done = self.score(LAB.film("good"), self.folder / name)
             self.assert_refused(done, "E_VIDEO_UNREADABLE", re.escape(name))
@@ -343,9 +343,9 @@ class BadInput(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("stored already, as r1", again.stdout)
         self.assertEqual(len(runs_in(self.store)), 1)
-        nobody = self.score(LAB.film("good"), "--design", "d4")
-        self.assertEqual(nobody.returncode, 4, nobody.stderr)
-        self.assertIn("no design d4", nobody.stderr)
+        without_d4 = self.score(LAB.film("good"), "--design", "d4")
+        self.assertEqual(without_d4.returncode, 4, without_d4.stderr)
+        self.assertIn("no design d4", without_d4.stderr)
 
     def test_same_run_with_another_calibration(self):
         self.score(LAB.film("good"))

@@ -1,4 +1,4 @@
-"""What is left of an import that was killed, or whose disk was full: all of a run or nothing."""
+"""What remains of an import that was killed, or whose disk was full: all of a run or nothing."""
 import pathlib
 import resource
 import signal

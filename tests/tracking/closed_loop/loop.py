@@ -176,7 +176,7 @@ class Outcome:
         return max(off, key=abs) if off else None
 
     def too_close(self):
-        """Robots whose true end is so near to another score that nobody could tell."""
+        """Robots whose true end is so near to another score that neither can be preferred."""
         return [robot for robot, (border, sigma) in
                 enumerate(zip(self.truth["borders"], self.sigmas))
                 if border < 3 * max(sigma, SYSTEMATIC_M)]

@@ -26,7 +26,7 @@ TEST(RecordedRunTest, IsTheRunThatTheSimulatorScores) {
     wish.seconds = 30;
     const auto run = record_run(wish, kDesigns);
     ASSERT_TRUE(run) << to_string(run.error());
-    // The robots' way beyond the end is no part of what is scored, and does not change it.
+    // The robots' way beyond the end is not part of what is scored, and does not change it.
     const Flavour& flavour = **find_flavour(wish.flavour);
     const Machine machine = *parse_machine(kMachine, flavour);
     const auto profile = *find_profile(wish.profile, ".");

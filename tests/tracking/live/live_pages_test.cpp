@@ -154,7 +154,7 @@ TEST(LivePagesTest, AnotherProgramsPortIsAnError) {
   EXPECT_THAT(second.error().message, HasSubstr("--port"));
 }
 
-/// Connections that say half a sentence keep nobody waiting.
+/// Connections that say half a sentence keep no other one waiting.
 TEST(LivePagesTest, HalfOpenConnectionsBlockNobody) {
   const auto pages = LivePages::start(0, {}).value();
   const Publishing publishing(*pages);

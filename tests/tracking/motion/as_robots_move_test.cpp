@@ -168,8 +168,8 @@ TEST(TravelTest, RobotsThatMoveAsRobotsDoAreNotBothered) {
   }
 }
 
-/// On one and the same arc, a wrong heading looks like a wrong place of the tag: neither is told
-/// apart, and a turned tag is found all the same.
+/// On one and the same arc, a wrong heading looks like a wrong place of the tag: one cannot be
+/// told from the other, and a turned tag is found all the same.
 TEST(TravelTest, ARobotThatDrivesInCirclesIsNoExcuse) {
   for (const double turned : {0.0, 90.0, 180.0}) {
     SeenRun seen = seen_run(on_circle, usual());
@@ -334,7 +334,7 @@ TEST(TravelTest, SkidsAreNoPush) {
   }
 }
 
-/// Robots push each other, and slide along walls, and nobody carried them.
+/// Robots push each other, and slide along walls, and are not carried.
 TEST(TravelTest, WhatTouchesARobotMayPushIt) {
   const Truth touching = [](int robot, double time_s) {
     if (robot == 0) return Pose{-0.5 + 0.02 * time_s, 0, 0};

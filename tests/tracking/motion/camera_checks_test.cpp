@@ -151,7 +151,7 @@ TEST(CameraMovedTest, LessThanAPixelOrOneOfSeveralTagsIsNot) {
   EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
 }
 
-/// A check that cannot be made is said, and is no consent.
+/// A check that cannot be made is said, and is not consent.
 TEST(CameraMovedTest, CannotBeToldWithoutFloorTags) {
   SeenRun seen = seen_run(on_circle, {.cycles = 200});
   cover_references(seen, 100);

@@ -230,7 +230,7 @@ struct Errors {
   double heading_rms() const { return std::sqrt(heading_squares / cycles); }
 };
 
-/// The motion between the simulator's instants, which nobody knows of a real robot: with smooth
+/// The motion between the simulator's instants, unknown for a real robot: with smooth
 /// velocities, or with velocities that change at the instants.
 enum class Between { Smooth, Straight };
 

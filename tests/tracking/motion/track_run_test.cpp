@@ -57,7 +57,7 @@ TEST(TrackRunTest, DoesNotDependOnTheOrderOfSightings) {
   EXPECT_EQ(before.issues, after.issues);
 }
 
-/// A rig of which nothing is measured wrong, and which knows it.
+/// A rig without wrong measurements, which knows it.
 void know_all(Rig& rig) {
   rig.survey_error_m = 0;
   rig.tilt_error_rad = 0;

@@ -41,7 +41,7 @@ TEST(TagSheetTest, ReadsIds) {
   EXPECT_THAT(*ids_from_text("1-3,100,2,7-7"), ElementsAre(1, 2, 3, 100, 7));
   EXPECT_THAT(to_string(ids_from_text("1-").error()), HasSubstr("\"1-\" is not an id"));
   EXPECT_THAT(to_string(ids_from_text("").error()), HasSubstr("\"\" is not an id"));
-  EXPECT_THAT(to_string(ids_from_text("3-1").error()), HasSubstr("no range"));
+  EXPECT_THAT(to_string(ids_from_text("3-1").error()), HasSubstr("not a range"));
   EXPECT_THAT(to_string(ids_from_text("1,-2").error()), HasSubstr("\"-2\""));
   EXPECT_THAT(to_string(ids_from_text("0-99999999").error()), HasSubstr("at most 10000"));
 }

@@ -172,7 +172,7 @@ TEST(LabProfile, APushIsNoSlip) {
   EXPECT_NEAR(mean_delay_ms(found), 200, 5);
 }
 
-/// Also of one run, of which one robot's log is there.
+/// Also of one run with the log of one robot.
 TEST(LabProfile, OfOneRobotInOneRunSaysSo) {
   VirtualLab lab{.truth = rvr_profile()};
   lab.truth.timing.delays = {{20, 1}};

@@ -9,7 +9,7 @@
 
 namespace swarmsmith {
 
-/// A laboratory of which the truth is known: the simulator with a profile, and a camera that sees
+/// A laboratory whose truth is known: the simulator with a profile, and a camera that sees
 /// its robots between control cycles, at its own rate, with the noise of a good one.
 struct VirtualLab {
   Profile truth;

@@ -289,7 +289,7 @@ TEST(RigFile, NeedsACamera) {
 
 TEST(RigFile, TakesForeignLettersInStringsAndCommentsOnly) {
   EXPECT_THAT(complaints_about("format = 1\nnam\xc3\xa9 = 1\n"),
-              ElementsAre(HasSubstr("arena.toml:2:4: E_CONFIG: this is no TOML: letters")));
+              ElementsAre(HasSubstr("arena.toml:2:4: E_CONFIG: this is not TOML: letters")));
   const std::string quoted =
       "# \xc3\xa9\na = \"\\\"\xc3\xa9\"\nb = '\xc3\xa9\\'\nc = \"\"\"\n\xc3\xa9\"\"\"\"\n";
   EXPECT_TRUE(parse_document(quoted, "x.toml"));

@@ -171,7 +171,7 @@ TEST(RunLogFile, SaysWhichMissionsThereAre) {
   EXPECT_THAT(complaints_about("format = 1\ndesign = \"d1\"\ncandidate = \"c7\"\n"),
               ElementsAre(HasSubstr("run.toml:3:13: E_CONFIG: a candidate has its design")));
   EXPECT_THAT(complaints_about("format = [\n"),
-              ElementsAre(HasSubstr("E_CONFIG: this is no TOML")));
+              ElementsAre(HasSubstr("E_CONFIG: this is not TOML")));
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ TEST_F(RobotLogsTest, TreadsOfAnotherSpeedAreSeenWhateverTheirDriverSays) {
   const RobotFindings found = judged();
   EXPECT_THAT(found.issues,
               ElementsAre(Is(IssueCode::MotionUnlikeLog, "rvr1",
-                             "it drives 50 % of the way that its treads are told (70 to 130 %")));
+                             "it drives 50 % of the way that is commanded (70 to 130 %")));
   const std::vector<Check> checks = checks_of_logs(run, seen, log, found);
   const Check* way = check_of(checks, "way of what was told", "rvr1");
   ASSERT_NE(way, nullptr);

@@ -200,12 +200,12 @@ TEST(DamagedDb3, IsRefusedByItsCause) {
          bag.run("ALTER TABLE messages RENAME TO m");
          bag.run("CREATE VIEW messages AS SELECT * FROM m");
        },
-       "messages is no table"},
+       "messages is not a table"},
       {[&](WrittenDb3& bag) {
          add(bag);
          bag.run("DROP TABLE topics");
        },
-       "topics is no table"},
+       "topics is not a table"},
       {[&](WrittenDb3& bag) {
          add(bag);
          bag.run("ALTER TABLE topics RENAME COLUMN type TO kind");
@@ -224,7 +224,7 @@ TEST(DamagedDb3, IsRefusedByItsCause) {
          add(bag);
          bag.run("UPDATE messages SET data = 'text'");
        },
-       "is no CDR"},
+       "is not CDR"},
       {[&](WrittenDb3& bag) {
          add(bag);
          bag.run("UPDATE messages SET data = ?", &packed);

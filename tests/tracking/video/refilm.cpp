@@ -62,7 +62,7 @@ struct Changes {
   }
 };
 
-/// Takes the words that are no frames.
+/// Takes the words that are not frames.
 Changes changes_of(std::vector<std::string>& words) {
   Changes changes;
   for (const std::string& word : words) {

@@ -141,7 +141,7 @@ TEST(VideoFile, RefusesWhatIsNoVideo) {
   write_bytes(folder / "text.mp4", "This is a letter to my grandmother.\n");
   EXPECT_THAT(error_of(read_video(folder / "text.mp4")),
               HasSubstr("E_VIDEO_UNREADABLE: is not a readable video"));
-  // Its decoder's own words are told.
+  // The error has its decoder's own words.
   make_video(folder / "a.mp4", even_times(9, 10), {});
   const std::string bytes = bytes_of(folder / "a.mp4");
   write_bytes(folder / "cut.mp4", bytes.substr(0, bytes.size() / 2));

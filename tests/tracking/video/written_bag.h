@@ -42,7 +42,7 @@ class WrittenBag {
   ~WrittenBag();
   void add(const std::string& topic, const BagImage& image);
   void add(const std::string& topic, const BagPacked& image);
-  /// A message that is no image: sensor_msgs/Temperature.
+  /// A message that is not an image: sensor_msgs/Temperature.
   void add_temperature(const std::string& topic, BagTime recorded);
 
  private:

@@ -14,7 +14,7 @@ std::string cdr_of(const BagPacked& image);
 /// As ROS 1 does.
 std::string ros1_of(const BagImage& image);
 
-/// Of which an MCAP file is made.
+/// An MCAP file is made of these.
 inline constexpr const char* kMcapMagic = "\x89MCAP0\r\n";
 std::string little_endian(std::uint64_t value, std::size_t size);
 std::string counted_text(const std::string& text);

@@ -24,7 +24,7 @@ double duration_of(const TrackOptions& options) {
 
 /// One camera's frames on the clock of the run.
 struct FramesOfRun {
-  std::vector<double> times;      ///< of all that are no repeats
+  std::vector<double> times;      ///< of all but repeats
   std::vector<double> intervals;  ///< between those within the run
   std::int64_t within = 0;
   double usual_s = 0;  ///< median of the intervals; 0 without one

@@ -62,7 +62,7 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
     issue =
         issue_of(IssueCode::PicturesRepeated,
                  fmt::format("camera {} shows {} from {:.2f} s to {:.2f} s, while robots moved on: "
-                             "its recorder hung; the copies are no samples",
+                             "its recorder hung; the copies are not samples",
                              film.camera.name,
                              span.is_loop ? "the same few pictures over and over" : "one picture",
                              span.from_s - start, span.to_s - start),
@@ -81,7 +81,7 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
     issue = issue_of(
         IssueCode::PicturesRepeated,
         fmt::format("{} of the {:.0f} pictures of camera {} show the one before once more ({:.1f} "
-                    "%, limit {:.0f} %) and are no samples: the recorder wrote more pictures than "
+                    "%, limit {:.0f} %) and are not samples: the recorder wrote more pictures than "
                     "the camera took, so that times may be late; record at the camera's own rate",
                     repeats.count, frames, film.camera.name, 100 * share, 100 * kShare));
   }

@@ -111,7 +111,7 @@ class Film {
                                       usual_speed(tag));
     }
     if (far.size() < 2) return std::nullopt;
-    // Exchanged tags are no clock.
+    // Exchanged tags are not a clock.
     for (const TagWay* const one : far) {
       for (const TagWay* const other : far) {
         const double apart = corners_moved(seen(*other, i - 1)->corners, seen(*one, i)->corners);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kHalf = 2;
 constexpr std::size_t kLeastResiduals = 10;
-/// Five samples that take longer are no short motion.
+/// Five samples that take longer are not a short motion.
 constexpr double kWindow_s = 0.6;
 /// Median of the absolute value of a normal variable of sigma 1.
 constexpr double kMedianOfNormal = 0.6744897501960817;

@@ -136,7 +136,7 @@ std::optional<double> check_end(const RobotTrack& track, const FrameReport& fram
 }
 
 /// Cycles whose pose is a guess: across a long gap, or held where no sample is near. That a
-/// video ends a frame before the run's last instant is no guess worth a word, and that it covers
+/// video ends a frame before the run's last instant is not a guess worth a word, and that it covers
 /// less than the run is said elsewhere.
 std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
                             const TrackLimits& limits) {

@@ -28,7 +28,7 @@ struct TaggedRobot {
   bool has_yaw = false;     ///< a straight run told the heading
   bool is_another = false;  ///< not the first tag of its robot
 
-  /// Whom checks of the tag are about.
+  /// What checks of the tag are about.
   std::string subject() const {
     return is_another ? setup.name + " tag " + std::to_string(setup.tag) : setup.name;
   }

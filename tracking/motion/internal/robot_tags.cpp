@@ -20,7 +20,7 @@ constexpr Question kAgreement{"tags of one robot agree", "mm",
                               "a tag that came loose, or was mounted anew"};
 
 /// Errors that stay within one second are not drawn anew in each picture: beyond four sigmas of one
-/// picture it is no chance.
+/// picture it is not chance.
 constexpr double kSigmas = 4;
 /// What no score suffers from (robot_travel.cpp).
 constexpr double kHarmless_m = 0.005;

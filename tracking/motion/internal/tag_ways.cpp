@@ -31,7 +31,7 @@ void measure_scale(TagWay& tag, double edge_m) {
 }
 
 /// Sums of steps. None is longer than the fastest robot goes since the tag moved last: a tag that
-/// was misread, or carried, is no speed.
+/// was misread, or carried, shows no speed.
 void measure_way(TagWay& tag, const std::vector<double>& times) {
   constexpr double kStandingTag_px = 0.5;
   const Sighting* before = nullptr;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMedianOfNormal = 0.6744897501960817;
 /// Rounding of the centre's path; below it a residual is none.
 constexpr double kLeastStepSigma_m = 5e-5;
-/// A heading is told by less than this: a third of what a straight run may spread by.
+/// A heading is known within less than this: a third of what a straight run may spread by.
 constexpr double kHeadingTold_rad = 1.5 * kPi / 180;
 constexpr double kByTurnTold_m = 0.003;
 /// The way must stand out of the noise, and the turns too.

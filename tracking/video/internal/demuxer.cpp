@@ -111,7 +111,7 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
   if (found < 0) return unreadable("its streams cannot be read: " + reason(found), name);
   const int stream = av_find_best_stream(format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (stream < 0) return unreadable("it has no video, only other streams", name);
-  take_message();  // what the search for streams grumbled about is no error
+  take_message();  // complaints of the search for streams are not errors
   Demuxer demuxer(std::move(bytes), std::move(format), stream);
   demuxer.broke_off_ = cut;
   return demuxer;

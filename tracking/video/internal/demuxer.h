@@ -13,7 +13,7 @@ namespace swarmsmith::av {
 /// The video packets of a file, in the order in which they are stored.
 class Demuxer {
  public:
-  /// E_VIDEO_UNREADABLE for what is no video of a known kind. Only kinds and codecs that cameras
+  /// E_VIDEO_UNREADABLE for what is not a video of a known kind. Only kinds and codecs that cameras
   /// and recorders write are tried; the library's others are many, and less looked after.
   static Expected<Demuxer> open(ByteStream bytes, const std::string& name);
 

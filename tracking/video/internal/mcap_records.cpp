@@ -125,7 +125,7 @@ Expected<std::optional<Record>> Records::next_outside() {
   if (at_ == 0) {
     if (bytes_.size() == 0)
       return Unexpected(error_of(IssueCode::VideoUnreadable, "the file is empty", name_));
-    if (!read(0, kMagic.size()) || record_ != kMagic) return damaged("it is no MCAP file");
+    if (!read(0, kMagic.size()) || record_ != kMagic) return damaged("it is not an MCAP file");
     at_ = static_cast<std::int64_t>(kMagic.size());
   }
   if (is_over_) return std::optional<Record>();

@@ -82,7 +82,7 @@ std::string other_form(const std::uint8_t* begin) {
            "or "
            "record with `--compression-mode file`";
   }
-  return fmt::format("a message begins with the bytes {:02x} {:02x}, which is no CDR of version 1",
+  return fmt::format("a message begins with the bytes {:02x} {:02x}, which is not CDR of version 1",
                      begin[0], begin[1]);
 }
 

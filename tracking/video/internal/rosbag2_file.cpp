@@ -80,7 +80,7 @@ std::string complaint(sqlite3* base) {
     case SQLITE_NOTADB:
       return "is damaged, or no SQLite file: " + words;
     case SQLITE_ERROR:
-      return "is no bag of ROS 2: " + words;
+      return "is not a bag of ROS 2: " + words;
     case SQLITE_INTERRUPT:
       return "is damaged: it has more rows than bytes";
     default:
@@ -109,11 +109,12 @@ Expected<void> check_tables(sqlite3* base, const std::string& file) {
         "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = ? AND rootpage > 0");
     if (!tables) return Unexpected(tables.error());
     if (*tables != 1)
-      return unreadable(fmt::format("is no bag of ROS 2: {} is no table of it", table), file);
+      return unreadable(fmt::format("is not a bag of ROS 2: {} is not a table of it", table), file);
     const auto computed = count("SELECT count(*) FROM pragma_table_xinfo(?) WHERE hidden != 0");
     if (!computed) return Unexpected(computed.error());
     if (*computed != 0)
-      return unreadable(fmt::format("is no bag of ROS 2: a column of {} is computed", table), file);
+      return unreadable(fmt::format("is not a bag of ROS 2: a column of {} is computed", table),
+                        file);
   }
   return {};
 }

@@ -59,7 +59,7 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
             <span class="faint"> iteration {iteration}, mean {number(mean)} of {whole(runs)} runs</span></li>)}</ol>}
       </Panel>
       <Panel title="Control software">
-        <Machine of={id} missing={<Empty>This candidate is no machine, tree or network: it has its parameters alone.</Empty>} />
+        <Machine of={id} missing={<Empty>This candidate is not a machine, tree or network: it has only parameters.</Empty>} />
         {one.fsm_config && [<pre class="small">{one.fsm_config}</pre>,
           <div class="tools"><Copy text={one.fsm_config} what="Copy text" /><Copy text={command(`show ${id}`)} /></div>]}
       </Panel>

@@ -56,7 +56,7 @@ function iterations_table(c: string, { id, version }: Design, { iterations, elit
       { key: "alive", label: "alive at the end" },
       { key: "mean", label: "best mean" },
       "best",
-      { key: "markers", label: "tests", title: "a letter a step: x no test, - some dropped, = nobody dropped, ! would drop elites, . nobody had to run",
+      { key: "markers", label: "tests", title: "a letter a step: x no test, - some dropped, = none dropped, ! would drop elites, . none had to run",
         show: (one) => <code class="markers">{one.markers}</code> }]} />;
   }} />;
 }
