@@ -69,7 +69,7 @@ void print_head() {
 The original is ARGoS 3.0.0-beta48 with the RVR plugin and the control software published with the
 thesis; its data lie in `tests/golden/argos`. Ours runs flavour `watermelon-argos3`, profile `argos3`,
 from the original's starting poses and patches. `./dev bench fidelity` writes this page; the tests
-`sim_engine_golden` assert bounds on the same numbers.
+`sim_engine_golden` assert bounds on the same numbers. This page is about the RVR; [robots](robots.md#how-faithful-the-e-puck-is) has the e-puck.
 
 )");
 }
