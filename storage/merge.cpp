@@ -199,6 +199,7 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
         return Unexpected(taken.error());
       }
     }
+    if (auto flavours = check_flavours(connection); !flavours) return Unexpected(flavours.error());
     sqlite::Transaction transaction(connection);
     know_flavours(connection);
     RowSums::found(connection).write(connection);

@@ -182,6 +182,8 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
       sqlite::integer_of(writer_.connection, "SELECT coalesce(max(id), 0) FROM design");
   Statement(writer_.connection, kCampaign)
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
+  if (auto flavours = check_flavours(writer_.connection); !flavours)
+    return Unexpected(flavours.error());
   know_flavours(writer_.connection);
   Statement insert(writer_.connection, kDesign);
   for (const auto& [row, name] : addition.designs) {

@@ -242,7 +242,8 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
   }
   if (arguments.recording.any() && runs_of(*plan) > 1) {
     return fail(output, ExitCode::Usage,
-                "--seeds: tables and pictures show one run; name one seed");
+                "tables and pictures show one run, and this would be " +
+                    std::to_string(runs_of(*plan)) + ": name one machine and one seed");
   }
   return Evaluation(*plan, arguments.recording, output).run();
 }

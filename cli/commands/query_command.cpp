@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/text/csv.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
@@ -53,6 +55,15 @@ std::string take_sql(QueryArguments& arguments) {
   return sql;
 }
 
+/// Nothing within the limits is not an answer.
+ExitCode fail_without_a_row(const StoreReader::QueryLimits& limits, Output& output) {
+  return fail(
+      output, ExitCode::Failed,
+      fmt::format("the statement was ended before its first row: it took over {:g} s, which "
+                  "--seconds changes, or the row is too large",
+                  limits.seconds));
+}
+
 /// Writes rows as they come: a table of millions is not held.
 ExitCode write_csv(StoreReader& store, const std::string& sql, StoreReader::QueryLimits limits,
                    Output& output) {
@@ -64,6 +75,7 @@ ExitCode write_csv(StoreReader& store, const std::string& sql, StoreReader::Quer
         write_data(output, cells_as_csv(cells));
       });
   if (!end) return fail(output, ExitCode::Usage, end.error());
+  if (end->truncated && end->rows == 0) return fail_without_a_row(limits, output);
   if (end->truncated) note_truncated(output, static_cast<std::size_t>(end->rows));
   return ExitCode::Done;
 }
@@ -78,6 +90,7 @@ ExitCode run_query(QueryArguments& arguments, Output& output) {
   if (arguments.csv) return write_csv(**store, statement, limits, output);
   auto rows = select(**store, statement, limits);
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
+  if (rows->truncated && rows->cells.empty()) return fail_without_a_row(limits, output);
   const Form json = arguments.lists ? Form::JsonLists : Form::Json;
   write_rows(output, *std::move(rows), output.json ? json : Form::Text);
   return ExitCode::Done;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -17,12 +16,6 @@ constexpr const char* kDesigns =
     "SELECT d.design, d.campaign, d.mission, d.method, d.repetition, d.state, d.used, d.budget, "
     "d.iteration, d.best_candidate, d.best_mean, d.reason, t.test_mean, t.test_runs "
     "FROM v_designs AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design ORDER BY d.design";
-
-/// From the JSON object of what decides the campaign, whose values are texts.
-double max_time_in(const std::string& deciding) {
-  const auto json = nlohmann::json::parse(deciding, nullptr, false);
-  return json.is_object() ? number_in(json.value("race.max_time", "")).value_or(0) : 0;
-}
 
 }  // namespace
 
@@ -40,13 +33,15 @@ std::string designs_with_means(std::optional<DesignId> only) {
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written) {
   std::vector<CampaignStatus> campaigns;
   std::map<std::string, std::size_t> places;  // by number
-  const auto heads =
-      select(store, "SELECT campaign, name, state, deciding FROM v_campaigns ORDER BY campaign");
+  const auto heads = select(
+      store,
+      "SELECT campaign, name, state, CASE WHEN json_valid(deciding) THEN "
+      "json_extract(deciding, '$.\"race.max_time\"') END FROM v_campaigns ORDER BY campaign");
   if (!heads) return Unexpected(heads.error());
   for (const auto& cells : heads->cells) {
     places.emplace(cells[0].text, campaigns.size());
     campaigns.push_back({.name = cells[1].text, .state = cells[2].text});
-    campaigns.back().max_time = max_time_in(cells[3].text);
+    campaigns.back().max_time = number_in(cells[3].text).value_or(0);
     if (!is_written && campaigns.back().state == "running") campaigns.back().state = "interrupted";
   }
   std::map<DesignId, bool> paused;

@@ -43,6 +43,7 @@ void warn_about_range(const Method& method, const Flavour& flavour, const Profil
 /// Without a light both phototaxes are a way to go straight on.
 void warn_about_light(const Method& method, const Campaign& campaign,
                       std::vector<std::string>& warnings) {
+  if (method.architecture == Architecture::Network) return;
   const bool photo = has(method.behaviours, Module::Phototaxis);
   const bool anti = has(method.behaviours, Module::AntiPhototaxis);
   if (!photo && !anti) return;

@@ -43,6 +43,13 @@ std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot) {
            " from proximity sensors, and the robot `" + robot.name + "` gives " +
            noun_of(!takes_strengths);
   }
+  const bool sees_light = flavour.find(Module::Phototaxis) != nullptr ||
+                          flavour.find(Module::AntiPhototaxis) != nullptr;
+  if (sees_light && takes_strengths != kOfLightStrengths.acts_on(robot)) {
+    return "the flavour `" + flavour.name + "` takes " + (takes_strengths ? "strengths" : "lux") +
+           " from light sensors, and the robot `" + robot.name + "` gives " +
+           (takes_strengths ? "lux" : "strengths");
+  }
   const std::span<const std::string_view> models = models_of(robot);
   if (std::ranges::find(models, flavour.reference) != models.end()) return std::nullopt;
   std::string known;

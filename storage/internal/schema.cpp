@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <map>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -71,6 +72,17 @@ std::vector<const Flavour*> own_flavours(const sqlite::Connection& connection) {
 }  // namespace
 
 static_assert(kSchemaFiles.front().version == 1 && kSchemaFiles.back().version <= kSchemaVersion);
+
+Expected<void> check_flavours(const sqlite::Connection& connection) {
+  std::map<std::string, const Flavour*> known;
+  for (const Flavour* flavour : own_flavours(connection)) {
+    if (*known.try_emplace(flavour->name, flavour).first->second == *flavour) continue;
+    return bad_input("two campaigns have different flavours of the name " + flavour->name +
+                     ", and a store tells modules by it; give one of them another name, or keep "
+                     "them in stores of their own");
+  }
+  return {};
+}
 
 void know_flavours(sqlite::Connection& connection) {
   const std::string view = flavour_view(own_flavours(connection));

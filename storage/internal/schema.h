@@ -45,6 +45,10 @@ bool has_our_views(const sqlite::Connection& connection);
 /// Makes tables and views in an empty database; the caller holds a transaction.
 void create_schema(sqlite::Connection& connection);
 
+/// BadInput when two of the campaigns' own flavours have one name: to be called where a campaign
+/// has been added.
+Expected<void> check_flavours(const sqlite::Connection& connection);
+
 /// Gives the store's views the names of all modules, of this program and of the campaigns' own
 /// flavours: to be called where one has been added. The caller holds a transaction.
 void know_flavours(sqlite::Connection& connection);

@@ -264,6 +264,18 @@ class Results(ProgramTest):
         texts = "SELECT file FROM v_campaigns"
         self.assertEqual(self.query(store, texts), self.query(again, texts))
 
+    def test_a_store_has_one_flavour_of_a_name(self):
+        flavour, text = self.folder / "mine.toml", self.folder / "machines.txt"
+        text.write_text("--nstates 1 --s0 7\n")
+        store, other = self.folder / "one.db", self.folder / "two.db"
+        words = (text, "--flavour", flavour, "--mission", "aggregation", "--into")
+        for into, behaviour in ((store, "stop"), (other, "attraction")):
+            flavour.write_text(f'format = 1\nbase = "watermelon"\n[behaviours]\n{behaviour} = {{ number = 7 }}\n')
+            self.imported(*words, into)
+        self.refused(2, "different flavours of the name mine", "import", *words, store)
+        self.refused(2, "different flavours of the name mine", "merge", store, other, "-o", self.folder / "all.db")
+        self.assertEqual(self.query(store, "SELECT module FROM v_modules"), [{"module": "stop"}])
+
     def evaluations(self, store):
         done = call("query", store, "SELECT count(*) AS n FROM v_evaluations", "--json")
         return json.loads(done.stdout)["rows"][0]["n"] if done.returncode == 0 else 0

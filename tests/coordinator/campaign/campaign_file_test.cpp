@@ -221,6 +221,22 @@ TEST(CampaignFile, TellsWhatIsWrongInFilesThatItNames) {
               testing::HasSubstr("`rvr` is built in with other values"));
 }
 
+TEST(CampaignFile, RefusesAProfileInATableThatTakesTheNameOfABuiltInOne) {
+  for (const std::string table :
+       {"[simulator.profile]\nname = \"argos3\"\n", "[[tests.profile]]\nname = \"argos3\"\n"}) {
+    const auto other = parse_campaign(
+        FileText{.rest = table + "base = \"argos3\"\nneighbours = { miss_rate = 0.5 }\n"}.text(),
+        "c.toml");
+    ASSERT_FALSE(other) << table;
+    EXPECT_THAT(other.error()[0].message,
+                testing::HasSubstr("`argos3` is built in with other values"));
+    // With the same values it is that one.
+    const auto same =
+        parse_campaign(FileText{.rest = table + "base = \"argos3\"\n"}.text(), "c.toml");
+    EXPECT_TRUE(same) << to_string(same.error()[0]);
+  }
+}
+
 TEST(CampaignFile, OrdersRewardsByColourWhateverTheOrderAndSpelling) {
   const auto rule = [](const std::string& rewards) {
     const std::string score = "score = { kind = \"color_reward\", rewards = " + rewards + " }\n";

@@ -65,6 +65,23 @@ TEST_F(OwnFlavour, LivesWholeInTheCampaignsText) {
   EXPECT_THAT(own_flavours_in(normalised_text(parsed(FileText().text()))), ElementsAre());
 }
 
+TEST_F(OwnFlavour, IsTheOnlyOneOfItsName) {
+  const auto method_of = [&](const std::string& flavour, const std::string& name) {
+    const std::string text = normalised_text(*read(flavour, {.method = kMethod}));
+    std::string method = text.substr(text.find("[[method]]"));
+    method.resize(method.find("[race]"));
+    return method.replace(method.find("\"m\""), 3, "\"" + name + "\"");
+  };
+  const std::string text = normalised_text(*read(kSixStates, {.method = kMethod}));
+  const auto with = [&](const std::string& method) {
+    return parse_campaign(std::string(text).insert(text.find("[race]"), method), "x.toml");
+  };
+  EXPECT_TRUE(with(method_of(kSixStates, "n")));
+  const auto two = with(method_of(kSixStates + "speed_mps = 0.2\n", "n"));
+  ASSERT_FALSE(two);
+  EXPECT_THAT(two.error()[0].message, HasSubstr("have two flavours of the name mine"));
+}
+
 TEST_F(OwnFlavour, DecidesTheDigestUnlessItIsBuiltIn) {
   FileText built_in;
   built_in.method = "name = \"m\"\n";
