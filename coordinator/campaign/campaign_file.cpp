@@ -84,24 +84,12 @@ std::optional<Profile> named_profile(TableReader& table, std::string_view key,
   return std::nullopt;
 }
 
-/// A profile in a table of `owner`'s. Its name is the source of its scores: another profile of that
-/// name would mix them up.
-Profile profile_in(TableReader& owner, TableReader& table) {
-  Profile profile = read_profile_table(table);
-  const auto ours = built_in_profile(profile.name);
-  if (ours && *ours != profile) {
-    owner.complain("profile", "`" + profile.name +
-                                  "` is built in with other values; give the profile another name");
-  }
-  return profile;
-}
-
 /// By name, in a file of its own, or in a table.
 Profile read_profile(TableReader& simulator, const std::filesystem::path& folder) {
   const Node* node = simulator.take("profile");
   if (node != nullptr && std::holds_alternative<Table>(node->value)) {
     auto table = simulator.table("profile");
-    return profile_in(simulator, *table);
+    return read_profile_table(*table);
   }
   const std::string name = simulator.text("profile").value_or("rvr");
   return named_profile(simulator, "profile", name, folder).value_or(Profile{});
@@ -178,7 +166,7 @@ void read_tests(TableReader& root, const std::filesystem::path& folder, Campaign
       add_test_profile(*tests, "profiles", std::move(*profile), campaign);
   }
   for (TableReader& table : tests->tables("profile"))
-    add_test_profile(*tests, "profile", profile_in(*tests, table), campaign);
+    add_test_profile(*tests, "profile", read_profile_table(table), campaign);
   tests->finish();
 }
 
@@ -246,16 +234,32 @@ void check_robots(TableReader& root, const Campaign& campaign) {
   }
 }
 
-/// The store tells modules by their flavour's name.
-void check_flavours(TableReader& root, const Campaign& campaign) {
+/// What would mix up scores or modules in a store, which tells them by names. Stores that have it
+/// are read all the same.
+std::vector<Error> mixed_names(const Campaign& campaign, const std::string& where) {
+  std::vector<Error> errors;
+  const auto look_at = [&](const Profile& profile) {
+    const auto ours = built_in_profile(profile.name);
+    if (!ours || *ours == profile) return;
+    errors.push_back({ErrorKind::BadInput,
+                      "the profile `" + profile.name +
+                          "` is built in with other values; give the profile another name",
+                      where});
+  };
+  if (!campaign.target) look_at(campaign.profile);
+  for (const Profile& profile : campaign.test_profiles)
+    look_at(profile);
   std::map<std::string, const Method*> known;
   for (const Method& method : campaign.methods) {
     const Method& first = *known.try_emplace(method.flavour, &method).first->second;
     if (first.own_flavour == method.own_flavour) continue;
-    root.complain("method", "methods \"" + first.name + "\" and \"" + method.name +
-                                "\" have two flavours of the name " + method.flavour +
-                                "; give one of the files another name");
+    errors.push_back({ErrorKind::BadInput,
+                      "methods \"" + first.name + "\" and \"" + method.name +
+                          "\" have two flavours of the name " + method.flavour +
+                          "; give one of the files another name",
+                      where});
   }
+  return errors;
 }
 
 /// What only the whole campaign shows; asked when all else is right, since it needs all of it.
@@ -302,10 +306,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_workers(root, folder, campaign);
   read_dashboard(root, campaign);
   root.finish();
-  if (complaints.empty()) {
-    check_flavours(root, campaign);
-    check_robots(root, campaign);
-  }
+  if (complaints.empty()) check_robots(root, campaign);
   if (budget) {
     campaign.race.max_experiments = *budget;
     campaign.race.max_time = 0;
@@ -322,6 +323,10 @@ CampaignOrErrors read_campaign(const std::filesystem::path& file,
   auto text = read_file(file, "campaign");
   if (text) {
     auto campaign = parse_campaign(*text, file, budget);
+    if (campaign) {
+      if (auto mixed = mixed_names(*campaign, file.string()); !mixed.empty())
+        return tl::unexpected(std::move(mixed));
+    }
     if (campaign || !parse_mission(*text, file)) return campaign;
     return tl::unexpected(
         std::vector<Error>{{ErrorKind::BadInput,

@@ -306,7 +306,7 @@ TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
       {{kStopText, "--mission", "aggregation", "--flavour", "melon"}, "--flavour: there is no"},
       {{kStopText, "--mission", "aggregation", "--profile", "x"}, "--profile: "},
       {{kStopText, "--mission", "aggregation", "--seeds", "3-1"}, "--seeds: seeds are written"},
-      {{kStopText, "--mission", "aggregation", "--csv", "x"}, "--seeds: tables and pictures show"},
+      {{kStopText, "--mission", "aggregation", "--csv", "x"}, "name one machine and one seed"},
       {{kStopText, "--mission", "aggregation", "--at", "3"}, "add --svg FILE"},
       {{"--nstates 1 --s0 9", "--mission", "aggregation"}, "MACHINE, token"},
       {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: not a machine"},

@@ -269,8 +269,8 @@ class Results(ProgramTest):
         text.write_text("--nstates 1 --s0 7\n")
         store, other = self.folder / "one.db", self.folder / "two.db"
         words = (text, "--flavour", flavour, "--mission", "aggregation", "--into")
-        for into, behaviour in ((store, "stop"), (other, "attraction")):
-            flavour.write_text(f'format = 1\nbase = "watermelon"\n[behaviours]\n{behaviour} = {{ number = 7 }}\n')
+        for into, speed in ((store, 0.2), (other, 0.1)):
+            flavour.write_text(f'format = 1\nbase = "watermelon"\nspeed_mps = {speed}\n[behaviours]\nstop = {{ number = 7 }}\n')
             self.imported(*words, into)
         self.refused(2, "different flavours of the name mine", "import", *words, store)
         self.refused(2, "different flavours of the name mine", "merge", store, other, "-o", self.folder / "all.db")

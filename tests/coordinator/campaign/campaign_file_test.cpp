@@ -222,18 +222,27 @@ TEST(CampaignFile, TellsWhatIsWrongInFilesThatItNames) {
 }
 
 TEST(CampaignFile, RefusesAProfileInATableThatTakesTheNameOfABuiltInOne) {
-  for (const std::string table :
-       {"[simulator.profile]\nname = \"argos3\"\n", "[[tests.profile]]\nname = \"argos3\"\n"}) {
-    const auto other = parse_campaign(
-        FileText{.rest = table + "base = \"argos3\"\nneighbours = { miss_rate = 0.5 }\n"}.text(),
-        "c.toml");
-    ASSERT_FALSE(other) << table;
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& profile) {
+    std::ofstream(folder / "c.toml") << FileText{.rest = profile}.text();
+    return read_campaign(folder / "c.toml");
+  };
+  const std::string text = text_of(profile_sections(built_in_profile("argos3").value(), "P"));
+  for (const std::string header : {"[simulator.profile", "[[tests.profile]]"}) {
+    const bool is_list = header.ends_with("]");
+    std::string table = text;
+    table.replace(table.find("[P]"), 3, is_list ? header : header + "]");
+    for (std::size_t at = 0; (at = table.find("[P.")) != std::string::npos;)
+      table.replace(at, 2, is_list ? "[tests.profile" : "[simulator.profile");
+    const auto same = read(table);
+    EXPECT_TRUE(same) << to_string(same.error()[0]);
+    const std::size_t rate = table.find("miss_rate = ");
+    table.replace(rate, table.find('\n', rate) - rate, "miss_rate = 0.5");
+    const auto other = read(table);
+    ASSERT_FALSE(other) << header;
     EXPECT_THAT(other.error()[0].message,
                 testing::HasSubstr("`argos3` is built in with other values"));
-    // With the same values it is that one.
-    const auto same =
-        parse_campaign(FileText{.rest = table + "base = \"argos3\"\n"}.text(), "c.toml");
-    EXPECT_TRUE(same) << to_string(same.error()[0]);
+    EXPECT_TRUE(parse_campaign(FileText{.rest = table}.text(), "stored.toml"));
   }
 }
 

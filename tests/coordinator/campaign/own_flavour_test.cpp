@@ -43,7 +43,6 @@ class OwnFlavour : public ::testing::Test {
     return lines;
   }
 
- private:
   TemporaryFolder folder_;
 };
 
@@ -74,7 +73,8 @@ TEST_F(OwnFlavour, IsTheOnlyOneOfItsName) {
   };
   const std::string text = normalised_text(*read(kSixStates, {.method = kMethod}));
   const auto with = [&](const std::string& method) {
-    return parse_campaign(std::string(text).insert(text.find("[race]"), method), "x.toml");
+    std::ofstream(folder_ / "x.toml") << std::string(text).insert(text.find("[race]"), method);
+    return read_campaign(folder_ / "x.toml");
   };
   EXPECT_TRUE(with(method_of(kSixStates, "n")));
   const auto two = with(method_of(kSixStates + "speed_mps = 0.2\n", "n"));
