@@ -272,8 +272,8 @@ class Results(ProgramTest):
         for into, speed in ((store, 0.2), (other, 0.1)):
             flavour.write_text(f'format = 1\nbase = "watermelon"\nspeed_mps = {speed}\n[behaviours]\nstop = {{ number = 7 }}\n')
             self.imported(*words, into)
-        self.refused(2, "different flavours of the name mine", "import", *words, store)
-        self.refused(2, "different flavours of the name mine", "merge", store, other, "-o", self.folder / "all.db")
+        self.refused(3, "different flavours of the name mine", "import", *words, store)
+        self.refused(3, "different flavours of the name mine", "merge", store, other, "-o", self.folder / "all.db")
         self.assertEqual(self.query(store, "SELECT module FROM v_modules"), [{"module": "stop"}])
 
     def evaluations(self, store):
