@@ -138,8 +138,11 @@ Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
   if (!race->has_ended()) remark = " (goes on)";
   plot.details.push_back(fmt::format("Race of {}, iteration {}{}", to_string(race->design.design),
                                      race->iteration.iteration, remark));
-  plot.details.push_back(fmt::format("Budget: {} of the design's {} experiments",
-                                     race->iteration.budget, race->design.budget));
+  // A budget of time has no number of experiments.
+  plot.details.push_back(race->design.budget > 0
+                             ? fmt::format("Budget: {} of the design's {} experiments",
+                                           race->iteration.budget, race->design.budget)
+                             : fmt::format("Budget: {} experiments", race->iteration.budget));
   plot.details.push_back(fmt::format("{} candidates, {} alive after step {}", rows.size(),
                                      steps.back().alive_after, steps.back().step));
   for (const StepRecord& step : steps)

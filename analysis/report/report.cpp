@@ -47,7 +47,7 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
     ++groups[{design.mission, design.method}];
     // Machines to compare with have no race; programs may have a time as their budget.
     const bool has_race = design.budget > 0 || design.flavour.empty();
-    if (has_race) budgets.push_back(design.budget);
+    if (design.budget > 0) budgets.push_back(design.budget);
     if (!has_race) baselines.insert(design.method);
     if (design.state == "finished") ++finished;
   }

@@ -172,12 +172,14 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         if (is_racing != racing) continue;
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
+        // Imported machines have a best one without a mean.
+        const bool has_mean = one.best && (one.used > 0 || one.is_tested());
         const std::string budget = campaign.max_time > 0 ? fmt::format("time {}", campaign.max_time)
                                                          : std::to_string(one.budget);
         lines.push_back(
             fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<{}} {} {}{}{}", to_string(one.id),
                         shown_state(campaign, one), one.used, budget, part,
-                        one.best ? fmt::format("{:.4g}{}", one.told_mean(),
+                        has_mean ? fmt::format("{:.4g}{}", one.told_mean(),
                                                one.is_tested() ? " in tests" : "")
                                  : "",
                         best_width, one.mission, one.method, several ? "  " + campaign.name : "",

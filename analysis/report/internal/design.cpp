@@ -152,7 +152,8 @@ void write_design(ReportDraft& draft, const DesignRecord& design) {
                               as_words(design.mission), design.method, design.repetition));
   std::vector<std::pair<std::string, std::string>> facts{
       {"state", design.state},
-      {"experiments", fmt::format("{} of {}", design.used, design.budget)},
+      {"experiments", design.budget > 0 ? fmt::format("{} of {}", design.used, design.budget)
+                                        : fmt::format("{}", design.used)},
       {"iterations", fmt::format("{}", design.iteration)}};
   if (design.best) facts.emplace_back("winner", to_string(*design.best));
   if (design.best_mean) facts.emplace_back("its mean in the race", shown_number(*design.best_mean));

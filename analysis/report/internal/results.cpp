@@ -212,9 +212,9 @@ void write_races(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
        {"mean of its tests", Show::Number},
        {"state"},
        {"why it ended"}},
-      "SELECT d.design, d.mission, d.method, d.repetition, d.budget, d.used, d.iteration, "
-      "d.best_mean, t.test_mean, d.state, "
-      "iif(d.reason LIKE 'not enough budget%', 'budget used up', d.reason) "
+      "SELECT d.design, d.mission, d.method, d.repetition, nullif(d.budget, 0), d.used, "
+      "d.iteration, "
+      "d.best_mean, t.test_mean, d.state, d.reason "
       "FROM v_designs AS d LEFT JOIN v_leaderboard AS t ON t.design = d.design ORDER BY d.design",
       1000);
   if (!draft.options().page_of_design) {
