@@ -82,6 +82,7 @@ TEST(StatusText, TellsTheMeanOfTheTestsOnceADesignIsFinished) {
   for (const DesignState state : {DesignState::Testing, DesignState::Finished})
     campaign.designs.push_back({.id = {state == DesignState::Testing ? 1 : 2},
                                 .state = state,
+                                .used = 900,
                                 .best = {7},
                                 .best_mean = 3,
                                 .test_mean = 2.25,
@@ -93,6 +94,19 @@ TEST(StatusText, TellsTheMeanOfTheTestsOnceADesignIsFinished) {
   EXPECT_THAT(joined(lines), HasSubstr("2.25 in tests"));
   EXPECT_THAT(*std::ranges::find_if(lines, [](auto& line) { return line.starts_with("d1 "); }),
               AllOf(HasSubstr(" 3 "), Not(HasSubstr("tests"))));
+}
+
+TEST(StatusText, TellsNoMeanOfAnImportedMachine) {
+  CampaignStatus campaign{.name = "c", .state = "imported"};
+  campaign.designs.push_back(
+      {.id = {1}, .mission = "m", .state = DesignState::Finished, .best = {1}});
+  LiveStatus status;
+  status.campaigns =
+      std::make_shared<const std::vector<CampaignStatus>>(std::vector<CampaignStatus>{campaign});
+  const std::vector<std::string> lines = status_lines(status, {200, 100});
+  const auto line = std::ranges::find_if(lines, [](auto& each) { return each.starts_with("d1 "); });
+  ASSERT_NE(line, lines.end());
+  EXPECT_THAT(line->substr(line->find("it ") + 6, 8), testing::Not(HasSubstr("0")));
 }
 
 TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {
