@@ -11,8 +11,8 @@
 namespace swarmsmith {
 std::string little_endian(std::uint64_t value, std::size_t size) {
   std::string bytes;
-  for (std::size_t i = 0; i < size; ++i)
-    bytes += static_cast<char>(value >> 8 * i & 0xFF);
+  for (; bytes.size() < size; value >>= 8)
+    bytes += static_cast<char>(value & 0xFF);
   return bytes;
 }
 
