@@ -9,6 +9,7 @@
 
 #include "cli/output/number_text.h"
 #include "irace_core/search/stage.h"
+#include "programs/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -156,13 +157,11 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
   std::vector<std::string> lines;
   if (!status.campaigns) return lines;
   const bool several = status.campaigns->size() > 1;
-  const int best_width =
-      std::ranges::any_of(*status.campaigns,
-                          [](const CampaignStatus& campaign) {
-                            return std::ranges::any_of(campaign.designs, &DesignStatus::is_tested);
-                          })
-          ? 17
-          : 9;
+  int best_width = 9;
+  for (const CampaignStatus& campaign : *status.campaigns) {
+    const bool is_tested = std::ranges::any_of(campaign.designs, &DesignStatus::is_tested);
+    best_width = std::max(best_width, (is_tested ? 17 : 9) + (campaign.costs ? 5 : 0));
+  }
   // Those that race first; what is over says its best, what waits says nothing.
   for (const bool racing : {true, false}) {
     for (const CampaignStatus& campaign : *status.campaigns) {
@@ -177,13 +176,15 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         const std::string budget = campaign.max_time > 0 ? fmt::format("time {}", campaign.max_time)
                                                          : std::to_string(one.budget);
         lines.push_back(
-            fmt::format("{:<5} {:<11}{:>9}/{:<9} {} {:<{}} {} {}{}{}", to_string(one.id),
-                        shown_state(campaign, one), one.used, budget, part,
-                        has_mean ? fmt::format("{:.4g}{}", one.told_mean(),
-                                               one.is_tested() ? " in tests" : "")
-                                 : "",
-                        best_width, one.mission, one.method, several ? "  " + campaign.name : "",
-                        one.stage.empty() ? "" : "  " + one.stage) +
+            fmt::format(
+                "{:<5} {:<11}{:>9}/{:<9} {} {:<{}} {} {}{}{}", to_string(one.id),
+                shown_state(campaign, one), one.used, budget, part,
+                has_mean ? fmt::format("{}{:.4g}{}", campaign.costs ? "cost " : "",
+                                       campaign.costs ? to_cost(one.told_mean()) : one.told_mean(),
+                                       one.is_tested() ? " in tests" : "")
+                         : "",
+                best_width, one.mission, one.method, several ? "  " + campaign.name : "",
+                one.stage.empty() ? "" : "  " + one.stage) +
             (is_over(one.state) && !one.reason.empty() ? "  (" + one.reason + ")" : ""));
       }
     }

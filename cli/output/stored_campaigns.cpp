@@ -36,12 +36,14 @@ Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool 
   const auto heads = select(
       store,
       "SELECT campaign, name, state, CASE WHEN json_valid(deciding) THEN "
-      "json_extract(deciding, '$.\"race.max_time\"') END FROM v_campaigns ORDER BY campaign");
+      "json_extract(deciding, '$.\"race.max_time\"') END, CASE WHEN json_valid(deciding) THEN "
+      "json_extract(deciding, '$.\"simulator.kind\"') END FROM v_campaigns ORDER BY campaign");
   if (!heads) return Unexpected(heads.error());
   for (const auto& cells : heads->cells) {
     places.emplace(cells[0].text, campaigns.size());
     campaigns.push_back({.name = cells[1].text, .state = cells[2].text});
     campaigns.back().max_time = number_in(cells[3].text).value_or(0);
+    campaigns.back().costs = cells[4].text == "\"command\"";
     if (!is_written && campaigns.back().state == "running") campaigns.back().state = "interrupted";
   }
   std::map<DesignId, bool> paused;

@@ -187,7 +187,7 @@ std::vector<ServiceCampaign> CampaignMembers::served() const {
     served.push_back({campaign_digest(*member.campaign), member.store.get(), member.runner.get(),
                       member.name, design_rows(*member.campaign),
                       real_store(member.campaign->store), searches_of(*member.campaign),
-                      member.campaign->race.max_time});
+                      member.campaign->race.max_time, member.campaign->target.has_value()});
   }
   return served;
 }

@@ -79,6 +79,7 @@ void each_field(Like<CampaignStatus> auto& campaign, const Visit& visit) {
   visit("queued_units", campaign.queued_units);
   visit("wal_bytes", campaign.wal_bytes);
   visit("max_time", campaign.max_time);
+  visit("costs", campaign.costs);
 }
 
 template <class Visit>

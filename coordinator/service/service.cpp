@@ -42,7 +42,8 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
                    .tested = campaign.store->tested_designs(),
                    .commands = campaign.store->commands(),
                    .searches = campaign.searches,
-                   .max_time = campaign.max_time});
+                   .max_time = campaign.max_time,
+                   .costs = campaign.costs});
   return all;
 }
 

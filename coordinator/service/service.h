@@ -50,6 +50,7 @@ struct ServiceCampaign {
   std::filesystem::path file{};  ///< of the store; empty for none
   Searches searches{};
   double max_time = 0;  ///< as CampaignStatus has it
+  bool costs = false;   ///< the same
 };
 
 struct ServiceHooks {

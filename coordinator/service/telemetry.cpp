@@ -33,6 +33,7 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
     campaigns_.back().status.name = campaign.name;
     campaigns_.back().status.state = "running";
     campaigns_.back().status.max_time = campaign.max_time;
+    campaigns_.back().status.costs = campaign.costs;
   }
 }
 

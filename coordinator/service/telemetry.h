@@ -41,6 +41,7 @@ struct TelemetryCampaign {
   std::vector<CommandRow> commands{};
   Searches searches{};
   double max_time = 0;  ///< as CampaignStatus has it
+  bool costs = false;   ///< the same
 };
 
 /// The live numbers that a coordinator's loop adds to those of the Coordinator: they come from

@@ -96,6 +96,20 @@ TEST(StatusText, TellsTheMeanOfTheTestsOnceADesignIsFinished) {
               AllOf(HasSubstr(" 3 "), Not(HasSubstr("tests"))));
 }
 
+TEST(StatusText, TellsCostsOfProgramsAsTheySayThem) {
+  CampaignStatus campaign{.name = "c", .state = "finished", .costs = true};
+  campaign.designs.push_back({.id = {1},
+                              .mission = "m",
+                              .state = DesignState::Finished,
+                              .used = 9,
+                              .best = {7},
+                              .best_mean = -0.25});
+  LiveStatus status;
+  status.campaigns =
+      std::make_shared<const std::vector<CampaignStatus>>(std::vector<CampaignStatus>{campaign});
+  EXPECT_THAT(joined(status_lines(status, {200, 100})), HasSubstr(" cost 0.25 "));
+}
+
 TEST(StatusText, TellsNoMeanOfAnImportedMachine) {
   CampaignStatus campaign{.name = "c", .state = "imported"};
   campaign.designs.push_back(
