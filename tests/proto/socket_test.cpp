@@ -76,12 +76,8 @@ TEST_F(Sockets, SayThatTheCoordinatorHasGone) {
   const std::string endpoint = server->endpoint();
   server.reset();
   Wakeup other;
-  bool lost = false;
-  for (int i = 0; i < 1000 && !lost; ++i) {
-    client->wait(other, milliseconds(10));
-    lost = client->lost();
-  }
-  EXPECT_TRUE(lost);
+  EXPECT_TRUE(
+      eventually([&] { return client->lost(); }, [&] { client->wait(other, milliseconds(10)); }));
 }
 
 TEST_F(Sockets, GiveAReconnectedPeerAnotherName) {
