@@ -65,7 +65,7 @@ struct CampaignStatus {
   /// What the programs of a design's runs may take together, where that is the budget of its race,
   /// and no number of experiments; else 0.
   double max_time = 0;
-  bool costs = false;  ///< means are told as costs, as the campaign's programs say them
+  bool costs = false;  ///< people see means as costs, as the programs print them
   std::vector<DesignStatus> designs;
   CampaignMeters meters;
   Histogram commit_time;  ///< from a unit of rows given to the writer to its commit
