@@ -133,7 +133,7 @@ bool is_picture(const std::string& format) {
   return format == "svg" || format == "pdf" || format == "dot" || format == "tikz";
 }
 
-/// An option that says nothing in this format is a mistake; it is not passed over.
+/// The first option that has no effect with this format.
 std::optional<Error> misplaced_option(const ExportArguments& arguments) {
   const std::string with = " has no effect with --format " + arguments.format;
   if (arguments.seed && arguments.format != "argos") {

@@ -55,6 +55,9 @@ TEST(CampaignWarnings, NameMissionsInTheDarkForModulesThatWantLight) {
   EXPECT_THAT(warnings_about(campaign_of("flavour = \"chocolate\"\n"
                                          "behaviours = [\"stop\", \"exploration\"]\n")),
               IsEmpty());
+  // A network has no modules.
+  EXPECT_THAT(warnings_about(campaign_of("flavour = \"chocolate\"\narchitecture = \"network\"\n")),
+              IsEmpty());
 }
 
 TEST(CampaignWarnings, SayWhatARobotOfAnotherShapeKeepsOfTheRvr) {

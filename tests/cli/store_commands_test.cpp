@@ -114,6 +114,16 @@ TEST_F(Ls, AndQueryTakeALimitOf0ForAll) {
       false);
 }
 
+TEST_F(Ls, AndQueryFailsWhenItsTimeIsOverBeforeTheFirstRow) {
+  const std::string endless =
+      "WITH RECURSIVE t(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM t) SELECT count(*) FROM t";
+  for (const std::string form : {"--csv", "--json"}) {
+    const Ran ran = run({"query", endless, store_, "--seconds", "1", form});
+    EXPECT_EQ(ran.code, 1) << form;
+    EXPECT_THAT(ran.err, HasSubstr("--seconds changes"));
+  }
+}
+
 TEST_F(Ls, ExplainsAConditionThatIsNoSql) {
   const Ran ran = run({"ls", "candidates", store_, "--where", "wombat > 1"});
   EXPECT_EQ(ran.code, 2);

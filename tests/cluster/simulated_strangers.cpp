@@ -126,7 +126,8 @@ Peer SimulatedCluster::worker_at(PeerId connection) const {
       .id = connection, .role = Role::Worker, .client = "honest", .address = kAddresses[worker]};
 }
 
-/// No worker's word rejects what has a score, and a wrong score is one of somebody who was asked.
+/// A worker alone cannot reject an evaluation that has a score, and wrong scores come only from
+/// workers that had a lease.
 void SimulatedCluster::check_row(const Running& running, const Row& row) {
   const auto* evaluation = std::get_if<EvaluationRow>(&row);
   if (evaluation == nullptr) return;
@@ -145,7 +146,7 @@ void SimulatedCluster::check_row(const Running& running, const Row& row) {
                        evaluation->measured.state_digest == truth->second.state_digest;
   if (is_true) return;
   if (!leased_to_strangers_.contains(packed))
-    fail("stored a score of somebody who had no lease of it: " + to_string(key));
+    fail("stored a wrong score from a worker without a lease: " + to_string(key));
   lies_.insert(packed);
 }
 

@@ -534,7 +534,12 @@ class Variants(Irace):
         self.assertIn("# capping: median", text)
         status = call("status", self.folder / "irace.db").stdout
         self.assertRegex(status, r"experiments [0-9]+  time budget 2000 a design\n")
-        self.assertRegex(status, r"[0-9]/time 2000 ")
+        self.assertRegex(status, r"[0-9]/time 2000 .* cost [0-9]")
+        # There is no number of experiments that anything could be a part of.
+        report = self.folder / "report.html"
+        self.assertEqual(call("report", self.folder / "irace.db", "--design", "all", "-o", report).returncode, 0)
+        words = re.sub(r"<[^>]+>", " ", report.read_text())
+        self.assertNotRegex(words, r"\b(of|used) 0\b|\b0 experiments|design's 0")
 
     def test_one_with_a_budget_of_time_goes_on_with_any_number_of_runs_at_a_time(self):
         self.write_runner("echo $cost $(( 1 + cost % 7 ))")

@@ -11,10 +11,7 @@ void run(std::string_view input) {
   const std::filesystem::path file = "/no-such-folder/of/campaigns/campaign.toml";
   const auto campaign = parse_campaign(input, file);
   if (!campaign) {
-    require(!campaign.error().empty(), "a refusal has a reason");
-    for (const Error& error : campaign.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(campaign.error());
   }
   const std::string text = normalised_text(*campaign);
   const auto again = parse_campaign(text, file);

@@ -7,10 +7,7 @@ namespace swarmsmith::fuzz {
 void run(std::string_view input) {
   const auto list = parse_allow_list(input, "clients.toml");
   if (!list) {
-    require(!list.error().empty(), "a refusal has a reason");
-    for (const Error& error : list.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(list.error());
   }
   std::string text = "format = 1\n";
   for (const AllowedClient& client : *list) {

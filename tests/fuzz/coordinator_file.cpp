@@ -15,8 +15,7 @@ void run(std::string_view input) {
     require(parse_coordinator_file(text_of(*file), "printed") == file,
             "what is printed reads back as the same");
   } else {
-    require(!file.error().where.empty() && !file.error().message.empty(),
-            "an error has a place and a message");
+    require_reasons({file.error()});
   }
   const auto key = parse_client_key(input, "worker.key");
   if (key) {

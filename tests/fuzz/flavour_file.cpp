@@ -24,10 +24,7 @@ std::vector<double> lowest(const ModuleSpec& spec) {
 void run(std::string_view input) {
   const auto flavour = parse_flavour(input, "/no-such-folder/mine.toml");
   if (!flavour) {
-    require(!flavour.error().empty(), "a refusal has a reason");
-    for (const Error& error : flavour.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(flavour.error());
   }
   const auto again = parse_flavour(flavour_text(*flavour), "mine.toml");
   require(again.has_value(), "what is printed can be read");

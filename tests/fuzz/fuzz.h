@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <vector>
+
+#include "base/expected.h"
 
 namespace swarmsmith::fuzz {
 
@@ -15,6 +18,13 @@ inline void require(bool holds, std::string_view what) {
   if (holds) return;
   std::fprintf(stderr, "does not hold: %.*s\n", static_cast<int>(what.size()), what.data());
   std::abort();
+}
+
+/// What is refused is refused with reasons, and with the place of each.
+inline void require_reasons(const std::vector<Error>& errors) {
+  require(!errors.empty(), "a refusal has a reason");
+  for (const Error& error : errors)
+    require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
 }
 
 }  // namespace swarmsmith::fuzz

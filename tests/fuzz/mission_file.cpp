@@ -24,10 +24,7 @@ std::vector<MissionEntry> missions_in(const std::string& text) {
 void run(std::string_view input) {
   const auto mission = parse_mission(input, "/no-such-folder/of/missions/mission.toml");
   if (!mission) {
-    require(!mission.error().empty(), "a refusal has a reason");
-    for (const Error& error : mission.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(mission.error());
   }
   const std::vector<MissionEntry> again = missions_in(text_of(mission_sections(*mission)));
   require(again.size() == 1 && again[0] == *mission, "what is printed reads back as the same");

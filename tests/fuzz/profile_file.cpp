@@ -24,10 +24,7 @@ Profile profile_in(const std::string& text) {
 void run(std::string_view input) {
   const auto profile = parse_profile(input, "/no-such-folder/mine.toml");
   if (!profile) {
-    require(!profile.error().empty(), "a refusal has a reason");
-    for (const Error& error : profile.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(profile.error());
   }
   const Profile again = profile_in(text_of(profile_sections(*profile, "profile")));
   require(again == *profile, "what is printed reads back as the same");

@@ -19,8 +19,7 @@ int depth(const r::Node& node) {
 void run(std::string_view input) {
   const auto statements = r::parse_statements(input);
   if (!statements) {
-    require(!statements.error().where.empty() && !statements.error().message.empty(),
-            "an error has a place and a message");
+    require_reasons({statements.error()});
     return;
   }
   for (const r::Statement& statement : *statements)

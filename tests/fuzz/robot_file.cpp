@@ -25,10 +25,7 @@ Robot robot_in(const std::string& text) {
 void run(std::string_view input) {
   const auto robot = parse_robot(input, "/no-such-folder/mine.toml");
   if (!robot) {
-    require(!robot.error().empty(), "a refusal has a reason");
-    for (const Error& error : robot.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(robot.error());
   }
   require(robot_in(text_of(robot_sections(*robot, "robot"))) == *robot,
           "what is printed reads back as the same");

@@ -24,10 +24,7 @@ void run(std::string_view input) {
   const ScenarioSurroundings world = world_of(input);
   const auto file = parse_irace_scenario(input, "/tune/scenario.txt", world);
   if (!file) {
-    require(!file.error().empty(), "a refusal has a reason");
-    for (const Error& error : file.error())
-      require(!error.where.empty() && !error.message.empty(), "an error has a place and a message");
-    return;
+    return require_reasons(file.error());
   }
   std::string printed;
   for (const IraceSetting& setting : file->settings.all()) {

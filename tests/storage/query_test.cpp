@@ -121,8 +121,8 @@ TEST_F(QueryTest, RefusesMistakesWithTheReasonOfSqlite) {
   EXPECT_THAT(query("SELECT 1; SELECT 2").error().message, testing::HasSubstr("one statement"));
 }
 
-/// The text of a statement is not an answer to somebody who did not write it.
-TEST_F(QueryTest, RepeatsAStatementToNobodyButWhoTypedIt) {
+/// An error repeats the statement only to the person who typed it.
+TEST_F(QueryTest, RepeatsAStatementOnlyWhereItWasTyped) {
   for (const std::string& sql :
        {std::string("SELECT missing FROM v_designs"), std::string("SELECT zeroblob(900000000)"),
         std::string(

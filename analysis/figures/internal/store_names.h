@@ -23,7 +23,7 @@ struct StoreNames {
   std::string title_of(const std::string& mission) const;
 };
 
-/// Without sources, which take a look at all scores.
+/// All but the sources, for which the store reads all scores.
 Expected<StoreNames> names_of(StoreReader& store);
 Expected<StoreNames> names_with_sources(StoreReader& store);
 

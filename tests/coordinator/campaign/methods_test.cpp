@@ -256,6 +256,26 @@ TEST(Methods, RefuseARepairThatTheirSearchWouldNotUse) {
     EXPECT_EQ(complaint_about("method = \"" + std::string(used) + "\"\n", race), "read");
 }
 
+TEST(Methods, ThatSeeLightWantARobotWhoseSensorsGiveWhatTheyTake) {
+  const auto complaints_of = [](const std::string& base, const std::string& reading,
+                                const std::string& flavour) {
+    const std::string profile = base == "rvr" ? "rvr" : "epuck";
+    return complaints(FileText{.mission = "name = \"aggregation\"\n[mission.robot]\nbase = \"" +
+                                          base + "\"\n[mission.robot.light]\nreading = \"" +
+                                          reading + "\"\n",
+                               .method = "name = \"m\"\nflavour = \"" + flavour + "\"\n",
+                               .race = "max_experiments = 100000\n",
+                               .rest = "[simulator]\nprofile = \"" + profile + "\"\n"}
+                          .text());
+  };
+  EXPECT_THAT(complaints_of("rvr", "lux", "chocolate"), IsEmpty());
+  EXPECT_THAT(complaints_of("rvr", "strength", "watermelon"), IsEmpty());  // which sees no light
+  EXPECT_THAT(complaints_of("rvr", "strength", "chocolate"),
+              ElementsAre(HasSubstr("takes lux from light sensors, and the robot `rvr` gives "
+                                    "strengths; choose another flavour")));
+  EXPECT_THAT(complaints_of("epuck", "strength", "chocolate-epuck"), IsEmpty());
+}
+
 TEST(Methods, OfSingleSensorsWantARobotThatHasThemAll) {
   const auto complaints_of = [](const std::string& lights, const std::string& method) {
     return complaints(FileText{.mission = "name = \"aggregation\"\n[mission.robot]\nbase = "
