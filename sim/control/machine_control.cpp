@@ -63,6 +63,16 @@ Command MachineControl::step(Senses& senses) {
   return command;
 }
 
+/// Within the loop over transitions: a call would cost more than what it does.
+[[gnu::always_inline]] inline double MachineControl::probability_of_count(
+    Known& known, const Condition& condition, Senses& senses) const {
+  const auto n = static_cast<std::size_t>(senses.neighbour_count());
+  if (n >= kTabledNeighbours) return enabling_probability(condition, senses, *flavour_);
+  double& probability = known.by_count[n];
+  if (probability < 0) probability = enabling_probability(condition, senses, *flavour_);
+  return probability;
+}
+
 /// Testing all and choosing uniformly among the enabled ones is, in distribution, the same as
 /// visiting them in a random order and taking the first one that is enabled.
 void MachineControl::take_transition(Senses& senses) {
@@ -94,15 +104,6 @@ void MachineControl::take_transition(Senses& senses) {
   if (enabled == 0) return;
   state_ = enabled_targets[enabled == 1 ? 0 : rng_.below(enabled)];
   entered_ = true;
-}
-
-double MachineControl::probability_of_count(Known& known, const Condition& condition,
-                                            Senses& senses) const {
-  const auto n = static_cast<std::size_t>(senses.neighbour_count());
-  if (n >= kTabledNeighbours) return enabling_probability(condition, senses, *flavour_);
-  double& probability = known.by_count[n];
-  if (probability < 0) probability = enabling_probability(condition, senses, *flavour_);
-  return probability;
 }
 
 }  // namespace swarmsmith

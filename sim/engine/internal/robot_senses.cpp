@@ -271,7 +271,7 @@ std::span<const Neighbour> RobotSenses::neighbours() {
 }
 
 int RobotSenses::neighbour_count() {
-  neighbours();
+  if (!computed_.has(Sensor::Neighbours)) neighbours();
   return readings_.neighbour_count;
 }
 

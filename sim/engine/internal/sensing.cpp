@@ -40,12 +40,12 @@ void ProximityRays::look_around() {
 void ProximityRays::cast(RayDistances& distances) {
   const Body& self = world_->body(robot_);
   if (distance2_of(self, looked_from_) > kStroll_m * kStroll_m) look_around();
-  if (along_lines_) {
-    meet_walls(self, start_m_, walls_, range_m_, distances);
-  } else {
+  if (!along_lines_) {
     meet_walls(self, world_->proximity_ring(), start_m_, walls_, range_m_, distances);
+    return meet_solids(distances);
   }
-  if (!world_->is_plain() || !along_lines_) return meet_solids(distances);
+  meet_walls(self, start_m_, walls_, range_m_, distances);
+  if (!world_->is_plain()) return meet_solids(distances);
   world_->visit_near(robot_, sight_of_robots_m(range_m_), room_, [&](int other) {
     meet_robot(self, world_->body(other), range_m_, distances);
   });
