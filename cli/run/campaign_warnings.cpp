@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/suggestion.h"
 #include "base/text/json.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/fitting.h"
@@ -65,6 +66,40 @@ void warn_about_ground_points(const Mission& mission, std::vector<std::string>& 
                        "] is outside of its body");
 }
 
+/// Rays pass over what is lower than the sensors, but walls.
+void warn_about_low_walls(const Mission& mission, std::vector<std::string>& warnings) {
+  const double sensors_m = mission.robot.proximity.height_m;
+  const double walls_m = mission.arena.wall_height_m;
+  if (sensors_m <= walls_m) return;
+  warnings.push_back("mission " + mission.name + ": the robot's proximity sensors are " +
+                     json_number(sensors_m) + " m high, its walls " + json_number(walls_m) +
+                     " m; simulated rays meet walls of any height");
+}
+
+/// The modules of a method that look for neighbours; a network reads them in any case.
+std::vector<std::string> looking_for_neighbours(const Method& method) {
+  if (method.architecture == Architecture::Network) return {"networks"};
+  std::vector<std::string> found;
+  for (const Module module : {Module::Attraction, Module::Repulsion})
+    if (has(method.behaviours, module)) found.emplace_back(id_of(module));
+  for (const Module module : {Module::NeighbourCount, Module::InvertedNeighbourCount})
+    if (has(method.conditions, module)) found.emplace_back(id_of(module));
+  return found;
+}
+
+void warn_about_neighbours(const Method& method, const Campaign& campaign,
+                           std::vector<std::string>& warnings) {
+  const std::vector<std::string> modules = looking_for_neighbours(method);
+  for (const CampaignMission& mission : campaign.missions) {
+    if (mission.mission.robot.neighbours.range_m > 0 || modules.empty()) continue;
+    warnings.push_back("method \"" + method.name + "\": the robot of mission " +
+                       mission.mission.name +
+                       " has `neighbours.range` 0, and never sees a neighbour; these look for "
+                       "neighbours: " +
+                       joined(modules));
+  }
+}
+
 /// A flavour that is faster than the robot goes no faster than that.
 void warn_about_speed(const Method& method, const Flavour& flavour, const Campaign& campaign,
                       std::vector<std::string>& warnings) {
@@ -99,6 +134,7 @@ std::vector<std::string> warnings_about(const Campaign& campaign) {
   for (const CampaignMission& mission : campaign.missions) {
     warn_about_robot(mission.mission, warnings);
     warn_about_ground_points(mission.mission, warnings);
+    warn_about_low_walls(mission.mission, warnings);
   }
   for (const Method& method : campaign.methods) {
     const Flavour& flavour = **flavour_of(method);
@@ -106,6 +142,7 @@ std::vector<std::string> warnings_about(const Campaign& campaign) {
     warn_about_range(method, flavour, campaign.profile, warnings);
     warn_about_light(method, campaign, warnings);
     warn_about_speed(method, flavour, campaign, warnings);
+    warn_about_neighbours(method, campaign, warnings);
   }
   return warnings;
 }

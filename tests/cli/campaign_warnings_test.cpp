@@ -97,5 +97,33 @@ TEST(CampaignWarnings, NameFlavoursThatDriveFasterThanTheRobotCan) {
                           "mission aggregation reaches 0.2 m/s, and drives at that"));
 }
 
+TEST(CampaignWarnings, NameWallsThatAreLowerThanTheRaysThatMeetThem) {
+  Campaign campaign = campaign_of("");
+  Mission& mission = campaign.missions[0].mission;
+  mission.arena.wall_height_m = mission.robot.proximity.height_m;
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+  mission.robot.proximity.height_m = 0.1;
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre("mission aggregation: the robot's proximity sensors are 0.1 m high, its "
+                          "walls 0.032 m; simulated rays meet walls of any height"));
+}
+
+TEST(CampaignWarnings, NameModulesThatLookForNeighboursOfARobotThatSeesNone) {
+  const std::string modules =
+      "behaviours = [\"stop\", \"repulsion\"]\nconditions = [\"gray_floor\", "
+      "\"inverted_neighbour_count\"]\n";
+  Campaign campaign = campaign_of(modules);
+  campaign.missions[0].mission.robot.neighbours.range_m = 0;
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre("method \"m\": the robot of mission aggregation has `neighbours.range` "
+                          "0, and never sees a neighbour; these look for neighbours: repulsion, "
+                          "inverted_neighbour_count"));
+  campaign.methods[0].behaviours = {"stop"};
+  campaign.methods[0].conditions = {"gray_floor"};
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+  campaign.methods[0].architecture = Architecture::Network;
+  EXPECT_THAT(warnings_about(campaign), ElementsAre(HasSubstr("for neighbours: networks")));
+}
+
 }  // namespace
 }  // namespace swarmsmith::cli
