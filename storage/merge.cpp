@@ -30,7 +30,8 @@ struct Move : Shift {
 };
 
 /// Tables whose rows are copied column by column. Candidates go through their rows, `source` by its
-/// names, calibrations once for all stores, and `meta` is each file's own.
+/// names, calibrations once for all stores, and of `meta` the profiles alone: the rest is each
+/// file's own.
 constexpr std::array kCopied{
     "campaign",   "design",         "pair",        "iteration",   "candidate_totals",
     "evaluation", "race_step",      "elimination", "elite",       "worker",
@@ -111,8 +112,22 @@ Expected<void> check_new_runs(const Connection& connection, const fs::path& stor
       store.string());
 }
 
+/// A profile of a name that is another in the stores before it.
+void take_profiles(Connection& connection, const Connection& other, const fs::path& store,
+                   std::vector<std::string>& warnings) {
+  for (const auto& [name, text] : read_kept_profiles(other)) {
+    if (keep_profile(connection, name, text)) continue;
+    warnings.push_back(
+        fmt::format("{}: candidates were evaluated under a profile {} that is another one in the "
+                    "stores before it; tables and figures take their scores for scores of one "
+                    "profile",
+                    store.string(), name));
+  }
+}
+
 /// One store into the new one; `copy` is its copy, of the newest schema.
-Expected<void> take(Connection& connection, const fs::path& store, const fs::path& copy) {
+Expected<void> take(Connection& connection, const fs::path& store, const fs::path& copy,
+                    std::vector<std::string>& warnings) {
   const Move move{{.designs = largest(connection, "id", "design"),
                    .workers = largest(connection, "id", "worker"),
                    .commands = largest(connection, "number", "command")},
@@ -133,6 +148,7 @@ Expected<void> take(Connection& connection, const fs::path& store, const fs::pat
     connection.execute("INSERT OR IGNORE INTO main.calibration SELECT * FROM other.calibration");
     for (const char* table : kCopied)
       copy_table(connection, table, move);
+    take_profiles(connection, other, store, warnings);
     transaction.commit();
   }
   connection.execute("DETACH other");
@@ -195,7 +211,7 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
         return Unexpected(fresh.error());
       }
       warn_of_unfinished(campaigns, stores[i], merged.warnings);
-      if (auto taken = take(connection, stores[i], copy->path()); !taken) {
+      if (auto taken = take(connection, stores[i], copy->path(), merged.warnings); !taken) {
         return Unexpected(taken.error());
       }
     }

@@ -49,6 +49,9 @@ class SqliteReader final : public StoreReader {
   std::int64_t schema() override { return schema_of(*connection_); }
   std::vector<DesignRow> designs() override { return read_designs(*connection_, part()); }
   std::vector<StoredScore> scores() override { return read_scores(*connection_, part()); }
+  std::map<std::string, std::string> kept_profiles() override {
+    return read_kept_profiles(*connection_);
+  }
   std::vector<CommandRow> commands() override { return read_commands(*connection_, part()); }
   std::vector<RealRunHead> real_runs() override;
   Expected<RealRunRows> real_run(RealRunId id) override;

@@ -159,6 +159,9 @@ class StoreReader {
   virtual std::vector<DesignRow> designs() = 0;
   virtual std::vector<StoredScore> scores() = 0;
   virtual std::vector<CommandRow> commands() = 0;
+  /// Texts of profiles, by name, under which candidates were evaluated outside of campaigns; those
+  /// of programs before this had it are missing.
+  virtual std::map<std::string, std::string> kept_profiles() = 0;
   /// The real runs by id; for a reader from `alone` those of its candidates, with its ids. None
   /// before schema 5.
   virtual std::vector<RealRunHead> real_runs() = 0;

@@ -69,6 +69,13 @@ Expected<void> SqliteAtRest::add(const Addition& addition) {
     require_finite(row);
   return in_one_go([&]() -> Expected<void> {
     if (auto added = add_campaign(addition); !added) return added;
+    for (const auto& [name, text] : addition.profiles) {
+      if (keep_profile(writer_.connection, name, text)) continue;
+      return unexpected(ErrorKind::Conflict,
+                        "the store has scores of another profile " + name +
+                            ", which would be mixed up with these; give it another name",
+                        path_.string());
+    }
     RowWriter writer(writer_.connection);
     for (const EvaluationKey& key : addition.removed)
       writer.remove(key);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ struct Addition {
   std::vector<ImportedDesign> designs;
   std::vector<EvaluationKey> removed;  ///< evaluations that give way to rows below
   std::vector<Row> rows;
+  /// Texts of profiles, by name, that `rows` were simulated under and no campaign of the store has.
+  /// A name stays one profile: Conflict when the store has another text for it.
+  std::map<std::string, std::string> profiles;
 };
 
 /// A store that no campaign is writing, opened to add results from outside of its races: later

@@ -10,6 +10,7 @@
 #include "cli/arguments/score_words.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
+#include "cli/replay/design_worlds.h"
 #include "console/terminal.h"
 
 namespace swarmsmith::cli {
@@ -119,7 +120,7 @@ std::string matrix_json(const Comparison& comparison) {
 }
 
 /// What was asked for; else sources where there are several, and methods where there are not.
-Expected<Comparison> compared(StoreReader& store, const CompareArguments& arguments) {
+Expected<Comparison> compared_by(StoreReader& store, const CompareArguments& arguments) {
   ComparisonOptions options = arguments.options;
   const bool is_matrix = arguments.matrix || arguments.table == "matrix";
   options.by = is_matrix ? CompareBy::Method : by_of(arguments.by);
@@ -134,6 +135,17 @@ Expected<Comparison> compared(StoreReader& store, const CompareArguments& argume
   if (differ(&ComparedGroup::source) || !differ(&ComparedGroup::method)) return comparison;
   options.by = CompareBy::Method;
   return compare(store, options);
+}
+
+/// With what the names in its tables mix up.
+Expected<Comparison> compared(StoreReader& store, const CompareArguments& arguments) {
+  auto comparison = compared_by(store, arguments);
+  if (!comparison) return comparison;
+  if (const auto worlds = DesignWorlds::read(store)) {
+    for (std::string& sentence : worlds->mixed_names())
+      comparison->notes.push_back(std::move(sentence));
+  }
+  return comparison;
 }
 
 ExitCode run_compare(CompareArguments& arguments, Output& output) {

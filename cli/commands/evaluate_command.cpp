@@ -135,6 +135,7 @@ class Evaluation {
       return fail(output_, exit_code_of_recording(recording.error()), recording.error());
     }
     for (const EvaluationJob& job : plan_.jobs) {
+      if (job.keeps_profile) keeper_->keep_profile(job.profile);
       for (std::size_t i = 0; i < job.seeds.size(); ++i)
         run_one(job, i, recording->recorder());
       // A design at a time, so that little is lost when this is ended.

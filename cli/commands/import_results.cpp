@@ -101,6 +101,7 @@ ExitCode add_campaign(const ImportArguments& arguments, Target target, Addition 
   if (auto added = target.store->add(addition); !added) {
     return fail(output, ExitCode::Store, added.error());
   }
+  warn_of_mixed_names(arguments.into, output);
   if (output.json) {
     print_imported(what, addition.designs, output);
   } else {

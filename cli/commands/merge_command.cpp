@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands/commands.h"
+#include "cli/replay/design_worlds.h"
 #include "console/counter.h"
 
 namespace swarmsmith::cli {
@@ -63,6 +64,7 @@ ExitCode run_merge(const MergeArguments& arguments, Output& output) {
   }
   for (const std::string& warning : merged->warnings)
     print_note(output, "warning: " + warning);
+  warn_of_mixed_names(arguments.out, output);
   write(output, *merged, arguments.out);
   return ExitCode::Done;
 }

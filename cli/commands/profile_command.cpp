@@ -20,16 +20,7 @@ struct PrintedArguments {
 tl::expected<std::string, std::vector<Error>> whole_profile(const std::string& word) {
   const auto profile = find_profile(word, ".");
   if (!profile) return tl::unexpected(profile.error());
-  const std::string root = "profile";
-  std::string text = "format = 1\n";
-  for (Section& section : profile_sections(*profile, root)) {
-    const bool is_top = section.header == "[" + root + "]";
-    section.header = is_top ? "" : "[" + section.header.substr(root.size() + 2);
-    if (is_top)  // the file gives the name
-      std::erase_if(section.lines, [](const SectionLine& line) { return line.key == "name"; });
-    text += text_of({section});
-  }
-  return text;
+  return profile_text(*profile);
 }
 
 tl::expected<std::string, std::vector<Error>> whole_flavour(const std::string& word) {

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "base/text/csv.h"
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/results/imported_world.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -33,7 +36,8 @@ std::optional<CampaignMission> built_in(const std::string& name) {
 void put_campaign(DesignWorld& world, const Campaign& campaign) {
   world.has_programs = campaign.target.has_value();
   if (!world.has_programs) world.profile = campaign.profile;
-  world.test_profiles = campaign.test_profiles;
+  world.further_profiles.insert(world.further_profiles.begin(), campaign.test_profiles.begin(),
+                                campaign.test_profiles.end());
   for (const CampaignMission& mission : campaign.missions) {
     if (!world.has_programs && mission.mission.name == world.design.mission)
       world.mission = mission;
@@ -66,14 +70,61 @@ Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
     }
     worlds.files_.emplace(cells[0].integer(), std::move(file));
   }
+  for (const auto& [name, text] : store.kept_profiles()) {
+    if (auto profile = parse_profile(text, name + ".toml"))
+      worlds.kept_profiles_.push_back(std::move(*profile));
+  }
   worlds.seed_ = static_cast<std::uint64_t>(store.campaign().seed);
   return worlds;
+}
+
+namespace {
+
+/// The first value of each name, and the campaign that has it.
+template <class Value>
+class FirstOfName {
+ public:
+  explicit FirstOfName(std::string kind) : kind_(std::move(kind)) {}
+
+  void look_at(const std::string& name, const Value& value, std::int64_t campaign,
+               std::vector<std::string>& sentences) {
+    auto& [first, whose, is_mixed] =
+        known_.try_emplace(name, std::tuple(value, campaign, false)).first->second;
+    if (is_mixed || first == value) return;
+    is_mixed = true;
+    sentences.push_back("campaigns " + std::to_string(whose) + " and " + std::to_string(campaign) +
+                        " have different " + kind_ + "s of the name " + name +
+                        "; tables and figures take their scores for scores of one " + kind_);
+  }
+
+ private:
+  std::string kind_;
+  std::map<std::string, std::tuple<Value, std::int64_t, bool>> known_;
+};
+
+}  // namespace
+
+std::vector<std::string> DesignWorlds::mixed_names() const {
+  std::vector<std::string> sentences;
+  if (files_.size() < 2) return sentences;
+  FirstOfName<Mission> missions("mission");
+  FirstOfName<Profile> profiles("profile");
+  std::set<std::pair<std::int64_t, std::string>> seen;
+  for (const KnownDesign& design : designs_) {
+    if (!seen.emplace(design.campaign, design.mission).second) continue;
+    const auto world = of(design.id);
+    if (!world || !*world || !(*world)->mission) continue;
+    missions.look_at(design.mission, (*world)->mission->mission, design.campaign, sentences);
+    const auto& profile = (*world)->profile;
+    if (profile) profiles.look_at(profile->name, *profile, design.campaign, sentences);
+  }
+  return sentences;
 }
 
 Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   const auto known = std::ranges::find(designs_, design, &KnownDesign::id);
   if (known == designs_.end()) return std::optional<DesignWorld>();
-  DesignWorld world{.design = *known};
+  DesignWorld world{.design = *known, .further_profiles = kept_profiles_};
   const auto file = files_.find(known->campaign);
   if (file != files_.end() && file->second.campaign) {
     world.engine_version = file->second.engine_version;
@@ -95,6 +146,15 @@ Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
   world.profile = imported->profile;
   world.own_flavour = imported->own_flavour;
   return world;
+}
+
+void warn_of_mixed_names(const std::string& store, Output& output) {
+  const auto reader = StoreReader::open(store);
+  if (!reader) return;
+  const auto worlds = DesignWorlds::read(**reader);
+  if (!worlds) return;
+  for (const std::string& sentence : worlds->mixed_names())
+    print_note(output, "warning: " + sentence);
 }
 
 }  // namespace swarmsmith::cli

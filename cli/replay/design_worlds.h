@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "console/output.h"
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/results/imported_world.h"
 #include "coordinator/results/known_designs.h"
@@ -21,11 +22,12 @@ struct DesignWorld {
   std::string flavour;
   const Flavour* own_flavour = nullptr;  ///< null: built in
   std::optional<TurnClock> turn_clock;
-  std::optional<Profile> profile;      ///< the campaign's; nothing for imported machines
-  std::vector<Profile> test_profiles;  ///< further ones of the campaign
-  int engine_version = 0;              ///< that made its scores; 0 when the store does not say
-  bool has_programs = false;           ///< programs evaluate
-  bool has_parameters = false;         ///< its candidates are parameters of a file, no machines
+  std::optional<Profile> profile;  ///< the campaign's; nothing for imported machines
+  /// Further ones of the campaign, and those under which candidates were evaluated outside of it.
+  std::vector<Profile> further_profiles;
+  int engine_version = 0;       ///< that made its scores; 0 when the store does not say
+  bool has_programs = false;    ///< programs evaluate
+  bool has_parameters = false;  ///< its candidates are parameters of a file, no machines
 };
 
 /// The worlds of all designs of a store: of a campaign's file, or, for imported machines, by their
@@ -37,6 +39,9 @@ class DesignWorlds {
   /// Nothing when the store has no such design. BadInput when its campaign's file cannot be read by
   /// this version.
   Expected<std::optional<DesignWorld>> of(DesignId design) const;
+  /// What only names tell apart: a sentence for each mission and profile that differs between
+  /// campaigns and has one name. None of worlds that cannot be read, or are programs'.
+  std::vector<std::string> mixed_names() const;
   const std::vector<KnownDesign>& designs() const { return designs_; }
   /// Of the store's first campaign.
   std::uint64_t seed() const { return seed_; }
@@ -52,7 +57,12 @@ class DesignWorlds {
     std::optional<Expected<ImportedWorld>> imported{};
   };
   std::map<std::int64_t, File> files_;  ///< of the campaigns
+  std::vector<Profile> kept_profiles_;  ///< see StoreReader
   std::uint64_t seed_ = 0;
 };
+
+/// Prints what names mix up in a store that just got another campaign. A store that cannot be read
+/// says so elsewhere.
+void warn_of_mixed_names(const std::string& store, Output& output);
 
 }  // namespace swarmsmith::cli

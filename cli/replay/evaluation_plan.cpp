@@ -227,6 +227,15 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   return job;
 }
 
+/// The profile that the store, or else this program, knows by the name.
+std::optional<Profile> known_profile(const NamedMachine& named, const std::string& name) {
+  if (named.profile && named.profile->name == name) return named.profile;
+  const auto further = std::ranges::find(named.further_profiles, name, &Profile::name);
+  if (further != named.further_profiles.end()) return *further;
+  auto built_in = built_in_profile(name);
+  return built_in ? std::optional(std::move(*built_in)) : std::nullopt;
+}
+
 /// Why the job's scores are none of the design's; nothing when they are.
 std::optional<std::string> complaint_about(const EvaluationJob& job, const NamedMachine& named,
                                            const EvaluateArguments& arguments) {
@@ -244,9 +253,8 @@ std::optional<std::string> complaint_about(const EvaluationJob& job, const Named
   if (name == "real" || name == "command") {
     return "scores of the source " + name + " are not simulated; give the profile another name";
   }
-  const auto built_in = built_in_profile(name);
-  const bool is_campaigns = named.profile && named.profile->name == name;
-  if (is_campaigns ? *named.profile != job.profile : built_in && *built_in != job.profile) {
+  const auto known = known_profile(named, name);
+  if (known && *known != job.profile) {
     return "there is another profile " + name +
            ", whose scores would be mixed up with these; give it another name";
   }
@@ -299,6 +307,7 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
       if (auto complaint = complaint_about(*job, named, arguments)) {
         return bad_input(*complaint + "; --no-store prints them only", to_string(named.candidate));
       }
+      job->keeps_profile = !known_profile(named, job->profile.name);
     }
     // One fresh seed for all candidates: their scores are compared.
     auto seeds = named.candidate && !plan.jobs.empty()

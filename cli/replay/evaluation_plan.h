@@ -37,6 +37,7 @@ struct EvaluationJob {
   Controller controller;
   Flavour flavour;
   Profile profile;
+  bool keeps_profile = false;  ///< the store that gets the scores must keep it, too
   Mission mission;
   std::string name;                 ///< of a machine of a file; may be empty
   std::vector<std::int64_t> seeds;  ///< at least one

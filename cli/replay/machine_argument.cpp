@@ -85,6 +85,7 @@ Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorl
   machine.own_flavour = (*world)->own_flavour;
   machine.turn_clock = (*world)->turn_clock;
   machine.profile = std::move((*world)->profile);
+  machine.further_profiles = std::move((*world)->further_profiles);
   return machine;
 }
 

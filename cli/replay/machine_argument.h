@@ -24,6 +24,7 @@ struct NamedMachine {
   const Flavour* own_flavour = nullptr;  ///< null: built in
   std::optional<TurnClock> turn_clock;
   std::optional<Profile> profile;
+  std::vector<Profile> further_profiles;  ///< of a candidate: others that its store knows
   std::string seeds;  ///< of a file: those of the tests whose scores its store has
 };
 

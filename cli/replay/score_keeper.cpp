@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/arguments/store_argument.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
 
@@ -48,10 +49,17 @@ ScoreKeeper::Kept ScoreKeeper::keep(const ScorePlace& place, const SimulationRes
   return {Kept::How::Conflict, known->key, known->measured.score};
 }
 
+void ScoreKeeper::keep_profile(const Profile& profile) {
+  profiles_.emplace(profile.name, profile_text(profile));
+}
+
 Expected<void> ScoreKeeper::commit() {
   if (rows_.empty()) return {};
-  return store_->add(
-      {.campaign = {}, .designs = {}, .removed = {}, .rows = std::exchange(rows_, {})});
+  return store_->add({.campaign = {},
+                      .designs = {},
+                      .removed = {},
+                      .rows = std::exchange(rows_, {}),
+                      .profiles = profiles_});
 }
 
 }  // namespace swarmsmith::cli

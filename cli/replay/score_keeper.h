@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ class ScoreKeeper {
   /// Holds the store's lock from now on, so that no work is done in vain. Conflict when a campaign
   /// is writing it.
   static Expected<ScoreKeeper> open(const std::string& store);
+
+  /// Keeps what the profile is of scores that are kept from now on: the store cannot know it else.
+  void keep_profile(const Profile& profile);
 
   /// What became of a score.
   struct Kept {
@@ -40,6 +44,7 @@ class ScoreKeeper {
   std::unique_ptr<StoreAtRest> store_;
   ScoreLedger ledger_;
   std::vector<Row> rows_;
+  std::map<std::string, std::string> profiles_;
 };
 
 }  // namespace swarmsmith::cli

@@ -62,8 +62,8 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
 /// The profile behind a source, or why there is none.
 Expected<Profile> profile_of(const DesignWorld& world, const std::string& source) {
   if (world.profile && source == world.profile->name) return *world.profile;
-  const auto further = std::ranges::find(world.test_profiles, source, &Profile::name);
-  if (further != world.test_profiles.end()) return *further;
+  const auto further = std::ranges::find(world.further_profiles, source, &Profile::name);
+  if (further != world.further_profiles.end()) return *further;
   if (source == "real") {
     return bad_input("it was filmed, not simulated: there is nothing to simulate again");
   }

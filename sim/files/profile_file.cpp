@@ -116,6 +116,19 @@ ProfileOrErrors find_profile(const std::string& word, const std::filesystem::pat
   return std::move(*profile);
 }
 
+std::string profile_text(const Profile& profile) {
+  const std::string root = "profile";
+  std::string text = "format = 1\n";
+  for (Section& section : profile_sections(profile, root)) {
+    const bool is_top = section.header == "[" + root + "]";
+    section.header = is_top ? "" : "[" + section.header.substr(root.size() + 2);
+    if (is_top)  // the file gives the name
+      std::erase_if(section.lines, [](const SectionLine& line) { return line.key == "name"; });
+    text += text_of({section});
+  }
+  return text;
+}
+
 Profile read_profile_table(TableReader& table) {
   Profile profile;
   profile.name = table.text("name").value_or("");

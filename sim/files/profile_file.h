@@ -37,6 +37,9 @@ ProfileOrErrors find_profile(const std::string& word, const std::filesystem::pat
 /// without the ending) and is not read.
 ProfileOrErrors parse_profile(std::string_view text, const std::filesystem::path& file);
 
+/// All fields as a file of the profile's name. It reads back to the same profile.
+std::string profile_text(const Profile& profile);
+
 /// The keys of a profile in a table of another file, `name` among them. What is wrong goes to the
 /// table's complaints.
 Profile read_profile_table(TableReader& table);

@@ -403,6 +403,32 @@ void forget_secret(sqlite::Connection& connection) {
       "PRAGMA secure_delete = OFF");
 }
 
+namespace {
+
+/// In the table `meta`, before the name.
+constexpr std::string_view kProfileKey = "profile:";
+
+}  // namespace
+
+std::map<std::string, std::string> read_kept_profiles(const sqlite::Connection& connection) {
+  std::map<std::string, std::string> profiles;
+  Statement row(connection,
+                "SELECT substr(key, ?1 + 1), value FROM meta WHERE substr(key, 1, ?1) = ?2");
+  row.bind(std::ssize(kProfileKey), kProfileKey);
+  while (row.step())
+    profiles.emplace(row.text(0), row.text(1));
+  return profiles;
+}
+
+bool keep_profile(sqlite::Connection& connection, const std::string& name,
+                  const std::string& text) {
+  const std::string key = std::string(kProfileKey) + name;
+  Statement(connection, "INSERT OR IGNORE INTO meta VALUES (?,?)").run(key, text);
+  Statement kept(connection, "SELECT value FROM meta WHERE key = ?");
+  kept.bind(key);
+  return kept.step() && kept.text(0) == text;
+}
+
 bool is_finished(const sqlite::Connection& connection) {
   return sqlite::integer_of(connection,
                             "SELECT count(*) FROM campaign"

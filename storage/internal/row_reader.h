@@ -53,4 +53,9 @@ StoredTrust read_trust(const sqlite::Connection& connection);
 std::string keep_secret(sqlite::Connection& connection, const std::string& fresh);
 void forget_secret(sqlite::Connection& connection);
 
+/// See StoreReader::kept_profiles.
+std::map<std::string, std::string> read_kept_profiles(const sqlite::Connection& connection);
+/// False when the store keeps another text under the name.
+bool keep_profile(sqlite::Connection& connection, const std::string& name, const std::string& text);
+
 }  // namespace swarmsmith

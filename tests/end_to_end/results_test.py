@@ -52,6 +52,12 @@ class Results(ProgramTest):
         self.assertEqual(process.returncode, code, process.stdout + process.stderr)
         self.assertIn(sentence, process.stderr)
 
+    def noted(self, *arguments):
+        """Its standard error."""
+        process = call(*arguments)
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        return process.stderr
+
     def imported(self, *arguments):
         return json.loads(self.done("import", *arguments, "--json"))
 
@@ -275,6 +281,40 @@ class Results(ProgramTest):
         self.refused(3, "different flavours of the name mine", "import", *words, store)
         self.refused(3, "different flavours of the name mine", "merge", store, other, "-o", self.folder / "all.db")
         self.assertEqual(self.query(store, "SELECT module FROM v_modules"), [{"module": "stop"}])
+
+    def test_a_store_has_one_profile_of_a_name(self):
+        profile, text = self.folder / "mine.toml", self.folder / "machines.txt"
+        store, other = self.folder / "one.db", self.folder / "two.db"
+        for into, limit in ((store, 0.2), (other, 0.3)):
+            text.write_text(f"--nstates 1 --s0 0 --rwm0 {10 * limit:.0f}\n")
+            self.imported(text, "--flavour", "watermelon", "--mission", "aggregation", "--into", into)
+            profile.write_text(f'format = 1\nbase = "rvr"\n[proximity]\nrange = {limit}\n')
+            self.done("evaluate", "best", into, "--profile", profile, "--seeds", "1-2")
+        self.refused(2, "another profile mine, whose scores would be mixed up", "evaluate", "best", store,
+                     "--profile", profile, "--seeds", "3")
+        self.done("evaluate", "best", other, "--profile", profile, "--seeds", "3")
+        merged = self.folder / "merged.db"
+        self.assertIn("two.db: candidates were evaluated under a profile mine that is another one",
+                      self.noted("merge", store, other, "-o", merged))
+        profile.unlink()  # the store has all of it
+        first = self.query(merged, "SELECT id FROM v_evaluations WHERE source = 'mine' ORDER BY candidate, seed")[0]
+        for each in (store, merged):
+            self.assertIn("same bits", self.done("replay", first["id"], each))
+
+    def test_missions_of_one_name_that_differ_are_told(self):
+        mission, text = self.folder / "yard.toml", self.folder / "machines.txt"
+        store, other, merged = (self.folder / name for name in ("one.db", "two.db", "merged.db"))
+        for into, duration, machine in ((store, 10, 1), (other, 20, 1), (other, 20, 0), (other, 30, 0)):
+            mission.write_text(f'format = 1\npreset = "aggregation"\nduration = "{duration} s"\n')
+            text.write_text(f"--nstates 1 --s0 {machine}" + " --rwm0 5" * (machine == 0) + "\n")
+            told = self.noted("import", text, "--flavour", "watermelon", "--mission", mission, "--into", into)
+            self.assertEqual("different missions of the name yard" in told, duration == 30, told)
+        self.assertIn("campaigns 1 and 2 have different missions of the name yard",
+                      self.noted("merge", store, other, "-o", merged))
+        for each in (store, merged):
+            self.done("evaluate", "best", each, "--seeds", "1-3")
+            self.assertEqual("different missions of the name yard" in self.done("compare", each, "--purpose", "score"),
+                             each == merged)
 
     def evaluations(self, store):
         done = call("query", store, "SELECT count(*) AS n FROM v_evaluations", "--json")
