@@ -103,6 +103,9 @@ struct Command {
 /// Wheels go up to 155 cm/s, either way (thesis table 5.1; thesis facts, section 5).
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
+/// As far as files of robots and flavours may go.
+inline constexpr double kFastestWheel_mps = 10;
+
 /// A speed within the wheels' range.
 constexpr double within_wheel_speed(double speed_mps, double most_mps = kMaxWheelSpeed_mps) {
   if (speed_mps > most_mps) return most_mps;

@@ -98,7 +98,7 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
 
   visitor.device("treads");
   visitor.later(profile.treads.step_mps == 0, [&] {
-    visitor.number("step", profile.treads.step_mps, FieldLimits{0, kMaxWheelSpeed_mps});
+    visitor.number("step", profile.treads.step_mps, FieldLimits{0, kFastestWheel_mps});
   });
   visitor.later(profile.treads.sd == 0, [&] { visitor.number("sd", profile.treads.sd, kRate); });
   visitor.later(profile.treads.way == 1, [&] { visitor.number("way", profile.treads.way, kGrip); });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/control/reference_model.h"
 #include "sim/robot/fields.h"
 #include "sim/robot/robot.h"
 
@@ -59,7 +60,7 @@ void visit_robot_fields(AnyRobot& robot, Visitor& visitor) {
 
   visitor.device("drive");
   visitor.number("track", robot.drive.track_m, FieldLimits{0.005, 5});
-  visitor.number("max_speed", robot.drive.max_speed_mps, FieldLimits{0.001, 10});
+  visitor.number("max_speed", robot.drive.max_speed_mps, FieldLimits{0.001, kFastestWheel_mps});
   visitor.number("force", robot.drive.max_force_N, FieldLimits{0.001, 10'000});
   visitor.number("torque", robot.drive.max_torque_Nm, FieldLimits{0.001, 10'000});
 

@@ -218,6 +218,20 @@ TEST(TimedRace, TakesGivenConfigurationsFirst) {
   EXPECT_EQ(race.alive(), std::vector<std::int64_t>{3});
 }
 
+TEST(TimedRace, FillsABatchOfGivenConfigurationsWithSampledOnes) {
+  const ParameterSpace space = small_space();
+  Configuration given(3);
+  given.set(0, 0);
+  given.set(1, 1);
+  given.set(2, 1);
+  const auto race = IteratedRace::start(space, timed_scenario(3000), {given}).value();
+  std::set<std::int64_t> tried;
+  for (const Experiment& experiment : race.wanted())
+    tried.insert(experiment.configuration);
+  EXPECT_EQ(tried, (std::set<std::int64_t>{1, 2})) << "as many as without the given one";
+  EXPECT_EQ(race.configuration(1), given);
+}
+
 TEST(TimedRace, LeavesOutWhatTheEstimateRejects) {
   auto race = IteratedRace::start(small_space(), timed_scenario(3000)).value();
   std::vector<Measurement> answers(race.wanted().size(), {1, 1.5});

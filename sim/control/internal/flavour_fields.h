@@ -49,7 +49,7 @@ void visit_flavour_fields(AnyFlavour& flavour, Visitor& visitor) {
 
   visitor.integer("states", flavour.most_states, FlavourLimits{1, kMaxStates});
   visitor.integer("transitions", flavour.most_transitions, FlavourLimits{1, kMaxTransitions});
-  visitor.number("speed_mps", flavour.speed_mps, FlavourLimits{0, kMaxWheelSpeed_mps});
+  visitor.number("speed_mps", flavour.speed_mps, FlavourLimits{0, kFastestWheel_mps});
 
   visitor.table("obstacles");
   visitor.choice("reading", flavour.obstacles.reading, kObstacleReadings);

@@ -1,5 +1,7 @@
 // Peers that come, take and leave change nothing.
 
+#include <gmock/gmock.h>
+
 #include <set>
 
 #include "base/rng.h"
@@ -52,6 +54,23 @@ TEST_F(Blame, TheRefereeBreaksTheCircleWhereEveryNewcomerDies) {
   ASSERT_EQ(asked(), key(1));
   rule_rejected(1);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+}
+
+TEST_F(Blame, WhatMayHaveKilledAWorkerRunsOnProvenWorkersAlone) {
+  hello(1);
+  hello(2);
+  credit(1, 100);
+  want(1, 4);
+  scheduler.on_unreachable(1, now + milliseconds(10));
+  move();
+  ASSERT_GE(given[1].size(), 2U);
+  enter(3, "10.0.0.1");
+  credit(3, 10);
+  for (const std::int64_t candidate : given[1])
+    EXPECT_THAT(given[3], testing::Not(testing::Contains(candidate)))
+        << "its death would say nothing";
+  credit(2, 100);
+  EXPECT_EQ(given[2], (std::vector<std::int64_t>{given[1].front()}));
 }
 
 TEST_F(Blame, StrangersHaveTheRefereeDoOneThingAtATime) {

@@ -211,6 +211,18 @@ TEST(Treads, StepsNeverLeadBeyondTheWheelsRange) {
             (std::set<double>{-1.55, 1.55}));
 }
 
+TEST(Treads, GoAsFastAsTheRobotsFileSays) {
+  ReferenceRuns runs("aggregation");
+  Flavour fast = watermelon();
+  fast.speed_mps = 3;
+  runs.flavour = &fast;
+  runs.mission.robot.drive.max_speed_mps = 5;
+  const Machine explores = machine_of("--nstates 1 --s0 0 --rwm0 5");
+  EXPECT_EQ(speeds_of(runs, explores), (std::set<double>{-3, 3}));
+  runs.mission.robot.drive.max_speed_mps = 2;
+  EXPECT_EQ(speeds_of(runs, explores), (std::set<double>{-2, 2}));
+}
+
 /// Where one robot ends up that follows steady commands from the middle of the arena for 2 s.
 Pose driven(const Treads& treads, double left_mps, double right_mps, int robot_seed = 1) {
   class Steady final : public Decider {

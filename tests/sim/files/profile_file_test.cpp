@@ -188,7 +188,7 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"[timing]\ndriver = \"205 ms\"\n",
        "mine.toml:3:10: `driver` must be a multiple of 10 ms, the step of the simulator"},
       {"[neighbours]\nevery = \"11 s\"\n", "mine.toml:3:9: `every` must be from"},
-      {"[treads]\nstep = 2\n", "mine.toml:3:8: `step` must be from 0 to 1.55, this is 2"},
+      {"[treads]\nstep = 11\n", "mine.toml:3:8: `step` must be from 0 to 10, this is 11"},
       {"[proximity]\ntouch = \"noting\"\n", "mine.toml:3:9: `touch` cannot be \"noting\" (did you"},
       {"wire = \"float16\"\n", "mine.toml:2:8: `wire` cannot be \"float16\""},
       {"base = \"rvx\"\n", "mine.toml:2:8: `base` cannot be \"rvx\" (did you mean \"rvr\"?)"},

@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "base/rng.h"
 #include "tests/tracking/motion/seen_run.h"
+#include "tracking/motion/internal/travel.h"
 #include "tracking/motion/resampling.h"
 #include "tracking/motion/track_run.h"
 
@@ -346,6 +347,19 @@ TEST(TravelTest, WhatTouchesARobotMayPushIt) {
   const TrackedRun run = seen_run(touching, seeing).track().value();
   EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
   EXPECT_EQ(find_check(run, "way to the side", "rvr2")->outcome, Check::Outcome::NotRun);
+}
+
+TEST(TravelFit, WantsTwentyFreeStepsForAHeading) {
+  std::vector<TravelStep> steps;
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(fit_travel(steps).knows_heading) << i;
+    steps.push_back({.from_s = 0.1 * i, .to_s = 0.1 * (i + 1), .ahead_m = 0.03, .aside_m = -0.003});
+  }
+  const TravelFit fit = fit_travel(steps);
+  EXPECT_TRUE(fit.knows_heading);
+  EXPECT_NEAR(fit.turned_rad, std::atan(0.1), 1e-6);
+  steps.back().touches = true;
+  EXPECT_FALSE(fit_travel(steps).knows_heading);
 }
 
 }  // namespace
