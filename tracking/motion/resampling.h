@@ -34,8 +34,7 @@ struct PoseAt {
   Pose pose;
   Scatter sigma;  ///< if Missing, the distance that the robot may have gone within the limits
   CycleKind kind = CycleKind::Missing;
-  double gap_s = 0;  ///< between the neighbouring samples; 0 at a sample, or with only one
-                     ///< neighbour
+  double gap_s = 0;  ///< between its neighbours; 0 at a sample, or with only one neighbour
 };
 
 /// A robot's motion, estimated from its samples. Its velocities (along x, along y and turning) are

@@ -363,8 +363,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   list_unknown(sightings, rig, options, run);
   std::vector<TaggedRobot> robots;
   std::vector<RobotTrack> tracks;
-  std::vector<std::vector<OneOfTags>> several;  ///< tags of each robot with several; empty for
-                                                ///< other robots
+  std::vector<std::vector<OneOfTags>> several;  ///< tags of robots with more than one
   for (const RobotSetup& setup : rig.robots) {
     const auto tags = tagged_robots(setup, rig, options, run);
     if (!tags) return Unexpected(tags.error());

@@ -36,8 +36,7 @@ struct TrackLimits {
   double interpolated_share = 0.05;
   double outside_m = 0.15;        ///< distance beyond the walls
   double scale_tolerance = 0.03;  ///< error of a tag's scale: its height or edge is wrong
-  double scale_warning = 0.01;    ///< twice the error of an edge that is measured to half a
-                                  ///< millimetre
+  double scale_warning = 0.01;    ///< twice the error of an edge measured to half a millimetre
   double scale_scatter = 0.05;    ///< difference of one sample's scale from the others
   double residual_m = 0.0015;
   double least_frame_rate = 10;
@@ -53,11 +52,9 @@ struct TrackLimits {
 struct TrackOptions {
   RunSpan span;
   std::vector<HandPoint> points;  ///< marked by a person
-  std::vector<int> other_tags;    ///< other tags that are expected in the picture, such as the tag
-                                  ///< of a sync event
+  std::vector<int> other_tags;    ///< other expected tags, such as the tag of a sync event
   TrackLimits limits;
-  Outline body = BoxOutline{kBodySide_m, kBodySide_m};  ///< outline of the robots, used to find
-                                                        ///< contacts
+  Outline body = BoxOutline{kBodySide_m, kBodySide_m};  ///< of the robots, for finding contacts
   bool scored_at_the_end = false;       ///< the mission's score uses only the last instant
   bool takes_tags_for_centres = false;  ///< if a robot has no offset calibration
   bool corrects_height = true;          ///< false only to show the error without correction

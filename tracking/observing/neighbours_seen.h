@@ -7,9 +7,8 @@ namespace swarmsmith {
 
 /// How often a robot detected its neighbours, from its own log and the camera's observations.
 struct NeighboursSeen {
-  std::int64_t there = 0;     ///< number of times a neighbour was well within range, counted per
-                              ///< control cycle
-  std::int64_t seen = 0;      ///< number of these times that the robot detected it
+  std::int64_t there = 0;     ///< cycles with a neighbour well within range, summed over neighbours
+  std::int64_t seen = 0;      ///< in how many of these the robot detected it
   std::int64_t phantoms = 0;  ///< neighbours in the log with no robot at that place
   double error = 0;           ///< one standard error of seen / there
   std::string reason;         ///< why there is no result; then all numbers are 0

@@ -21,8 +21,7 @@ namespace swarmsmith {
 struct Sighting {
   int camera = 0;          ///< index in the list of cameras
   std::int64_t frame = 0;  ///< index in the camera's frame_times
-  double time_s = 0;       ///< on the camera's clock, at the middle of the exposure of the tag's
-                           ///< rows
+  double time_s = 0;       ///< camera's clock at the middle of the exposure of the tag's rows
   int tag = 0;
   TagCorners corners{};
   int hamming = 0;    ///< number of corrected bits

@@ -24,8 +24,7 @@ struct ObservedVideo {
 struct ObserveOptions {
   std::string family = "tag36h11";
   TagSearchOptions search;
-  std::set<int> references;     ///< floor tags that do not move; kept as medians and not as
-                                ///< sightings
+  std::set<int> references;     ///< floor tags; kept as medians and not as sightings
   double reference_span_s = 1;  ///< length of the spans for these medians
 };
 

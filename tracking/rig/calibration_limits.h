@@ -25,8 +25,7 @@ struct CameraLimits {
   double least_coverage = 0.3;
   double good_coverage = 0.7;
   double aspect = 0.02;        ///< largest difference of fx / fy from 1
-  double principal = 0.10;     ///< largest distance of the principal point from the middle, as a
-                               ///< share of width or height
+  double principal = 0.10;     ///< principal point's offset from the middle, over width and height
   double focal_sigma = 0.005;  ///< standard deviation of f divided by f; a larger one causes a note
 };
 

@@ -78,8 +78,7 @@ bool is_error(IssueCode code);
 struct Issue {
   IssueCode code = IssueCode::Config;
   std::string text;
-  std::string robot = {};           ///< name of the robot; empty if the issue is not about one
-                                    ///< robot
+  std::string robot = {};           ///< name of the robot; empty if there is none
   std::optional<double> from = {};  ///< seconds of the run
   std::optional<double> to = {};
 

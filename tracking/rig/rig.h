@@ -125,8 +125,7 @@ struct OffsetCalibration {
   double turned_rad = 0;
   int samples = 0;
   std::string made;
-  std::vector<OffsetCalibration> more_tags = {};  ///< the robot's other tags, calibrated from the
-                                                  ///< same films
+  std::vector<OffsetCalibration> more_tags = {};  ///< the robot's other tags, from the same films
 };
 
 /// The part of a robot's calibration for one of its tags; null if there is none for this tag.

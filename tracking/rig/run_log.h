@@ -41,8 +41,7 @@ struct RunStart {
 /// The source of the positions of the run's colour patches.
 struct RunLayout {
   enum class Source { None, Log, Measured } source = Source::None;
-  std::vector<PatchPlacement> patches;  ///< from the log; for `Measured`, the measured ones once
-                                        ///< known
+  std::vector<PatchPlacement> patches;  ///< from the log; for `Measured`, once measured
 
   friend bool operator==(const RunLayout&, const RunLayout&) = default;
 };

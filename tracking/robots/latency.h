@@ -18,8 +18,7 @@ struct TimedCommand {
 /// The time between a robot's commands and its motion.
 struct Latency {
   std::optional<double> seconds;  ///< none if it cannot be determined
-  double error_s = 0;             ///< one standard error of `seconds`, or of the estimate that was
-                                  ///< rejected
+  double error_s = 0;             ///< one standard error of `seconds`, or of a rejected estimate
   /// Correlation of commanded and seen motion at the best shift, -1 to 1: of turns if turns were
   /// commanded, otherwise of distances. None if the robot did not move.
   std::optional<double> agreement;

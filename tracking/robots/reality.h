@@ -19,8 +19,7 @@ struct Reality {
   Slip slip;
   std::vector<double> delays_s;  ///< delays of single commands, from delays_of; empty if unknown
   NeighboursSeen neighbours;
-  std::optional<double> period_s;                ///< period of its control cycles; none for fewer
-                                                 ///< than 50 cycles
+  std::optional<double> period_s;                ///< of its control cycles; none for fewer than 50
   std::vector<std::pair<int, double>> states_s;  ///< time in each state of its machine
 };
 

@@ -52,9 +52,8 @@ bool is_off(const Gain& way);
 
 /// The conclusions from the robots' logs and from the notes of `start` on their nodes.
 struct RobotFindings {
-  std::vector<std::optional<Latency>> latencies;  ///< in the order of the tracked robots; none
-                                                  ///< without a log
-  std::vector<std::optional<Reality>> reality;    ///< in the same order
+  std::vector<std::optional<Latency>> latencies;  ///< by tracked robot; none without a log
+  std::vector<std::optional<Reality>> reality;    ///< by tracked robot; none without a log
   std::vector<Issue> issues;
   std::vector<Check> checks;
   bool logs_confirm_clock = false;  ///< film and robots' logs agree on the speed of time

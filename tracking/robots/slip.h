@@ -12,8 +12,7 @@ namespace swarmsmith {
 /// The share of its commanded motion that a robot actually does.
 struct Gain {
   std::optional<double> gain;  ///< 1: all of it; none if it cannot be determined
-  bool is_against = false;     ///< it drove backwards when ahead was commanded, with a known
-                               ///< heading
+  bool is_against = false;     ///< drove backwards though ahead was commanded, with known heading
   double error = 0;            ///< one standard error
   double seconds = 0;          ///< total time of the motion that was used
   std::string reason;          ///< why it cannot be determined, a sentence without its subject

@@ -24,8 +24,7 @@ struct FloorPicture {
 /// The patch on one of the mission's places.
 struct MeasuredPatch {
   Rectangle place;
-  Rgb color;                      ///< a colour of the mission; the floor's colour if there is no
-                                  ///< patch
+  Rgb color;                      ///< a colour of the mission, or the floor's colour
   double confidence = 0;          ///< 0: two colours fit equally well; 1: only one fits
   std::array<double, 3> ratio{};  ///< red, green, blue divided by the floor's values nearby
   int pictures = 0;               ///< number of pictures in which it was seen

@@ -42,10 +42,8 @@ struct ReferenceFinding {
   int tag = 0;
   std::int64_t looks = 0;            ///< number of spans of some seconds in which it was seen
   double rms_px = 0;                 ///< its reprojection error in the place calibration
-  std::optional<double> left_out_m;  ///< its error on the floor when the place was solved without
-                                     ///< it
-  double worst_shift_px = 0;         ///< largest mean shift of its corners in this run, against the
-                                     ///< calibration
+  std::optional<double> left_out_m;  ///< its floor error when the place was solved without it
+  double worst_shift_px = 0;         ///< largest mean shift of its corners since the calibration
 };
 
 /// The findings on one camera and its floor tags over a run. Missing parts are null.

@@ -26,8 +26,7 @@ struct ScoredRun {
   Verdict verdict = Verdict::Valid;
   bool biased = false;                                 ///< a tag was taken for its robot's centre
   std::vector<std::string> reasons;                    ///< reasons for the verdict, a sentence each
-  std::vector<std::optional<BorderDistance>> borders;  ///< per robot; for scores of the last
-                                                       ///< instant
+  std::vector<std::optional<BorderDistance>> borders;  ///< per robot; if the last instant is scored
   /// Latency of each robot's motion behind its commands; none for a robot without a log. Empty if
   /// it was not computed.
   std::vector<std::optional<Latency>> latencies;

@@ -42,9 +42,8 @@ struct SourceInfo {
   double frame_rate = 0;             ///< nominal; 0 if unknown
   std::int64_t expected_frames = 0;  ///< including damaged frames; 0 if unknown
   bool has_times = false;            ///< frames have reliable times
-  bool has_count = false;     ///< constant rate, and the number of frames agrees with the file's
-                              ///< header
-  bool is_truncated = false;  ///< the file ends earlier than its header says
+  bool has_count = false;            ///< constant rate, and as many frames as the header says
+  bool is_truncated = false;         ///< the file ends earlier than its header says
   bool is_live = false;
   std::vector<std::string> oddities;  ///< reasons why tags may not be found, a sentence each
 };

@@ -62,8 +62,7 @@ TagCorners turned_by_half(TagCorners corners, ImageSize size) {
 /// The shift of the floor tags from their earlier positions, in one look at them.
 struct Span {
   double time_s = 0;  ///< middle of the look, time of the run
-  int tags = 0;       ///< seen tags with a known earlier position; 0 if half of them contradict the
-                      ///< others
+  int tags = 0;       ///< tags with a known earlier position; 0 if they contradict each other
   double shift_px = 0;
   double turned_px = 0;  ///< the same, for a picture that is turned by 180 degrees
 };

@@ -17,8 +17,7 @@ struct ClockStep {
 struct ClockSteps {
   int count = 0;
   ClockStep worst;
-  double most_off_s = 0;      ///< largest error of the clock: the sum of all steps so far, or one
-                              ///< step
+  double most_off_s = 0;      ///< largest error of the clock, by one step or the sum so far
   int backwards = 0;          ///< number of places where robots go back in time
   double backwards_at_s = 0;  ///< time of the first one, in the run
   std::string reason;         ///< why no result is possible

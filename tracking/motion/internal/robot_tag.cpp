@@ -25,8 +25,7 @@ double tilt_limit(const RobotSetup& robot) {
 
 /// The shear of a sighting, and its position.
 struct Shear {
-  std::complex<double> place;   ///< offset from the point below the camera, divided by the camera's
-                                ///< height above the tag
+  std::complex<double> place;   ///< from the point below the camera, over its height above the tag
   std::complex<double> strain;  ///< strain of the square, in the world's axes
   double heading = 0;           ///< heading of the tag
 };

@@ -64,8 +64,7 @@ struct Sums {
 };
 
 struct Line {
-  Eigen::Vector2d normal{1, 0};  ///< normal of the directions (aside, ahead) in which treads can
-                                 ///< move
+  Eigen::Vector2d normal{1, 0};  ///< perpendicular to the motion (aside, ahead) of the treads
   double ahead_m = 0;
   double most = 0;     ///< eigenvalue along these directions
   double by_turn = 0;  ///< distance that is proportional to the turn, metres per radian

@@ -23,8 +23,7 @@ struct TravelStep {
   double noise_m = 0;     ///< noise of the distance, one sigma
   double sigma_m = 0;     ///< error of interpolation, beyond the noise of a sample
   bool touches = false;   ///< the robot touches something, or did shortly before, and may slide
-  bool is_steady = true;  ///< it neither gains nor loses speed; otherwise its body may slide over
-                          ///< the treads
+  bool is_steady = true;  ///< false when its speed changes, as its body may then slide
 };
 
 /// The position and direction of a tag, estimated from all free steps of a run. With a heading

@@ -23,8 +23,7 @@ struct Connection {
 struct Entry {
   std::int64_t recorded_ns = 0;  ///< since 1970
   std::int64_t chunk = 0;        ///< where the chunk's record begins
-  std::uint32_t place = 0;       ///< offset in the chunk, of the message or of the connection
-                                 ///< before it
+  std::uint32_t place = 0;       ///< offset in the chunk, of the message or its connection
   std::uint32_t connection = 0;
 };
 
