@@ -86,8 +86,8 @@ void TagSearch::search_whole(const GrayImage& image, double time_s, std::vector<
   const bool has_small = std::any_of(followed_.begin(), followed_.end(),
                                      [&](const auto& each) { return is_small(each.second); });
   // The first frame is searched at full resolution, because its tags may be of any size. While tags
-  // are missing, so is every fourth whole frame, beginning with the second: the missing tags may be
-  // small, or the light poor.
+  // are missing, so is every fourth whole frame that is searched, beginning with the second one:
+  // the missing tags may be small, or the light poor.
   const bool is_first = full_searches_ == 0;
   const int decimate = is_first || has_small || passes_in_vain_ % 4 == 1 ? 1 : 2;
   for (const Detection& each : detector_.find(image, decimate))

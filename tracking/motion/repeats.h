@@ -28,9 +28,8 @@ struct Repeats {
 };
 
 /// Compares the corners of robots' tags, because codecs write the same picture with different bits.
-/// A picture is a repeat if robots stand still in it that moved before and go on moving afterwards,
-/// and
-/// - for a few frames: two or more robots stand, or a single one stands and then makes up for it;
+/// A picture is a repeat if robots that moved before stand still in it and move on afterwards, and
+/// - for a few frames: two or more robots stand, or a single one that jumps afterwards;
 /// - for longer: they make up for it in one step; or, at the film's end, the camera noise vanishes
 ///   that moved the corners of still tags before; or, if this cannot be seen, two or more robots
 ///   stop in the same frame, each after a full step. A single robot that stops like this is

@@ -60,8 +60,8 @@ struct TrackOptions {
   bool corrects_height = true;          ///< false only to show the error without correction
 };
 
-/// The name of the check whether a recorder may have counted the frame times. The robots' logs are
-/// another clock, which can confirm the times.
+/// The name of the check for frame times that a recorder may have counted without a clock. If the
+/// robots' logs confirm the times, the check passes.
 inline constexpr const char* kClockOfTheFilm = "clock of the film";
 
 /// Converts sightings in pixels to what the simulator would have recorded. Pure. Fails with

@@ -9,8 +9,8 @@
 
 namespace swarmsmith {
 
-/// Collects the corners of floor tags into medians over spans of some seconds, which show a pushed
-/// camera, but no noise.
+/// Collects the corners of floor tags into medians over spans of some seconds, so that a pushed
+/// camera is visible and noise is not.
 class ReferenceMedians {
  public:
   explicit ReferenceMedians(double span_s) : span_s_(span_s) {}

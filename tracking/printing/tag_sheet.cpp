@@ -18,8 +18,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kStrip = 6;      ///< strip below a tag, with its name
-constexpr double kGap = 5;        ///< between neighbouring tags (half of it at the edges), for the
-                                  ///< marks
+constexpr double kGap = 5;        ///< between tags, and half of it at the edges: room for the marks
 constexpr double kMark = 1.7;     ///< length of a cutting mark
 constexpr double kMarkOff = 0.4;  ///< distance of a mark from the part to cut out
 constexpr double kMarkWidth = 0.1;

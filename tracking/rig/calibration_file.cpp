@@ -259,8 +259,8 @@ OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
   for (TableReader& seen : root.tables("seen"))
     calibration.tags.push_back(read_seen(seen));
   root.finish();
-  // The arena file gives the range of heights, and is checked against it elsewhere; here the camera
-  // must only be above the floor.
+  // The arena file gives the range of heights, and the place is checked against it elsewhere; here
+  // the camera must only be above the floor.
   PlaceLimits limits;
   limits.least_height_m = 0;
   limits.most_height_m = kAny.most;

@@ -13,9 +13,10 @@ namespace swarmsmith {
 
 struct CameraLimits {
   int least_views = 10;
-  /// RMS reprojection error as an angle of rays, because a pixel of a large picture covers less of
-  /// the floor: 0.0005 rad is 1.25 mm on a floor 2.5 m below. In small pictures corners cannot be
-  /// found more precisely than `least_px`, so the limit in pixels is never below it.
+  /// Limit of the RMS reprojection error as an angle of rays, because a pixel of a large picture
+  /// covers less of the floor: 0.0005 rad is 1.25 mm on a floor 2.5 m below. In small pictures
+  /// corners cannot be found more precisely than `least_px`, so the limit in pixels is never below
+  /// it.
   double rms_rad = 0.0005;
   double good_rms_rad = 0.0003;  ///< a larger error causes a note
   double least_px = 0.2;
@@ -31,8 +32,9 @@ struct CameraLimits {
 
 struct PlaceLimits {
   int least_tags = 4;
-  /// RMS reprojection error on the floor: the error of a survey with a tape (Rig::survey_error_m).
-  /// In small pictures corners and lenses are not more precise than `least_px`.
+  /// Limit of the RMS reprojection error on the floor: the error of a survey with a tape
+  /// (Rig::survey_error_m). In small pictures corners and lenses are not more precise than
+  /// `least_px`.
   double rms_m = 0.002;
   double least_px = 0.3;
   double good_share = 0.5;      ///< share of the limit; a larger error causes a note

@@ -21,7 +21,7 @@ struct RanMachine {
 };
 
 /// E_LOG_FOREIGN if a log does not belong to this run, robot and machine. `machine` is nothing if
-/// the caller gives the control software.
+/// it is unknown which machine should have run; then the machine is not checked.
 std::optional<Issue> misfit_of(const RobotLog& log, const RunLog& run,
                                const std::optional<RanMachine>& machine);
 /// The same for robots that should all have run the same machine as the first log.

@@ -270,7 +270,7 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
   // Closer to the point below the camera, the effect of a tilt is only of second order.
   constexpr double kLeastPlace = 0.08;
   constexpr std::size_t kLeast = 20;
-  constexpr double kDegreesOfFreedom = 10;  // errors of the lens stay the same while a robot stands
+  constexpr double kDegreesOfFreedom = 10;  // lens errors are constant while a robot stands
   std::vector<Shear> shears;
   for (const Sample& sample : samples) {
     if (sample.use != Sample::Use::Used && sample.use != Sample::Use::BadFit) continue;

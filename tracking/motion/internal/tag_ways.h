@@ -18,8 +18,7 @@ inline constexpr double kCornerSpeed_m_s = 0.7;
 /// The motion of a robot's tag in the frames of one camera.
 struct TagWay {
   std::vector<const Sighting*> seen;  ///< per frame; null if not seen, or seen twice
-  std::vector<double> way;  ///< pixels its corners moved until each frame, at most as far as robots
-                            ///< can
+  std::vector<double> way;  ///< pixels its corners moved until each frame, limited to robots' speed
   double pixels_per_m = 0;  ///< median over the frames
 
   bool is_seen(std::size_t frame) const { return seen[frame] != nullptr; }

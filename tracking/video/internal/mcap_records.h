@@ -34,8 +34,8 @@ class Fields {
 };
 
 /// The records of a file's data section, including the records in chunks, from front to back. A
-/// length in the file is not trusted if it exceeds the rest of the file or 512 MB, or if so few
-/// compressed bytes cannot expand to it.
+/// length in the file is not trusted if it exceeds the rest of the file or 512 MB, or if the
+/// compressed bytes are too few to expand to it.
 class Records {
  public:
   Records(av::ByteStream bytes, std::string name);
