@@ -30,10 +30,11 @@ struct DrawnDelay {
 };
 
 /// The distribution of the delay to draw for each command, in steps of 10 ms. Commands come every
-/// `period_s` and keep their order, and those that changed something acted after `acted_s`. A
-/// command has acted by a time when it and all commands before it have arrived, E(x) = F(x) F(x +
-/// period) ..., so F(x) = E(x) / E(x + period). Steps that may be due to chance are joined, and
-/// steps with a probability below 1 % are left out. Empty without delays.
+/// `period_s` and keep their order; those that changed something acted after `acted_s`. A command
+/// has acted when it and all commands before it have arrived, so with the distributions F of the
+/// drawn delays and E of `acted_s`, E(x) = F(x) F(x + period) ... and F(x) = E(x) / E(x + period).
+/// Steps that may be due to chance are joined, and steps with a probability below 1 % are left out.
+/// Empty without delays.
 std::vector<DrawnDelay> drawn_delays(std::vector<double> acted_s, double period_s);
 
 }  // namespace swarmsmith

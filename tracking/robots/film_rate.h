@@ -27,9 +27,9 @@ struct FilmRate {
 /// Stretches the film's clock by factors from a half to two, and shifts it by possible latencies,
 /// until the turns and distances of the robots agree best with the commands of their treads. The
 /// best factor is reported if it is far likelier than factors 1 % larger or smaller; for a film
-/// that is far off, if it is far likelier than factors half way to 1. The run's start, `start_s` on
-/// the film's clock, was read either from this clock, and is then stretched like the film, or from
-/// a correct clock.
+/// that is far off, if it is far likelier than 1 and than factors half way to 1. The run's start,
+/// `start_s` on the film's clock, was read either from this clock, and is then stretched like the
+/// film, or from a correct clock.
 FilmRate film_rate(std::span<const ToldAndSeen> robots, double start_s = 0);
 
 }  // namespace swarmsmith

@@ -35,8 +35,8 @@ inline constexpr double kClockOffset_s = 0.02;
 inline constexpr double kDegradedShare = 0.01;
 inline constexpr double kInvalidShare = 0.05;
 
-/// When treads have not obeyed for this time, the robot is degraded or its run is over
-/// (docs/robot-messages.md).
+/// The node stops treads that have not obeyed for `kDriverOff_s`, and ends the run after
+/// `kDriverGone_s` (docs/robot-messages.md).
 inline constexpr double kDriverOff_s = 0.3;
 inline constexpr double kDriverGone_s = 1.0;
 
