@@ -21,9 +21,10 @@
 namespace swarmsmith {
 namespace {
 
-/// Pictures that medians are taken over; more bring nothing.
+/// Number of pictures for the medians; more do not improve them.
 constexpr int kLooks = 20;
-/// A video is looked at over at least this many frames, so that a passing hand is outvoted.
+/// The pictures of a video span at least this many frames, so that a passing hand does not affect
+/// the medians.
 constexpr std::int64_t kFrames = 200;
 
 struct ArenaArguments {
@@ -35,7 +36,7 @@ struct ArenaArguments {
   bool again = false;
 };
 
-/// The floor tags in some twenty pictures.
+/// The floor tags in about twenty pictures.
 Expected<std::vector<std::vector<TagLook>>> looks_of(const ArenaArguments& arguments,
                                                      const Rig& rig, const CameraSetup& camera,
                                                      Output& output) {
@@ -65,7 +66,8 @@ Expected<std::vector<std::vector<TagLook>>> looks_of(const ArenaArguments& argum
   return looks;
 }
 
-/// A floor tag that most looks show more than once: one sheet printed again and again.
+/// The error for a floor tag that most looks contain more than once: the same sheet was printed
+/// repeatedly.
 std::optional<Error> repeated(const std::vector<std::vector<TagLook>>& looks,
                               std::span<const ReferenceTag> survey) {
   for (const ReferenceTag& tag : survey) {
@@ -106,7 +108,7 @@ std::string place_json(const PlaceCalibration& calibration, const std::string& f
          "\n";
 }
 
-/// What is asked, from pictures or from the last calibration's medians.
+/// The input for solving the place, from pictures or from the last calibration's medians.
 Expected<PlaceQuestion> question_of(const ArenaArguments& arguments, const Rig& rig,
                                     const CameraSetup& camera, const Arena& arena, Output& output) {
   PlaceQuestion question;

@@ -17,7 +17,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Of a video, about so many pictures are searched for the board, and so many used at most.
+/// In a video, about `kLooks` pictures are searched for the board, and at most `kMostViews` of them
+/// are used.
 constexpr std::int64_t kLooks = 300;
 constexpr std::size_t kMostViews = 40;
 
@@ -31,13 +32,14 @@ struct CameraArguments {
   std::string map;
 };
 
-/// Where the calibration goes, and whether a place was found with the one that it replaces.
+/// The file for the calibration, and whether a place was calibrated with the file that it replaces.
 struct Target {
   std::string file;
   bool has_place = false;
 };
 
-/// The file of `-o`, else the `model` of the arena file's camera, else the camera's name.
+/// The file of `-o`, or else the `model` of the camera in the arena file, or else a name from the
+/// camera's name.
 tl::expected<Target, std::vector<Error>> target_of(const CameraArguments& arguments) {
   Target target;
   if (arguments.arena.empty()) {
@@ -55,18 +57,19 @@ tl::expected<Target, std::vector<Error>> target_of(const CameraArguments& argume
   return target;
 }
 
-/// Boards that were found. Those of videos are apart: of them, only differing ones are taken.
+/// The boards that were found. Boards in videos are kept separately, because only different views
+/// of them are used.
 struct Finds {
   ImageSize size;
   std::vector<BoardView> views;
   std::vector<BoardSight> of_video;
   std::int64_t looked_at = 0;
-  bool has_smaller = false;  ///< of a chessboard squares were counted, in place of corners
+  bool has_smaller = false;  ///< the user counted squares of a chessboard instead of corners
 };
 
 constexpr std::int64_t kLooksForSmaller = 10;
 
-/// Whether the board has a row and a column less than was said.
+/// Whether the board has one row and one column less than specified.
 bool has_one_row_less(const GrayImage& image, const Board& board) {
   if (board.kind != Board::Kind::Chessboard || board.columns < 4 || board.rows < 4) return false;
   Board smaller = board;
@@ -135,7 +138,7 @@ std::string solution_json(const CameraSolution& solution, const std::vector<Boar
          "\n";
 }
 
-/// Report and map are there also for what is refused: they show why.
+/// Report and map are written even for a refused calibration, because they show the reason.
 Expected<void> write_map(const CameraSolution& solution, const std::vector<BoardView>& views,
                          const std::string& file) {
   if (file.empty()) return {};

@@ -51,7 +51,7 @@ JsonObject offset_json(const OffsetCalibration& calibration, const std::string& 
       .add("samples", calibration.samples);
 }
 
-/// Of one of the robot's tags: offset of the spin, yaw of the straight run.
+/// Calibrates one of the robot's tags: offset from the spin, yaw from the straight run.
 Expected<OffsetCalibration> solve_tag(const RobotArguments& arguments, const Rig& rig,
                                       const CameraSetup& camera, const RobotSetup& robot,
                                       Output& output) {
@@ -77,7 +77,7 @@ Expected<OffsetCalibration> solve_tag(const RobotArguments& arguments, const Rig
   return calibration;
 }
 
-/// Of all of its tags, from the same films.
+/// Calibrates all tags of a robot from the same films.
 Expected<OffsetCalibration> solve(const RobotArguments& arguments, const Rig& rig,
                                   const CameraSetup& camera, const RobotSetup& robot,
                                   Output& output) {
@@ -91,7 +91,7 @@ Expected<OffsetCalibration> solve(const RobotArguments& arguments, const Rig& ri
   return calibration;
 }
 
-/// Lets all of the robot's tags have the same date.
+/// Gives all tags of the robot the same date.
 void date(OffsetCalibration& calibration) {
   calibration.made = utc_now();
   for (OffsetCalibration& tag : calibration.more_tags)

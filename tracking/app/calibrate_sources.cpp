@@ -24,9 +24,10 @@
 namespace swarmsmith {
 namespace {
 
-/// The sidecar beside a video or a folder, if there is one.
+/// The times in the sidecar beside a video or folder, if there is one.
 Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& source) {
-  // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name begins no ending.
+  // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name does not begin an
+  // extension.
   std::filesystem::path sidecar(file_of_source(source));
   if (sidecar.filename().empty()) sidecar = sidecar.parent_path();
   std::error_code ignored;
@@ -44,15 +45,15 @@ Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& sourc
   return std::optional(std::move(*times));
 }
 
-/// A tag that is not as large as declared, or not as high: refused beyond the limit of runs, a note
-/// below it.
+/// Checks whether a tag has its declared size and height: an error beyond the limit for runs, and
+/// only a note for a smaller difference.
 std::optional<Error> wrong_size(const RobotSetup& robot, double camera_height_m,
                                 std::vector<double> scales, Output& output) {
   const TrackLimits limits;
   const double scale = upper_median(std::move(scales));
   const double off = std::abs(scale - 1);
   if (off <= limits.scale_warning) return std::nullopt;
-  // The plane in which a tag of the declared edge would look like this one.
+  // The height at which a tag with the declared edge would look like this one.
   const double height = camera_height_m - (camera_height_m - robot.height_m) / scale;
   const std::string text = fmt::format(
       "tag {} of \"{}\": its edge measures {:.1f} mm, declared are {:.1f} mm ({:+.1f} %, limit "
@@ -90,7 +91,7 @@ Expected<void> for_each_picture(const std::vector<std::string>& words, const OnP
       const auto more = (*frames)->next();
       if (!more) return Unexpected(more.error());
       if (!*more) break;
-      // Pictures were chosen by a person; frames of a video resemble each other.
+      // A person chose single pictures; frames of a video are similar to each other.
       const PictureSource source{words[i], (*frames)->frame().file.empty()};
       const auto wanted = look(source, **frames);
       if (!wanted) return Unexpected(wanted.error());

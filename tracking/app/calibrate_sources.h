@@ -11,35 +11,38 @@
 
 namespace swarmsmith {
 
-/// Pictures of several words, each a picture, a folder of pictures, a video, a bag or a camera.
+/// One of the sources given on the command line: a picture, a folder of pictures, a video, a bag or
+/// a camera.
 struct PictureSource {
   std::string word;
-  bool is_video = false;  ///< its frames resemble each other
+  bool is_video = false;  ///< its frames are similar to each other
 };
 
-/// What is done with a frame; false: enough of this word.
+/// Called with each frame; returns false if no more frames of this source are needed.
 using OnPicture = std::function<Expected<bool>(const PictureSource& source, const FrameSource& of)>;
 
-/// Frames of all words in turn; E_CALIB_SIZE when their sizes differ. Counts on the error stream.
+/// Reads the frames of all sources in turn; E_CALIB_SIZE if their sizes differ. Shows the progress
+/// on standard error.
 Expected<void> for_each_picture(const std::vector<std::string>& words, const OnPicture& look,
                                 Output& output);
 
-/// A tag's path in a video, by observe() and the plane of the tag's height.
+/// The path of a tag in a video, from observe() and the plane at the tag's height.
 Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& rig,
                                           const CameraSetup& camera, const RobotSetup& robot,
                                           Output& output);
 
-/// The camera of a name, or the only one when the name is empty. E_CONFIG lists the known ones.
+/// The camera with this name, or the only one if the name is empty. E_CONFIG lists the known
+/// cameras.
 Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name,
                                 const std::string& option = "--camera");
 
-/// A file that an arena file names, from where this program runs.
+/// The path of a file that an arena file names, relative to the current folder.
 std::string beside(const std::string& arena_file, const std::string& file);
 
-/// Now, as calibrations say when they were made: "2026-11-21T14:03:00Z".
+/// The current time in the format of calibration files: "2026-11-21T14:03:00Z".
 std::string utc_now();
 
-/// Prints what a person should know of a calibration that is fit.
+/// Prints notes about a usable calibration.
 void print_cautions(Output& output, const std::vector<std::string>& cautions);
 
 }  // namespace swarmsmith

@@ -11,13 +11,13 @@
 namespace swarmsmith {
 namespace {
 
-/// What a rig has of one calibration, for people and for scripts.
+/// The state of one calibration of a rig, for people and for scripts.
 struct Part {
   std::string file;
   bool is_there = false;
   std::string made;
   std::string sha256;
-  std::string text;  ///< how good it is
+  std::string text;  ///< its quality
 };
 
 Part part_of(const Rig& rig, const std::string& file) {
@@ -61,12 +61,12 @@ Part offset_part_of(const Rig& rig, const RobotSetup& robot) {
   return part;
 }
 
-/// Names of what lacks a calibration.
+/// The names of cameras and robots that lack a calibration.
 struct Missing {
   std::vector<std::string> lenses, places, offsets;
 };
 
-/// The one thing to do now.
+/// The next step for the user.
 std::string next_step(const Missing& missing, const Rig& rig, const std::string& file) {
   const std::string arena = " --arena " + file;
   if (!missing.lenses.empty()) {
@@ -100,7 +100,7 @@ JsonObject part_json(const Part& part) {
   return object.add("made", part.made).add("sha256", part.sha256).add("quality", part.text);
 }
 
-/// What is there, as both answers, and what is not.
+/// The existing calibrations, as text and as JSON, and the missing ones.
 struct Inventory {
   std::string text;
   std::vector<JsonObject> cameras;

@@ -6,8 +6,9 @@
 
 namespace swarmsmith {
 
-/// All commands of swarmsmith-track, in the order of the help. A new one: a file of its own with
-/// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
+/// All commands of swarmsmith-track, in the order of the help. A new command needs its own file
+/// with a `declare_` function, a line here, an entry in commands.cpp, and a section in
+/// docs/tracking.md.
 std::span<const ProgramCommand> track_commands();
 
 CommandRun declare_track_score(Options& options);
@@ -29,14 +30,15 @@ CommandRun declare_overlay(Options& options);
 CommandRun declare_live(Options& options);
 CommandRun declare_track_version(Options& options);
 
-/// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.
+/// The program and its libraries, as written into files and scores: "swarmsmith-track 0.1.0, OpenCV
+/// 4.6.0, apriltag 3.3.0, ...".
 std::string track_program_name();
 
-/// Whether the first word is not a command but an existing file or folder: `score` was omitted.
+/// Whether the first argument is not a command but an existing file or folder: `score` was omitted.
 bool means_a_recording(const std::string& word);
 
-/// What to exit with after an error of tracking: 2 for wrong words, files of settings and a
-/// duplicate id in the map, 1 for all else.
+/// The exit code for an error of tracking: 2 for wrong arguments, wrong settings files, and a
+/// duplicate id in the arena file; 1 for all other errors.
 ExitCode exit_code_of_tracking(const Error& error);
 
 }  // namespace swarmsmith

@@ -28,11 +28,11 @@ struct DetectWords {
   std::optional<std::int64_t> every;
 };
 
-/// What was seen of one tag.
+/// The sightings of one tag.
 struct SeenTag {
   std::int64_t frames = 0;
-  std::int64_t twice = 0;      ///< frames with more than one of it
-  std::int64_t corrected = 0;  ///< sightings with a wrong bit
+  std::int64_t twice = 0;      ///< number of frames with the tag more than once
+  std::int64_t corrected = 0;  ///< number of sightings with a wrong bit
   std::vector<double> edges_px;
   std::vector<double> margins;
 };
@@ -45,7 +45,7 @@ struct Finds {
   std::vector<std::string> notes;
 };
 
-/// The shortest side: what decides whether it is found.
+/// The shortest side, which decides whether a tag is found.
 double edge_of(const TagCorners& corners) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -92,7 +92,8 @@ Expected<Finds> look(const DetectWords& words, Output& output) {
   }
   const std::int64_t every = words.every.value_or(1);
   Finds finds;
-  std::optional<std::string> family;  // that was found in place of the one that was asked for
+  std::optional<std::string> family;  // sentence about another family that was found instead of the
+                                      // requested one
   Counter counter(output, "looked at", "pictures");
   for (std::int64_t done = 1;; ++done) {
     const auto more = (*source)->next();

@@ -12,7 +12,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A file to begin with.
+/// A file to start with.
 struct Template {
   std::string_view name;
   std::string_view text;

@@ -38,7 +38,7 @@ struct LiveWords {
   std::string board;
 };
 
-/// One line that is written over on a terminal, else a line now and then.
+/// On a terminal one line that is overwritten, otherwise a new line now and then.
 class StatusLine {
  public:
   explicit StatusLine(Output& output) : output_(&output) {}
@@ -62,7 +62,7 @@ class StatusLine {
   bool shown_ = false;
 };
 
-/// Frames as they come, from their times on.
+/// Records the frames as they arrive.
 class LiveRecording {
  public:
   static Expected<LiveRecording> open(const std::string& file, const SourceInfo& info) {
@@ -104,7 +104,7 @@ struct Watched {
   std::optional<Error> error;
 };
 
-/// Until the source ends or the user ends it.
+/// Runs until the source ends or the user stops it.
 Watched watch(FrameSource& source, LiveTracker& tracker, BoardWatch* board, LivePages& pages,
               LiveRecording* recording, Output& output) {
   NewestFrame::OnFrame keep;

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
              {swarmsmith::ErrorKind::Corrupt,
               std::string("the store cannot be used: ") + failure.what(), failure.file()}));
   } catch (const std::exception& error) {
-    // What the environment refused: a full disk, no memory, a device that goes away.
+    // Failures of the environment: a full disk, no memory, a device that was removed.
     return static_cast<int>(fail(output, ExitCode::Failed, sentence_of_fault(error)));
   }
 }

@@ -26,9 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Before and after the run.
+/// Time shown before and after the run.
 constexpr double kAround_s = 1;
-/// Floor tags are shown where they were within so long.
+/// A floor tag is drawn where it was seen within this time.
 constexpr double kReferenceHolds_s = 5;
 
 struct OverlayArguments {
@@ -39,7 +39,7 @@ struct OverlayArguments {
   std::string out;
 };
 
-/// A run with all that can be drawn of it.
+/// A run, with its videos and the camera to draw.
 struct DrawnRun {
   AnalysedRun run;
   std::vector<fs::path> videos;
@@ -68,7 +68,7 @@ OrRefusal<DrawnRun> run_of_store(const OverlayArguments& words) {
   return drawn;
 }
 
-/// Which camera, and that its video is the one that was scored.
+/// Selects the camera, and checks that its video is the one that was scored.
 std::optional<Refusal> settle_video(const OverlayArguments& words, DrawnRun& drawn) {
   const auto& cameras = drawn.run.rig.cameras;
   if (!words.camera.empty()) {
@@ -99,7 +99,8 @@ std::optional<Refusal> settle_video(const OverlayArguments& words, DrawnRun& dra
   return std::nullopt;
 }
 
-/// Tags of a frame, robots' and strays; `next` goes on through the sightings.
+/// The tags of a frame, of robots and unknown ones; `next` is the position in the list of
+/// sightings.
 std::vector<OverlayTag> tags_of(const DrawnRun& drawn, std::int64_t frame, double time_s,
                                 std::size_t& next) {
   const std::vector<Sighting>& all = drawn.run.observations.sightings;
@@ -135,7 +136,7 @@ Expected<void> write_png(const std::string& path, const ColorImage& image) {
   return write_whole_file(path, *bytes);
 }
 
-/// Where pictures go: a video, a folder, one picture.
+/// Writes the pictures to a video, a folder, or a single picture.
 class Sink {
  public:
   Sink(std::string out, bool one) : out_(std::move(out)), one_(one) {}
@@ -195,7 +196,7 @@ Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
     if (!more) return Unexpected(more.error());
     if (!*more) break;
     const double time_s = times[frame] - start_s;
-    // Half a microsecond: as much as the clocks' differences are rounded.
+    // Half a microsecond: the rounding error of the clocks' differences.
     if (time_s < from_s - 5e-7) continue;
     if (time_s > until_s) break;
     ColorImage image = (*source)->color();
@@ -211,7 +212,7 @@ Expected<std::int64_t> draw(const DrawnRun& drawn, std::optional<double> at_s,
   return Unexpected(Error{ErrorKind::BadInput, "the video has no frame there", words.out});
 }
 
-/// `--at` as seconds of the run.
+/// The value of `--at`, in seconds of the run.
 Expected<std::optional<double>> instant_of(const OverlayArguments& words) {
   if (words.at.empty()) return std::optional<double>();
   double value = 0;

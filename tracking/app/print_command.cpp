@@ -18,7 +18,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The thesis' arena; what a survey form shows unless told otherwise.
+/// The arena of the thesis; the default for a survey form.
 constexpr std::string_view kAreaOfTheThesis = "4.91";
 
 Expected<double> number_from(const std::string& text, std::string_view option) {
@@ -37,7 +37,7 @@ Expected<Form> form_of(const std::string& file) {
   return bad_input("the file's ending must be .pdf or .svg", file);
 }
 
-/// A file a page: tags.svg, or tags-1.svg, tags-2.svg, ...
+/// One file per page: tags.svg, or tags-1.svg, tags-2.svg, ...
 std::vector<std::string> names_of_pages(const std::string& file, std::size_t pages) {
   if (pages == 1) return {file};
   std::vector<std::string> names;
@@ -51,7 +51,7 @@ std::vector<std::string> names_of_pages(const std::string& file, std::size_t pag
   return names;
 }
 
-/// Writes pages to the file that a person named, and says which files there are now.
+/// Writes pages to the named file, and lists the files that were written.
 ExitCode write_pages(std::span<const std::string> pages, const std::string& file, Form form,
                      Output& output) {
   std::vector<std::string> names = {file};
@@ -86,7 +86,7 @@ struct TagArguments {
   std::string file;
 };
 
-/// What tags and the form for their survey have in common.
+/// The common arguments of printing tags and survey forms.
 struct ReadTagArguments {
   std::vector<int> ids;
   double edge_m = 0;

@@ -27,13 +27,13 @@ struct ProfileArguments {
   std::string file;
 };
 
-/// The runs that were used, and why others were not.
+/// The robots of the runs that are used, and the reasons why other runs are not.
 struct Collected {
   std::vector<MeasuredRobot> robots;
   std::vector<std::string> left_out;
 };
 
-/// A run as it is known now.
+/// A run with its current results.
 struct KnownRun {
   std::string name;
   Verdict verdict = Verdict::Valid;
@@ -44,8 +44,8 @@ bool is_of_store(const std::string& word) {
   return id_from_text<RealRunTag>(word).has_value();
 }
 
-/// All is done again from the stored sightings and logs. What counts: a person's word above that of
-/// the program.
+/// Computes everything again from the stored sightings and logs. A person's override takes
+/// precedence over the computed verdict.
 OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::string& word) {
   const auto kept = kept_run(arguments.store, word);
   if (!kept) return tl::unexpected(kept.error());
@@ -56,7 +56,7 @@ OrRefusal<KnownRun> run_of_store(const ProfileArguments& arguments, const std::s
   return KnownRun{word + " " + kept->rows.name, verdict, std::move(*run)};
 }
 
-/// A run log: its film is watched, as `track score` does.
+/// Analyses the film of a run log in the same way as `track score`.
 OrRefusal<KnownRun> run_of_log(const ProfileArguments& arguments, const std::string& word,
                                Output& output) {
   ScoreArguments score;
@@ -153,7 +153,7 @@ ExitCode write(const ProfileArguments& arguments, const LabProfile& profile,
   return ExitCode::Done;
 }
 
-/// A run counts once: a store has another number for a run that was scored again.
+/// A run counts only once; in a store, a run that was scored again may have another number.
 std::optional<std::string> same_run(const std::vector<MeasuredRobot>& robots) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -171,7 +171,7 @@ std::optional<std::string> same_run(const std::vector<MeasuredRobot>& robots) {
   return std::nullopt;
 }
 
-/// A file that is there stays; one that no campaign could name is not written.
+/// Refuses to overwrite a file, and to write a file whose name no campaign could use.
 std::optional<Error> flaw_of(const std::string& file) {
   if (file.empty() || file == "-") return std::nullopt;
   const std::string name = std::filesystem::path(file).stem().string();

@@ -28,7 +28,7 @@ struct RecordWords {
   bool realtime = false;
 };
 
-/// A positive number of an option, or nothing when it is not there.
+/// The positive number of an option, or nothing if the option is missing.
 Expected<std::optional<double>> positive(const std::string& text, const char* option) {
   if (text.empty()) return std::optional<double>();
   double value = 0;
@@ -41,7 +41,7 @@ Expected<std::optional<double>> positive(const std::string& text, const char* op
   return std::optional<double>(value);
 }
 
-/// How many frames a second when each has no time of its own.
+/// The frame rate for counting the times of frames that have none.
 std::optional<double> counting_rate(const SourceInfo& info, std::optional<double> asked) {
   if (asked) return asked;
   if (info.has_count && info.frame_rate > 0) return info.frame_rate;
@@ -83,7 +83,7 @@ ExitCode record(const RecordWords& words, Output& output) {
   const SourceInfo& info = (*source)->info();
   const std::optional<double> counted = counting_rate(info, *rate);
   VideoOptions options{.codec = words.codec, .live = true};
-  // What the header of a video with uneven times says may be anything.
+  // The frame rate in the header of a video with irregular times may be any value.
   if (info.frame_rate > 0) options.frame_rate = std::clamp(info.frame_rate, 1.0, 240.0);
   if (counted) options.frame_rate = *counted;
   if (words.quality) options.quality = static_cast<int>(*words.quality);

@@ -66,7 +66,7 @@ Recording::Recording(FrameSource& source, VideoWriter writer, Sidecar sidecar,
 
 Expected<void> Recording::run(Output& output) {
   Expected<void> done = all_frames(output);
-  // What was recorded until then is good, whatever ended it; but a full disk ends nothing well.
+  // The recording so far is completed, whatever ended it; only on a full disk this is impossible.
   if (!done && done.error().kind == ErrorKind::Unavailable) return done;
   if (auto ended = writer_.finish(); !ended) return ended;
   if (auto ended = sidecar_.finish(); !ended) return ended;
@@ -118,7 +118,7 @@ Expected<double> Recording::time_of(const Frame& frame) const {
 }
 
 Expected<void> Recording::keep(double time, double clock) {
-  // Matroska counts milliseconds. Pictures that a network held back may come at once.
+  // Matroska has a resolution of milliseconds. Pictures that a network delayed may arrive together.
   const std::int64_t ms = std::llround(time * 1000);
   if (frames_ > 0 && ms <= last_ms_) {
     ++too_close_;
@@ -130,7 +130,7 @@ Expected<void> Recording::keep(double time, double clock) {
   return sidecar_.add(frames_++, time, clock);
 }
 
-/// Until a frame is due, or the user wants to stop.
+/// Waits until a frame is due, or the user asks to stop.
 void Recording::wait_until(double time) const {
   const auto due =
       started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));

@@ -13,12 +13,13 @@
 
 namespace swarmsmith {
 
-/// BadInput for a name that is not a .mkv, and for a file that is there.
+/// BadInput for a name that does not end in .mkv, and for an existing file.
 Expected<void> check_recording_name(const std::string& file);
 
-/// The frame times beside the video: columns frame, time_s from the first frame on, and of a camera
-/// clock_s, its own clock. They get their name only when the video is whole: after a crash the rows
-/// and the frames that reached the disk need not agree, and the video has times of its own.
+/// Writes the frame times beside the video. Columns: frame, time_s since the first frame, and for a
+/// camera clock_s, the time on its own clock. The file gets its name only when the video is
+/// complete, because after a crash its rows may not agree with the frames on the disk, and the
+/// video contains times, too.
 class Sidecar {
  public:
   Sidecar(const std::string& video, bool has_clock);
@@ -34,30 +35,30 @@ class Sidecar {
 };
 
 struct RecordingOptions {
-  std::optional<double> seconds;  ///< to stop after
-  std::optional<double> rate;     ///< where frames have no times
-  bool paced = false;             ///< frames come no sooner than they were taken
+  std::optional<double> seconds;  ///< length after which to stop
+  std::optional<double> rate;     ///< frame rate for frames without times
+  bool paced = false;             ///< delay frames until their times
 };
 
-/// One recording, from the first frame to the last.
+/// Records one video, from the first frame to the last.
 class Recording {
  public:
-  /// `source` must outlive it.
+  /// `source` must outlive this object.
   Recording(FrameSource& source, VideoWriter writer, Sidecar sidecar, RecordingOptions options);
 
-  /// All frames, until the source ends, the time is over, or the user asks to stop. What is
-  /// recorded is whole when it comes back, with an error or without; unless the disk is full.
+  /// Records all frames until the source ends, the time is over, or the user asks to stop.
+  /// Afterwards the recording is complete, even after an error, unless the disk is full.
   Expected<void> run(Output& output);
-  /// Takes the line of progress away.
+  /// Clears the line of progress.
   void clear_line(Output& output) const;
-  /// Removes a recording without a frame.
+  /// Removes a recording that has no frame.
   void remove(const std::string& file) const;
 
   std::int64_t frames() const { return frames_; }
   std::int64_t dropped() const { return source_.damaged_frames() + too_close_; }
   double seconds() const { return last_s_; }
   const std::string& times_file() const { return sidecar_.file(); }
-  /// "246 frames in 12.3 s, 20.0 a second, 0 dropped"
+  /// A summary: "246 frames in 12.3 s, 20.0 a second, 0 dropped".
   std::string summary() const;
 
  private:

@@ -6,13 +6,13 @@
 
 namespace swarmsmith {
 
-/// What to exit with when all this is wrong: 2 when a file of settings is, else 1.
+/// The exit code for several errors: 2 if a settings file is wrong, otherwise 1.
 ExitCode exit_code_of_all(const std::vector<Error>& errors);
 
-/// Prints them all and says what to exit with.
+/// Prints all errors and returns the exit code.
 ExitCode fail_all(Output& output, const std::vector<Error>& errors);
 
-/// Why a command ends before it has done anything: everything that is wrong, and what to exit with.
+/// The reason why a command ends before it has done anything: all errors, and the exit code.
 struct Refusal {
   ExitCode code = ExitCode::Failed;
   std::vector<Error> errors;
@@ -21,12 +21,13 @@ struct Refusal {
 template <class T>
 using OrRefusal = tl::expected<T, Refusal>;
 
-/// With the exit code that follows from the errors: 2 when a file of settings is wrong, else 1.
+/// Without `code`, the exit code follows from the errors: 2 if a settings file is wrong, otherwise
+/// 1.
 tl::unexpected<Refusal> refused(std::vector<Error> errors);
 tl::unexpected<Refusal> refused(Error error);
 tl::unexpected<Refusal> refused(ExitCode code, Error error);
 
-/// Prints all of it.
+/// Prints all errors of a refusal and returns its exit code.
 ExitCode fail(Output& output, const Refusal& refusal);
 
 }  // namespace swarmsmith

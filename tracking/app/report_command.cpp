@@ -16,7 +16,7 @@ struct ReportArguments {
   std::string file;
 };
 
-/// Written where a person wants it; standard output when the file is "-".
+/// Writes the report to the named file, or to standard output if the file is "-".
 ExitCode write(const std::string& text, const ReportArguments& arguments, Output& output) {
   if (output.json || arguments.file == "-") {
     write_data(output, text + (text.ends_with('\n') ? "" : "\n"));
@@ -29,7 +29,7 @@ ExitCode write(const std::string& text, const ReportArguments& arguments, Output
   return ExitCode::Done;
 }
 
-/// All is done again from the stored sightings, which gives what was stored.
+/// Computes everything again from the stored sightings, which gives the stored results.
 ExitCode run(const ReportArguments& arguments, Output& output) {
   if (output.json && !arguments.file.empty()) {
     return fail(output, ExitCode::Usage,

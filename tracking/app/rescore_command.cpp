@@ -24,7 +24,8 @@ struct RescoreArguments {
   bool all_checks = false;
 };
 
-/// A log that was mended. What was measured in the pictures is kept, since they are not here.
+/// Reads a corrected run log. Measurements from the pictures are kept, because the pictures are not
+/// available.
 OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   auto read = read_run_log(file);
   if (!read) return refused(std::move(read.error()));
@@ -58,7 +59,8 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   return log;
 }
 
-/// The robots' logs that a mended run log names; those that are not there are kept as stored.
+/// Reads the robots' logs that a corrected run log names; if a file is missing, the stored log is
+/// kept.
 void read_logs_again(const RunLog& log, const std::string& file,
                      const std::optional<RanMachine>& machine, Observations& observations) {
   RobotFiles files = read_robot_files(log, std::filesystem::path(file).parent_path(), machine);
@@ -76,7 +78,7 @@ void read_logs_again(const RunLog& log, const std::string& file,
   observations.issues.insert(observations.issues.end(), files.issues.begin(), files.issues.end());
 }
 
-/// One run, scored again.
+/// A run that was scored again.
 struct Again {
   AnalysedRun run;
   RealRunRows rows;
@@ -148,7 +150,7 @@ ExitCode rescore_one(const RescoreArguments& arguments, const std::string& word,
   return again->run.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
 }
 
-/// All of them, whatever becomes of one; the first that is not well decides the exit code.
+/// Scores all runs, even if one fails; the first failure decides the exit code.
 ExitCode run(const RescoreArguments& arguments, Output& output) {
   if (const auto store = named_store(arguments.store); !store) return fail(output, store.error());
   ExitCode code = ExitCode::Done;

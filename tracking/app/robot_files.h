@@ -11,14 +11,14 @@
 
 namespace swarmsmith {
 
-/// The robots' logs of a run, as far as they can be read and are of it.
+/// The robots' logs of a run that are readable and belong to it.
 struct RobotFiles {
   std::vector<RobotLog> logs;
-  std::vector<Issue> issues;  ///< W_LOG_UNREADABLE and E_LOG_FOREIGN: why others are left out
+  std::vector<Issue> issues;  ///< W_LOG_UNREADABLE and E_LOG_FOREIGN: why other logs are left out
 };
 
-/// Reads what the run log names, from `folder` on. `machine` is what should have run, if
-/// anybody says; all robots must have run the same.
+/// Reads the logs that the run log names, relative to `folder`. `machine` is the machine that
+/// should have run, if it is known; all robots must have run the same machine.
 RobotFiles read_robot_files(const RunLog& log, const std::filesystem::path& folder,
                             const std::optional<RanMachine>& machine);
 

@@ -22,12 +22,12 @@ constexpr Question kWhole{"film read to its end", "", "a film that was cut, or c
 constexpr Question kStart{"start as the sync tag says", "s",
                           "a wrong `start`; the film of another run"};
 
-/// A person who covers the tag by hand is that late, or early, at most.
+/// The largest error in time of a person who covers the tag by hand.
 constexpr double kSyncTolerance_s = 1;
 
-/// When the sync tag was covered, or laid open, on the clock of the first camera.
+/// The time when the sync tag was covered or uncovered, on the clock of the first camera.
 Expected<double> sync_of(const Observations& observations, const RunLog& log) {
-  // The first camera that shows the event tells it.
+  // The first camera that shows the event gives the time.
   for (std::size_t i = 0; i < log.videos.size(); ++i) {
     auto instant = sync_instant(observations, static_cast<int>(i), log.start);
     if (instant) return *instant - log.videos[i].clock_ahead_s;
@@ -36,13 +36,13 @@ Expected<double> sync_of(const Observations& observations, const RunLog& log) {
   return Unexpected(error_of(IssueCode::Config, "the run log has no video", log.name));
 }
 
-/// The run's begin on the clock of the first camera.
+/// The start of the run on the clock of the first camera.
 Expected<double> start_of(const Observations& observations, const RunLog& log) {
   if (log.start.time_s) return *log.start.time_s;
   return sync_of(observations, log);
 }
 
-/// Where the log says both, the tag is a check of `start`.
+/// If the log has both, the tag is used to check `start`.
 void check_start(const Observations& observations, const RunLog& log, std::vector<Issue>& issues,
                  std::vector<Check>& checks) {
   if (!log.start.time_s || log.start.sync == RunStart::Sync::None) {
@@ -67,7 +67,7 @@ void check_start(const Observations& observations, const RunLog& log, std::vecto
             : "`start` could not be checked: " + sync.error().message});
 }
 
-/// Nodes cut commands that are faster than they allow.
+/// Nodes limit commands to the speed in their logs.
 void know_speeds(const std::vector<RobotLog>& logs, TrackLimits& limits) {
   double most = 0;
   for (const RobotLog& log : logs)
@@ -78,7 +78,7 @@ void know_speeds(const std::vector<RobotLog>& logs, TrackLimits& limits) {
   limits.knows_driving_speed = true;
 }
 
-/// The film's clock was counted, and the robots' clocks agree with it.
+/// Removes the doubt about counted frame times, because the robots' clocks agree with them.
 void believe_clock(TrackedRun& run) {
   std::erase_if(run.issues,
                 [](const Issue& issue) { return issue.code == IssueCode::ClockCounted; });

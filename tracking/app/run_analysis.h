@@ -12,26 +12,26 @@
 
 namespace swarmsmith {
 
-/// A run: its sightings and known facts, and all that follows from them.
+/// A run: its sightings, its log, and all results computed from them.
 struct AnalysedRun {
-  Rig rig;  ///< the cameras and robots of the run alone
+  Rig rig;  ///< only the cameras and robots of the run
   RunLog log;
   Observations observations;
-  std::vector<double> starts_s;  ///< of the run, on each camera's clock
+  std::vector<double> starts_s;  ///< start of the run on each camera's clock
   TrackedRun tracked;
   ScoredRun scored;
 
-  /// By this program. The run must live as long, and stay where it is.
+  /// The findings, with this program's name. The run must outlive them and must not be moved.
   RunFindings findings() const;
   /// The run as rows, with candidate, report and program.
   RealRunRows rows(const std::string& arena_text, CandidateId candidate) const;
 };
 
-/// Pure: the same sightings, rig and log give the same bits, from a video or from a store.
-/// `whole_rig` also has the cameras and robots that stood by.
+/// Pure: the same sightings, rig and log give exactly the same results, from a video or from a
+/// store. `whole_rig` also contains cameras and robots that did not take part.
 OrRefusal<AnalysedRun> analyse(Observations observations, const Rig& whole_rig, RunLog log,
                                bool takes_tags_for_centres);
-/// The run of a store, once more.
+/// Analyses a stored run again.
 OrRefusal<AnalysedRun> analyse_again(const RealRunRows& rows);
 
 }  // namespace swarmsmith

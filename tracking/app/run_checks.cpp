@@ -44,7 +44,7 @@ Error unknown(const std::string& what, const std::string& name,
 std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
   std::vector<Error> errors;
   const std::vector<std::string> cameras = names_of(rig.cameras);
-  // One camera, or one video for each in the order of the arena file: nothing is left to say.
+  // With one camera, or one video per camera in the order of the arena file, names are not needed.
   for (std::size_t i = 0; i < log.videos.size(); ++i) {
     std::string& camera = log.videos[i].camera;
     if (camera.empty() && log.videos.size() == cameras.size()) camera = cameras[i];

@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// `--start 12.4`, `--start "12.4 s"`, `--sync-hidden 99`.
+/// Reads `--start 12.4`, `--start "12.4 s"`, `--sync-hidden 99`.
 void take_start(const ScoreArguments& arguments, RunLog& log, std::vector<Error>& errors) {
   const int given = (arguments.start.empty() ? 0 : 1) + (arguments.sync_hidden ? 1 : 0) +
                     (arguments.sync_shown ? 1 : 0);
@@ -45,7 +45,7 @@ void take_start(const ScoreArguments& arguments, RunLog& log, std::vector<Error>
   }
 }
 
-/// `--design d3` or 3, `--candidate c812` or 812.
+/// Reads `--design d3` or 3, `--candidate c812` or 812.
 void take_control(const ScoreArguments& arguments, RunLog& log, std::vector<Error>& errors) {
   const auto lettered = [](const std::string& word, char letter) {
     const bool is_number = word.find_first_not_of("0123456789") == std::string::npos;

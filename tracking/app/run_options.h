@@ -9,11 +9,11 @@
 
 namespace swarmsmith {
 
-/// E_CONFIG of an option of the command line.
+/// An E_CONFIG for an option of the command line.
 Error wrong_option(const std::string& text, const std::string& option);
 
-/// What the words of the command line change about the log; returns everything that is wrong with
-/// them, and without a time at which the run begins.
+/// Applies the options of the command line to the log. Returns all their errors, and an error if
+/// there is no time at which the run begins.
 std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log);
 
 }  // namespace swarmsmith

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run log for a video that has none.
+/// A run log for videos without one.
 RunLog log_of_words(const std::vector<std::string>& videos) {
   RunLog log;
   if (!videos.empty()) log.name = fs::path(file_of_source(videos.front())).stem().string();
@@ -24,14 +24,14 @@ RunLog log_of_words(const std::vector<std::string>& videos) {
   return log;
 }
 
-/// The files of the log's videos and sidecars, found from where each was named: words from here,
-/// the log's from its folder.
+/// The files of the videos and sidecars. Names on the command line are relative to the current
+/// folder, names in the log to the log's folder.
 struct VideoFiles {
   std::vector<fs::path> videos;
-  std::vector<fs::path> times;  ///< empty: none
+  std::vector<fs::path> times;  ///< an entry is empty if there is no sidecar
 };
 
-/// "run07.times.csv" beside "run07.mp4", if it is there.
+/// The sidecar beside a video, such as "run07.times.csv" beside "run07.mp4", if it exists.
 fs::path sidecar_beside(const fs::path& source) {
   const fs::path video = file_of_source(source.string());
   for (fs::path file :
@@ -64,7 +64,7 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   for (std::size_t i = 0; i < count; ++i) {
     RunVideo& video = log.videos[i];
     if (!arguments.videos.empty()) video.file = arguments.videos[i];
-    // `camera:0` and addresses are not files.
+    // `camera:0` and URLs are not files.
     const bool from_here = !arguments.videos.empty() || video.file.find("://") != std::string::npos;
     files.videos.push_back(from_here ? fs::path(video.file) : folder / video.file);
     if (!arguments.times.empty()) {
@@ -80,8 +80,9 @@ OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   return files;
 }
 
-/// The store, and what ran: with its mission when the log does not say one. The machine,
-/// when anything says what ran.
+/// Settles the store and the control software; if the log does not give a mission, it is the one
+/// for which the control software was designed. Returns the machine if the control software is
+/// known.
 OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& arguments,
                                                     RunPlan& plan) {
   plan.store = !arguments.into.empty() ? arguments.into : store_word(arguments.store);
@@ -89,8 +90,8 @@ OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& argume
   const bool says_control = !log.design.empty() || !log.candidate.empty();
   if (!arguments.into.empty() && !says_control) plan.if_missing = StoreAtRest::IfMissing::Make;
   if (!plan.store.empty()) {
-    // Only to be refused before the video is looked at; it is opened again when there is something
-    // to write, so that a campaign can go on meanwhile.
+    // Opened only to report errors before the video is read. It is opened again for writing, so
+    // that a campaign can run meanwhile.
     auto store = open_store(plan.store, plan.if_missing);
     if (!store) return tl::unexpected(std::move(store.error()));
   }
@@ -124,7 +125,7 @@ OrRefusal<std::optional<RanMachine>> settle_control(const ScoreArguments& argume
   return machine;
 }
 
-/// Patches that are said must be the mission's; those to be measured are looked for later.
+/// Checks given patches against the mission; measured patches are added later.
 OrRefusal<void> settle_layout(RunLog& log) {
   if (log.layout.source == RunLayout::Source::Measured) {
     log.layout.patches.clear();
@@ -136,7 +137,7 @@ OrRefusal<void> settle_layout(RunLog& log) {
   return {};
 }
 
-/// Opens what is looked at; the first of several videos that cannot be opened is reported.
+/// Opens the videos; reports the first one that cannot be opened.
 OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
   for (std::size_t i = 0; i < files.videos.size(); ++i) {
     auto source = FrameSource::open(files.videos[i].string());

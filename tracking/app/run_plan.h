@@ -17,30 +17,31 @@
 
 namespace swarmsmith {
 
-/// A video of the run, opened, with its times.
+/// An opened video of the run, with its times.
 struct PlannedVideo {
   std::filesystem::path path;
   std::unique_ptr<FrameSource> source;
   FrameClock clock;
 };
 
-/// What `track score` knows before it looks at the first frame: all that can be refused has been.
+/// The input of `track score` before the first frame is read. All errors that can be found so far
+/// were reported.
 struct RunPlan {
   std::string arena_text;
   Rig whole_rig;
-  Rig rig;  ///< the cameras and robots of this run, cameras as `videos`
+  Rig rig;  ///< the cameras and robots of this run, cameras in the order of `videos`
   RunLog log;
-  CandidateId candidate;  ///< none when it was not given
+  CandidateId candidate;  ///< none if it was not given
   std::vector<PlannedVideo> videos;
   RobotFiles robots;
-  std::string store;  ///< empty: the run is not kept
+  std::string store;  ///< empty: the run is not stored
   StoreAtRest::IfMissing if_missing = StoreAtRest::IfMissing::Refuse;
   bool takes_tags_for_centres = false;
 };
 
 OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments);
 
-/// An arena file's text and what it says.
+/// The text of an arena file and its contents.
 struct ArenaFile {
   std::string text;
   Rig rig;

@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Other commands hold a store for less than that.
+/// Other commands hold a store for a shorter time than these tries take.
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kPause{100};
 
@@ -21,7 +21,7 @@ OrRefusal<std::unique_ptr<StoreReader>> read_store(const std::string& store) {
   return std::move(*reader);
 }
 
-/// The first row's cells; nothing when there is no row.
+/// The cells of the first row; nothing if there is no row.
 Expected<std::optional<std::vector<StoreReader::Cell>>> first_row(StoreReader& store,
                                                                   const std::string& sql) {
   std::optional<std::vector<StoreReader::Cell>> found;
@@ -32,7 +32,7 @@ Expected<std::optional<std::vector<StoreReader::Cell>>> first_row(StoreReader& s
   return found;
 }
 
-/// The mission of a design as its campaign has it.
+/// The mission of a design, from its campaign.
 OrRefusal<Mission> mission_of_design(StoreReader& store, DesignId design, const std::string& name) {
   const auto campaign = store.campaign_of(design);
   if (!campaign) return refused(ExitCode::NoSuchId, campaign.error());
@@ -44,7 +44,7 @@ OrRefusal<Mission> mission_of_design(StoreReader& store, DesignId design, const 
       if (entry.mission.name == name) return std::move(entry.mission);
     }
   }
-  // A design that was imported may have come without its campaign's file.
+  // An imported design may lack its campaign's file.
   auto built_in = built_in_mission(name);
   if (built_in) return std::move(*built_in);
   return refused(ExitCode::NoSuchId,
@@ -78,7 +78,8 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
   return CandidateId{best.integer()};
 }
 
-/// As robots' logs have it; what is not a text of the grammar, as of a program, stays as it is.
+/// The machine as robots' logs contain it; a text that is not in the grammar, such as a program's,
+/// is returned unchanged.
 RanMachine printed_machine(const std::string& text, const std::string& flavour_name) {
   RanMachine machine{text, flavour_name};
   const auto flavour = find_flavour(flavour_name);

@@ -13,33 +13,33 @@
 
 namespace swarmsmith {
 
-/// What ran on the robots.
+/// The control software that ran on the robots.
 struct RanControl {
   CandidateId candidate;
-  Mission mission;  ///< that it was designed for
+  Mission mission;  ///< the mission for which it was designed
   RanMachine machine;
 };
 
-/// The candidate of a store that a log names, else the winner of its design. Exit code 4 when there
-/// is none; 3 when the store cannot be read.
+/// Finds the candidate that a log names, or the winner of the design that it names, in a store.
+/// Exit code 4 if there is none; 3 if the store cannot be read.
 OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log);
 
-/// Opens the store to add to it; exit code 3. A campaign that runs holds it: waits for a moment, as
-/// another command may do so, too.
+/// Opens the store for writing; exit code 3 if that fails. Waits for a moment if the store is
+/// locked, because another command may hold it only briefly; a running campaign holds it longer.
 OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,
                                                    StoreAtRest::IfMissing if_missing);
 
-/// A run of a store, and what people said of it.
+/// A stored run, and the decisions of people on it.
 struct KeptRun {
-  std::string store;  ///< its file
+  std::string store;  ///< file of the store
   RealRunId id;
   RealRunRows rows;
   std::vector<VerdictOverride> overrides;  ///< oldest first
 };
-/// By its word, r7; exit code 4 when there is none. `option` is `--store`, else SWARMSMITH_STORE
-/// names the store.
+/// Reads a run by its name, such as r7; exit code 4 if it does not exist. `option` is the value of
+/// `--store`; if it is empty, SWARMSMITH_STORE names the store.
 OrRefusal<KeptRun> kept_run(const std::string& option, const std::string& word);
-/// The same words, checked; exit code 2.
+/// The name of the store, found in the same way; exit code 2 if there is none.
 OrRefusal<std::string> named_store(const std::string& option);
 
 }  // namespace swarmsmith

@@ -9,10 +9,10 @@
 
 namespace swarmsmith {
 
-/// Which store: `--store`, else SWARMSMITH_STORE, else none (empty).
+/// The store: `--store`, otherwise SWARMSMITH_STORE, otherwise none (empty).
 std::string store_word(const std::string& option);
 
-/// The words of `track score`.
+/// The command line of `track score`.
 struct ScoreArguments {
   std::vector<std::string> videos;
   std::vector<std::string> times;

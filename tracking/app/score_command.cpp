@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Opened again only now: a campaign may have run while the video was looked at.
+/// Opens the store again only now, because a campaign may have run while the video was read.
 OrRefusal<RealRunWritten> keep(const RunPlan& plan, const RealRunRows& rows) {
   auto store = open_store(plan.store, plan.if_missing);
   if (!store) return tl::unexpected(std::move(store.error()));
@@ -32,7 +32,7 @@ Expected<void> write_files(const ScoreArguments& arguments, const RunFindings& r
   return write_whole_file(arguments.report, quality_html(run));
 }
 
-/// What a person may want to do now.
+/// The next step for the user.
 std::string next_step(const std::string& id, const std::string& store, Verdict verdict) {
   const std::string at = id + " --store " + store;
   if (verdict != Verdict::Invalid) return "Next: `swarmsmith track report " + at + "`.";

@@ -6,7 +6,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A handler runs in whatever thread the signal finds.
+/// A signal handler may run in any thread.
 std::atomic<bool> asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 

@@ -2,9 +2,9 @@
 
 namespace swarmsmith {
 
-/// From now on Ctrl-C and SIGTERM ask for an end instead of being one.
+/// From now on, Ctrl-C and SIGTERM only request a stop and do not end the program.
 void catch_stop_signals();
-/// Whether one of them came.
+/// Whether a stop was requested.
 bool stop_was_asked_for();
 
 }  // namespace swarmsmith

@@ -25,13 +25,13 @@ ObserveOptions observe_options(const RunPlan& plan) {
     options.search.expected.insert(robot.tag);
   for (const int tag : other_tags(plan.whole_rig, plan.log))
     options.search.expected.insert(tag);
-  // A tag that was never seen before is only found in a whole frame; the instant at which it comes
-  // is what counts.
+  // A tag that was never seen is found only in a search of the whole frame, and here the time when
+  // it appears is needed.
   if (plan.log.start.sync == RunStart::Sync::Shown) options.search.full_search_every_s = 0;
   return options;
 }
 
-/// Where the robots stand in a frame, as far as their tags are seen.
+/// The positions of the robots in a frame whose tags are seen.
 std::vector<Point> robots_in(const std::vector<Detection>& seen, const Rig& rig, const View& view) {
   const std::vector<RobotSetup> tags = each_tag(rig.robots);
   std::vector<Point> robots;
@@ -44,8 +44,8 @@ std::vector<Point> robots_in(const std::vector<Detection>& seen, const Rig& rig,
   return robots;
 }
 
-/// Takes pictures of the floor from a video, spread over its length; at most twice kPictures when
-/// its length is unknown.
+/// Takes pictures of the floor from a video, spread over its length; at most twice kPictures if its
+/// length is unknown.
 class FloorPictures {
  public:
   FloorPictures(const RunPlan& plan, std::vector<FloorPicture>& into) : plan_(plan), into_(into) {}
@@ -67,7 +67,7 @@ class FloorPictures {
   std::vector<FloorPicture>& into_;
 };
 
-/// The layout of the pictures, into the log.
+/// Measures the layout from the pictures, and adds it to the log.
 OrRefusal<void> measure(const std::vector<FloorPicture>& pictures, RunLog& log) {
   if (log.layout.source != RunLayout::Source::Measured) return {};
   const auto layout = measure_layout(pictures, log.mission);

@@ -5,12 +5,13 @@
 
 namespace swarmsmith {
 
-/// Looks through the plan's videos, once, and says how far it is. A layout that is to be measured
-/// is, from pictures on the way, and goes into the run's log.
+/// Reads the plan's videos once, and shows the progress. If the log asks for a measured layout, it
+/// is measured from some of the pictures and added to the run's log.
 OrRefusal<AnalysedRun> watch_run(RunPlan& plan, Output& output);
 
-/// What a word of FrameSource::open names, by its bytes (sha256_of_file): of a bag's topic, which
-/// may be one of several cameras, the SHA-256 of that of the bag and the topic.
+/// The digest of a source of FrameSource::open, over its contents (sha256_of_file). A bag may
+/// contain the topics of several cameras, so with a topic it is the SHA-256 of the bag's digest and
+/// the topic.
 Expected<std::string> sha256_of_source(const std::string& word);
 
 }  // namespace swarmsmith

@@ -15,7 +15,7 @@
 namespace swarmsmith {
 namespace {
 
-/// By OpenCV's numbers (PREDEFINED_DICTIONARY_NAME).
+/// In the order of OpenCV's numbers (PREDEFINED_DICTIONARY_NAME).
 constexpr std::array<std::string_view, 21> kDictionaries = {
     "4x4_50",        "4x4_100",        "4x4_250",       "4x4_1000",      "5x5_50",
     "5x5_100",       "5x5_250",        "5x5_1000",      "6x6_50",        "6x6_100",
@@ -43,10 +43,10 @@ Unexpected wrong(std::string_view word, const std::string& why) {
                    "--board");
 }
 
-/// What cannot be of a board's numbers.
+/// The error in the numbers of a board, if there is one.
 std::optional<std::string> flaw_of(const Board& board) {
   const bool charuco = board.kind == Board::Kind::Charuco;
-  // OpenCV finds chessboards of at least three inner corners a side.
+  // OpenCV finds chessboards with at least three inner corners per side.
   if (std::min(board.columns, board.rows) < 3 ||
       std::max(board.columns, board.rows) > kMostSquares) {
     return std::string("needs 3 to 100 ") + (charuco ? "squares" : "inner corners") + " a side";
@@ -149,7 +149,7 @@ std::vector<BlackBox> black_boxes_of(const Board& board) {
   const int columns = charuco ? board.columns : board.columns + 1;
   const int rows = charuco ? board.rows : board.rows + 1;
   std::vector<BlackBox> boxes;
-  // OpenCV 4.6 counts rows from above, where the first square is black.
+  // OpenCV 4.6 counts rows from the top, and the first square is black.
   for (int row = 0; row < rows; ++row) {
     for (int column = row % 2; column < columns; column += 2) {
       boxes.push_back(
@@ -164,7 +164,7 @@ std::vector<BlackBox> black_boxes_of(const Board& board) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     cv::Mat picture;
     charuco::draw_marker(printed, ids[i], cells, picture);
-    // The marker's first corner is its upper left one; y goes down.
+    // The marker's first corner is its upper left one; y points down.
     const cv::Point3f corner = charuco::markers_of(printed)[i].front();
     const auto left = static_cast<double>(corner.x);
     const auto top = static_cast<double>(corner.y);

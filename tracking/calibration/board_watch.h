@@ -8,22 +8,22 @@
 
 namespace swarmsmith {
 
-/// What the views so far of a board before the camera cover.
+/// The progress of collecting views of a board in front of a camera.
 struct BoardProgress {
   bool is_seen = false;  ///< in the last picture that was searched
-  int views = 0;         ///< that differ
+  int views = 0;         ///< number of different views
   std::array<int, 9> ninths{};
   double coverage = 0;
 };
 
-/// Watches a board that is held before a camera as it films; makes the same choice of views as
-/// `calibrate camera` makes of a video.
+/// Watches a board that is held in front of a camera while it films. Chooses views in the same way
+/// as `calibrate camera` does from a video.
 class BoardWatch {
  public:
   explicit BoardWatch(Board board);
 
-  /// Searches a picture twice a second: a board takes longer to find than robots, and people move
-  /// it slowly.
+  /// Searches a picture twice per second, because finding a board takes longer than finding robots,
+  /// and people move it slowly.
   BoardProgress look_at(const GrayImage& image, double time_s);
 
  private:

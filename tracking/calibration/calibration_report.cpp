@@ -28,7 +28,7 @@ std::string empty_ninths(const std::array<int, 9>& ninths) {
 std::string report_text(const CameraSolution& solution, std::span<const BoardView> views) {
   const CameraCalibration& calibration = solution.calibration;
   const CameraModel& model = calibration.model;
-  // OpenCV's fisheye solver does not say how sure it is.
+  // OpenCV's fisheye solver does not give standard deviations.
   const double deviation = calibration.focal_sigma_px;
   const std::string sigma = deviation > 0 ? fmt::format(" (+- {:.2f})", deviation) : "";
   std::string text = fmt::format(
@@ -95,7 +95,7 @@ std::string report_text(const OffsetCalibration& calibration) {
 
 std::string residual_map_svg(const CameraSolution& solution, std::span<const BoardView> views) {
   const ImageSize size = solution.calibration.model.size;
-  // Half a pixel becomes a twentieth of the width.
+  // Half a pixel is drawn as a twentieth of the width.
   const double scale = size.width / 10.0;
   const double stroke = size.width / 800.0;
   const double font = size.width / 50.0;

@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t kLeastCorners = 8;
 
 struct Found {
-  std::vector<int> ids;  ///< of inner corners
+  std::vector<int> ids;  ///< numbers of inner corners
   std::vector<cv::Point2f> corners;
 };
 
-/// Pixels between each corner and its neighbours in the row and in the column, at the least.
+/// The smallest distance, in pixels, between neighbouring corners of a row or column.
 double least_square_px(int columns, const Found& found) {
   double least = 0;
   for (std::size_t i = 0; i < found.ids.size(); ++i) {
@@ -32,16 +32,16 @@ double least_square_px(int columns, const Found& found) {
   return least;
 }
 
-/// OpenCV's own refinement stops at a tenth of a pixel, and that of chessboards is off by up to a
-/// pixel where the lens bends; this goes on, in windows that keep out of what is printed beside the
-/// corner. `free` is the share of a square that is so on each side.
+/// OpenCV's own refinement stops at a tenth of a pixel, and for chessboards it is wrong by up to a
+/// pixel if the lens distorts. This refines further, in windows that avoid the print near the
+/// corner. `free` is the share of a square without print on each side of a corner.
 void refine(const cv::Mat& image, int columns, double free, Found& found) {
   const double free_px = free * least_square_px(columns, found);
   const int half = std::clamp(static_cast<int>(free_px * 0.9), 2, 8);
   const cv::TermCriteria converged(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 0.001);
   const std::vector<cv::Point2f> before = found.corners;
   cv::cornerSubPix(image, found.corners, {half, half}, {-1, -1}, converged);
-  // What runs away has found another edge.
+  // A corner that moved far has found another edge.
   const double most = std::max(1.5, free_px / 2);
   Found kept;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -66,8 +66,8 @@ Found find_charuco(const cv::Mat& image, const Board& board) {
   return found;
 }
 
-/// Searched for in a picture that is `shrunk` times smaller, which takes a fraction of the time;
-/// corners are refined in the whole one, and so come out the same to 1/1000 of a pixel.
+/// Searches a picture that is reduced by the factor `shrunk`, which takes a fraction of the time.
+/// Corners are refined in the full picture, so the results are equal to 1/1000 of a pixel.
 Found find_chessboard(const cv::Mat& image, const Board& board, int shrunk) {
   Found found;
   cv::Mat small = image;
@@ -79,7 +79,7 @@ Found find_chessboard(const cv::Mat& image, const Board& board, int shrunk) {
   const double x = static_cast<double>(image.cols) / small.cols;
   const double y = static_cast<double>(image.rows) / small.rows;
   for (std::size_t i = 0; i < found.corners.size(); ++i) {
-    // Centres of pixels have whole numbers.
+    // Centres of pixels have integer coordinates.
     cv::Point2f& at = found.corners[i];
     at = cv::Point2f(static_cast<float>((at.x + 0.5) * x - 0.5),
                      static_cast<float>((at.y + 0.5) * y - 0.5));
@@ -89,7 +89,7 @@ Found find_chessboard(const cv::Mat& image, const Board& board, int shrunk) {
   return found;
 }
 
-/// In the whole picture only what a smaller one does not show whole.
+/// Searches the full picture only if the reduced one does not show the complete board.
 Found find_chessboard(const cv::Mat& image, const Board& board) {
   constexpr int kWide = 1200;
   const auto all = static_cast<std::size_t>(board.columns * board.rows);
@@ -100,7 +100,7 @@ Found find_chessboard(const cv::Mat& image, const Board& board) {
   return find_chessboard(image, board, 1);
 }
 
-/// A board seen in one line has no tilt.
+/// If all corners are on one line, the board's tilt is unknown.
 bool is_flat_line(const std::vector<Point>& board) {
   const auto differs = [](auto coordinate) {
     return [coordinate](const Point& a, const Point& b) {
@@ -114,7 +114,7 @@ bool is_flat_line(const std::vector<Point>& board) {
          std::ranges::none_of(board, [&](const Point& p) { return y(p, first); });
 }
 
-/// Mean strength of the second derivative over the board's box, relative to its contrast.
+/// Mean absolute second derivative in the board's bounding box, relative to its contrast.
 double sharpness_of(const cv::Mat& image, const std::vector<cv::Point2f>& corners) {
   const cv::Rect box = cv::boundingRect(corners) & cv::Rect(0, 0, image.cols, image.rows);
   if (box.empty()) return 0;
@@ -127,7 +127,8 @@ double sharpness_of(const cv::Mat& image, const std::vector<cv::Point2f>& corner
          std::max(deviation[0], 1.0);
 }
 
-/// Where the board's four outer corners are or would be, as shares of the picture's width.
+/// The positions of the board's four outer corners, extrapolated if necessary, as shares of the
+/// picture's width.
 using Outline = std::array<cv::Point2d, 4>;
 
 Outline outline_of(const BoardView& view, const Board& board, ImageSize size) {
@@ -159,7 +160,7 @@ double distance(const Outline& a, const Outline& b) {
 }  // namespace
 
 std::optional<BoardSight> find_board(const GrayImage& image, const Board& board) {
-  // OpenCV has no view of pixels that it may not write; it only reads these.
+  // OpenCV has no matrix type for constant pixels; it only reads them here.
   const cv::Mat gray(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels),
                      static_cast<std::size_t>(image.stride));
   const Found found =
@@ -194,7 +195,7 @@ std::vector<std::size_t> pick_views(const std::vector<BoardSight>& sights, const
       *alike = i;
     }
   }
-  // Of too many, those farthest from all that are taken already.
+  // If there are too many, take those that differ most from all that were taken before.
   std::vector<std::size_t> picked;
   while (!kept.empty() && picked.size() < most) {
     const auto loneliness = [&](std::size_t i) {

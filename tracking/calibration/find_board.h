@@ -12,17 +12,17 @@ namespace swarmsmith {
 /// A board in a picture, without the picture's name.
 struct BoardSight {
   BoardView view;
-  /// How sharp its edges are; only compares pictures that show the board alike.
+  /// Sharpness of its edges; only comparable between pictures with a similar view of the board.
   double sharpness = 0;
 };
 
-/// The board's inner corners to a hundredth or so of a pixel: a ChArUco board wherever a marker on
-/// either side is seen, a chessboard only as a whole. Nothing when fewer than eight corners are
-/// seen, or all in one line.
+/// Finds the board's inner corners to about a hundredth of a pixel: on a ChArUco board each corner
+/// with a visible marker next to it, on a chessboard all corners or none. Nothing if fewer than
+/// eight corners are visible, or if all of them are on one line.
 std::optional<BoardSight> find_board(const GrayImage& image, const Board& board);
 
-/// Which of a video's sights to solve from, at most `most`, in their order: those that show the
-/// board at places, sizes and angles that differ, and of those alike the sharpest.
+/// Chooses at most `most` sights of a video for the calibration, and keeps their order: sights with
+/// different places, sizes and angles of the board, and of similar sights the sharpest.
 std::vector<std::size_t> pick_views(const std::vector<BoardSight>& sights, const Board& board,
                                     ImageSize size, std::size_t most);
 

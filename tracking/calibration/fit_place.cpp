@@ -27,7 +27,7 @@ CameraPlace place_of(const Vector6& pose) {
   return place;
 }
 
-/// Seen minus expected, u and v of each corner; nothing when a corner would be behind the camera.
+/// Seen minus expected, u and v of each corner; nothing if a corner is behind the camera.
 std::optional<Eigen::VectorXd> residuals_of(const Corners& corners, const CameraModel& camera,
                                             const Vector6& pose) {
   const CameraPlace place = place_of(pose);
@@ -43,7 +43,7 @@ std::optional<Eigen::VectorXd> residuals_of(const Corners& corners, const Camera
   return residuals;
 }
 
-/// How residuals change with the pose, by central differences.
+/// The derivatives of the residuals with respect to the pose, by central differences.
 using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 std::optional<Slopes> slopes_of(const Corners& corners, const CameraModel& camera,
                                 const Vector6& pose) {
@@ -58,7 +58,8 @@ std::optional<Slopes> slopes_of(const Corners& corners, const CameraModel& camer
   return slopes;
 }
 
-/// Levenberg and Marquardt from a start; nothing when the start sees corners behind the camera.
+/// Refines a start with the Levenberg-Marquardt method; nothing if a corner is behind the camera at
+/// the start.
 std::optional<PlaceFit> refined(const Corners& corners, const CameraModel& camera, Vector6 pose) {
   auto residuals = residuals_of(corners, camera, pose);
   if (!residuals) return std::nullopt;
@@ -90,7 +91,7 @@ std::optional<PlaceFit> refined(const Corners& corners, const CameraModel& camer
   return PlaceFit{place_of(pose), std::sqrt(squares / static_cast<double>(corners.seen.size()))};
 }
 
-/// Rough places, on the undistorted rays.
+/// Approximate places, from the undistorted rays.
 std::vector<Vector6> starts_of(const Corners& corners, const CameraModel& camera) {
   std::vector<cv::Point2d> rays;
   for (const Ray& ray : rays_of(camera, corners.seen))
@@ -103,7 +104,7 @@ std::vector<Vector6> starts_of(const Corners& corners, const CameraModel& camera
       cv::solvePnPGeneric(corners.world, rays, cv::Matx33d::eye(), cv::noArray(), turns, shifts,
                           false, method);
     } catch (const std::exception&) {
-      // Corners that no plane is seen so; the other method may still find a start.
+      // No plane can be seen like this; the other method may still find a start.
       continue;
     }
     for (std::size_t i = 0; i < turns.size(); ++i) {

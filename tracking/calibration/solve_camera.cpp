@@ -22,13 +22,13 @@ constexpr double kOutlier = 3;
 
 const cv::TermCriteria kConverged(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 300, 1e-12);
 
-/// The views in OpenCV's shapes; its pinhole solver takes only floats.
+/// The views in OpenCV's types; its pinhole solver only accepts floats.
 struct Points {
   std::vector<std::vector<cv::Point3f>> board;
   std::vector<std::vector<cv::Point2f>> seen;
 };
 
-/// Where a start led.
+/// The result from one start.
 struct Fit {
   double rms_px = 0;
   cv::Matx33d matrix;
@@ -55,7 +55,7 @@ cv::Matx33d guess(ImageSize size, double focal) {
   return {focal, 0, (size.width - 1) / 2.0, 0, focal, (size.height - 1) / 2.0, 0, 0, 1};
 }
 
-/// From a guess of the focal length, or from the solver's own start without one.
+/// Starts from a guess of the focal length, or without one from the solver's own start.
 Fit fit_pinhole(const Points& points, ImageSize size, std::optional<double> focal) {
   cv::Mat matrix = focal ? cv::Mat(guess(size, *focal)) : cv::Mat::eye(3, 3, CV_64F);
   cv::Mat distortion = cv::Mat::zeros(1, 5, CV_64F);
@@ -93,10 +93,10 @@ bool is_finite(const Fit& fit) {
   return std::isfinite(sum) && fit.matrix(0, 0) > 0 && fit.matrix(1, 1) > 0;
 }
 
-/// The best of all starts.
+/// The best result of all starts.
 std::optional<Fit> best_fit(const Points& points, ImageSize size, Lens lens) {
   const double width = std::max(size.width, size.height);
-  // About 90 and 50 degrees across the width; a fisheye's 180 degrees are pi focal lengths.
+  // About 90 and 50 degrees across the width; for a fisheye lens 180 degrees are pi focal lengths.
   const std::vector<std::optional<double>> starts =
       lens == Lens::Fisheye
           ? std::vector<std::optional<double>>{std::nullopt, width / 3.1416, width / 2}
@@ -108,7 +108,8 @@ std::optional<Fit> best_fit(const Points& points, ImageSize size, Lens lens) {
                                       : fit_pinhole(points, size, start);
       if (is_finite(fit) && (!best || fit.rms_px < best->rms_px)) best = std::move(fit);
     } catch (const std::exception&) {
-      // This start led nowhere (a view that no camera of the guess can have); the others may.
+      // This start failed (no camera with the guessed focal length can have one of the views); the
+      // other starts may succeed.
     }
   }
   return best;
@@ -134,7 +135,7 @@ SolvedView view_of(const Points& points, std::size_t i, const Fit& fit, Lens len
   return view;
 }
 
-/// The used view that is too bad to stay, if there is one.
+/// The used view that must be dropped as an outlier, if there is one.
 std::optional<std::size_t> outlier_of(const std::vector<SolvedView>& views,
                                       const std::vector<std::size_t>& used) {
   std::vector<double> all;

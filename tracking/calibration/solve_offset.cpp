@@ -17,17 +17,17 @@ namespace {
 constexpr double kTrim = 3;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastRun_m = 0.5;
-/// A direction of travel is taken over at least this way.
+/// Shortest distance for measuring a direction of travel.
 constexpr double kStep_m = 0.1;
 constexpr double kMostSpread_rad = 5 * kDegree;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Unknowns: centre x, y; offset x, y; drift x, y.
+/// The unknowns are centre x, y; offset x, y; drift x, y.
 struct SpinFit {
   Eigen::Matrix<double, 6, 1> unknowns;
-  Matrix6 inverse;                ///< of the normal matrix
-  std::vector<double> residuals;  ///< distance, one a sample
+  Matrix6 inverse;                ///< inverse of the normal matrix
+  std::vector<double> residuals;  ///< distance, one per sample
   double squares = 0;
 };
 
@@ -36,7 +36,7 @@ std::optional<SpinFit> fit_spin(const std::vector<TagSample>& samples) {
   if (count < 4) return std::nullopt;
   Eigen::Matrix<double, Eigen::Dynamic, 6> a(2 * count, 6);
   Eigen::VectorXd b(2 * count);
-  // Times from their middle keep the equations well conditioned.
+  // Times relative to the middle keep the equations well conditioned.
   const double middle = (samples.front().time_s + samples.back().time_s) / 2;
   for (Eigen::Index i = 0; i < count; ++i) {
     const TagSample& sample = samples[static_cast<std::size_t>(i)];
@@ -59,7 +59,7 @@ std::optional<SpinFit> fit_spin(const std::vector<TagSample>& samples) {
   return fit;
 }
 
-/// From the least to the greatest heading, turns counted.
+/// The range of the headings, from the smallest to the largest, including full turns.
 double turn_of(const std::vector<TagSample>& samples) {
   double heading = 0;
   double least = 0;
@@ -84,7 +84,7 @@ Expected<OffsetCalibration> solve_offset(std::span<const TagSample> samples) {
   constexpr int kMostRounds = 10;
   for (int round = 0; fit && round < kMostRounds; ++round) {
     const auto freedom = static_cast<double>(2 * kept.size()) - 6;
-    // Of one axis; a residual is a distance over two.
+    // The variance is per axis; a residual is a distance over both axes.
     const double limit = kTrim * std::sqrt(2 * fit->squares / freedom);
     std::vector<TagSample> rest;
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -141,7 +141,7 @@ Expected<TravelYaw> solve_yaw(std::span<const TagSample> samples, const TagOffse
       ++from;
     const double direction =
         std::atan2(centres[to].y - centres[from].y, centres[to].x - centres[from].x);
-    // The heading half way is that of the chord also in a slight curve.
+    // Even in a slight curve, the heading half way is the direction of the chord.
     const double heading = centres[(from + to) / 2].theta;
     const double yaw = heading - direction + (reverse ? std::numbers::pi : 0);
     sine += std::sin(yaw);

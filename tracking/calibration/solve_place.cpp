@@ -13,14 +13,15 @@
 namespace swarmsmith {
 namespace {
 
-/// Tags are in one line when they spread across it by less than this part of how they spread along.
+/// Tags count as being on one line if their spread across the line is less than this share of their
+/// spread along it.
 constexpr double kThin = 0.1;
 
 std::string list_of_ids(const std::vector<int>& ids) {
   return ids.empty() ? std::string("none") : fmt::format("{}", fmt::join(ids, ", "));
 }
 
-/// "; seen: 100, 101; missing: 102".
+/// Text with the seen and missing tags: "; seen: 100, 101; missing: 102".
 std::string seen_and_missing(const PlaceQuestion& question) {
   std::vector<int> seen;
   for (const SeenTag& tag : question.seen)
@@ -33,7 +34,8 @@ std::string seen_and_missing(const PlaceQuestion& question) {
 }
 
 bool are_in_line(const std::vector<SeenTag>& seen) {
-  // Sums, not one large matrix: Eigen's product without a fixed size takes ten seconds to compile.
+  // Sums are used instead of one large matrix, because Eigen's product of dynamic size takes ten
+  // seconds to compile.
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const SeenTag& tag : seen)
     middle += Eigen::Vector2d(tag.tag.pose.x, tag.tag.pose.y);
@@ -43,13 +45,13 @@ bool are_in_line(const std::vector<SeenTag>& seen) {
     const Eigen::Vector2d off = Eigen::Vector2d(tag.tag.pose.x, tag.tag.pose.y) - middle;
     spread += off * off.transpose();
   }
-  // Spreads along the two principal axes, squared.
+  // Squared spreads along the two principal axes.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
   return !(axes.eigenvalues()(0) > kThin * kThin * axes.eigenvalues()(1));
 }
 
-/// How much of what the camera sees of the arena lies within the hull of the tags' corners, 0 to 1;
-/// counted on a grid of 2 cm.
+/// The share of the visible part of the arena that lies within the hull of the tags' corners, 0 to
+/// 1; counted on a grid of 2 cm.
 double coverage_of(const PlaceQuestion& question, const View& view) {
   std::vector<cv::Point2f> corners;
   for (const SeenTag& tag : question.seen) {
@@ -85,7 +87,7 @@ double coverage_of(const PlaceQuestion& question, const View& view) {
   return seen == 0 ? 0 : static_cast<double>(covered) / seen;
 }
 
-/// Root mean square of the corners' distances on the floor, seen from a place.
+/// Root mean square error of a tag's corners on the floor, for a view.
 double floor_error(const SeenTag& seen, const View& view) {
   const std::vector<Point> found = on_plane(view, seen.corners, 0);
   const std::array<Point, 4> wanted = corners_of(seen.tag);
@@ -95,7 +97,7 @@ double floor_error(const SeenTag& seen, const View& view) {
   return std::sqrt(squares / 4);
 }
 
-/// Leaves each tag out in turn.
+/// Solves the place again without each of the tags.
 void leave_out(const PlaceQuestion& question, PlaceCalibration& calibration) {
   std::size_t farthest = 0;
   std::size_t suspect = 0;
@@ -104,7 +106,7 @@ void leave_out(const PlaceQuestion& question, PlaceCalibration& calibration) {
     std::vector<SeenTag> others = question.seen;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const auto fit = fit_place(others, question.camera);
-    // Others that fit no place at all are not better for this tag's absence.
+    // If the other tags fit no place at all, leaving this tag out is no improvement.
     const double rms = fit ? fit->rms_px : 1e9;
     PlaceCalibration::Seen& seen = calibration.tags[i];
     seen.left_out_m = fit ? floor_error(question.seen[i], {question.camera, fit->place}) : 1e9;
@@ -115,7 +117,8 @@ void leave_out(const PlaceQuestion& question, PlaceCalibration& calibration) {
     if (seen.left_out_m > calibration.tags[farthest].left_out_m) farthest = i;
   }
   calibration.worst_left_out_m = calibration.tags[farthest].left_out_m;
-  // One wrong tag pulls the others' fits along, so that theirs may be the larger error.
+  // A wrong tag distorts the fits without the other tags, so the error of another tag may be
+  // larger.
   const bool is_wrong = calibration.worst_left_out_m > question.limits.left_out_m ||
                         calibration.rms_px > rms_limit_px(calibration, question.limits);
   calibration.worst_tag = question.seen[is_wrong ? suspect : farthest].tag.tag;
@@ -130,7 +133,7 @@ std::vector<SeenTag> median_of_looks(const std::vector<std::vector<TagLook>>& lo
     std::array<std::vector<double>, 8> values;
     for (const auto& look : looks) {
       const auto same = [&](const TagLook& seen) { return seen.tag == tag.tag; };
-      // A tag that is there twice in one look tells nothing.
+      // A tag that appears twice in one look is not used.
       if (std::ranges::count_if(look, same) != 1) continue;
       const TagCorners& corners = std::ranges::find_if(look, same)->corners;
       for (std::size_t k = 0; k < 4; ++k) {
@@ -179,7 +182,7 @@ Expected<PlaceCalibration> solve_place(const PlaceQuestion& question) {
         {seen.tag, seen.corners, std::sqrt(squares_off(view, seen.tag, seen.corners) / 4), 0});
   calibration.coverage = coverage_of(question, view);
   leave_out(question, calibration);
-  // What does not fit must be told first: the coverage of a wrong place means nothing.
+  // A bad fit is reported first, because the coverage of a wrong place means nothing.
   std::vector<Error> faults = faults_of(calibration, question.limits);
   const auto is_fit = [](const Error& e) { return e.message.starts_with("E_EXTRINSICS"); };
   std::stable_partition(faults.begin(), faults.end(), is_fit);

@@ -14,7 +14,7 @@
 
 namespace swarmsmith {
 
-/// A surveyed floor tag and where the camera sees its corners.
+/// A surveyed floor tag, and the corners that the camera sees.
 struct SeenTag {
   ReferenceTag tag;
   TagCorners corners{};
@@ -22,8 +22,9 @@ struct SeenTag {
   friend bool operator==(const SeenTag&, const SeenTag&) = default;
 };
 
-/// Medians, corner by corner, of what was seen of each floor tag in several looks; tags that were
-/// not surveyed, and those in less than a quarter of the looks, are left out. By tag.
+/// The corners of each floor tag as medians over several looks, corner by corner, in order of tag
+/// number. Tags that were not surveyed, or that are in less than a quarter of the looks, are left
+/// out.
 struct TagLook {
   int tag = 0;
   TagCorners corners{};
@@ -31,36 +32,36 @@ struct TagLook {
 std::vector<SeenTag> median_of_looks(const std::vector<std::vector<TagLook>>& looks,
                                      std::span<const ReferenceTag> survey);
 
-/// A place that fits, without a judgement.
+/// The best place, without a check of its quality.
 struct PlaceFit {
   CameraPlace place;
-  double rms_px = 0;  ///< reprojection over all corners
+  double rms_px = 0;  ///< reprojection error over all corners
 };
 
-/// Where a camera hangs that sees the floor tags so: SQPNP and both planar solutions (IPPE) as
-/// starts, each refined by Levenberg and Marquardt on all corners in pixels of the distorted image;
-/// of those above the floor the one with the least error. Nothing when none leads anywhere; two
-/// tags at least.
+/// Finds the place of a camera from the floor tags that it sees. SQPNP and both planar solutions
+/// (IPPE) are starting points; each is refined with the Levenberg-Marquardt method on all corners
+/// in pixels of the distorted image. Of the solutions above the floor, the one with the smallest
+/// error is returned. Nothing if there is none. Needs at least two tags.
 std::optional<PlaceFit> fit_place(std::span<const SeenTag> seen, const CameraModel& camera);
 
-/// What a place is solved from.
+/// The input for solving a place.
 struct PlaceQuestion {
   std::vector<SeenTag> seen;
-  std::vector<ReferenceTag> survey;  ///< all, seen or not
+  std::vector<ReferenceTag> survey;  ///< all floor tags, seen or not
   CameraModel camera;
-  std::vector<Point> arena;  ///< corners of its walls
+  std::vector<Point> arena;  ///< corners of the arena's walls
   PlaceLimits limits;
 };
 
 /// A camera's place with all checks of tracking facts, section 3, but without date and digest.
-/// E_REF_TAGS with the ids seen and missing: fewer than four tags, in one line, or over less than
-/// half of that part of the arena which the camera sees. E_EXTRINSICS: they do not fit, with the
-/// worst tag and its error; of the tags that may be surveyed wrongly the one is named without which
-/// the others fit best.
+/// E_REF_TAGS with the numbers of seen and missing tags if there are fewer than four tags, if they
+/// are on one line, or if they cover less than half of the part of the arena that the camera sees.
+/// E_EXTRINSICS with the worst tag and its error if they do not fit; if a tag may be surveyed
+/// wrongly, this is the tag without which the others fit best.
 Expected<PlaceCalibration> solve_place(const PlaceQuestion& question);
 
-/// The same question again, from a calibration's medians with the survey and camera of now. Tags
-/// that are not in the survey any more are left out.
+/// The input to solve an old calibration's place again: its medians, with the current survey and
+/// camera. Tags that are no longer in the survey are left out.
 PlaceQuestion question_again(const PlaceCalibration& old, PlaceQuestion now);
 
 }  // namespace swarmsmith

@@ -14,14 +14,14 @@
 namespace swarmsmith {
 namespace {
 
-/// The library's table grows with codes x bits^n: 2 would take 3 GB for tagStandard52h13, and no
-/// search accepts more than 1.
+/// The library's table grows with codes x bits^n: with 2 bits it needs 3 GB for tagStandard52h13,
+/// and no search accepts more than 1.
 constexpr int kBitsCorrected = 1;
 
-/// Below this the library has no tiles to take thresholds from, and no tag can be read.
+/// In a smaller image the library has no tiles for thresholds, and no tag can be read.
 constexpr int kLeastSide = 16;
 
-/// The library counts 0.5 at the middle of a pixel, we count 0.
+/// The centre of a pixel is at 0.5 for the library, and at 0 for us.
 constexpr double kPixelMiddle = 0.5;
 
 Detection detection_of(const apriltag_detection_t& found, const PixelBox& box) {
@@ -46,7 +46,7 @@ ImagePoint middle_of(const TagCorners& corners) {
   return {sum.u / 4, sum.v / 4};
 }
 
-/// Families are state that detectors write to, so each detector has its own.
+/// Detectors write to their family, so each detector has its own.
 struct TagDetector::Library {
   FamilyPointer family;
   apriltag_detector_t* detector;
@@ -85,7 +85,7 @@ std::vector<Detection> TagDetector::find(const GrayImage& image, const PixelBox&
   if (std::min(width, height) < kLeastSide * decimate) return {};
   const std::uint8_t* const corner =
       image.pixels + static_cast<std::ptrdiff_t>(inside.top) * image.stride + inside.left;
-  // The library only reads, though its type has no word for that.
+  // The library only reads the pixels, although its type is not constant.
   image_u8_t crop{width, height, static_cast<std::int32_t>(image.stride),
                   const_cast<std::uint8_t*>(corner)};
   library_->detector->quad_decimate = static_cast<float>(decimate);

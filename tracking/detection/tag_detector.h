@@ -13,15 +13,15 @@ namespace swarmsmith {
 /// A tag found in an image.
 struct Detection {
   int tag = 0;
-  TagCorners corners{};  ///< pixels as ImagePoint has them, not as the library
+  TagCorners corners{};  ///< in pixels as for ImagePoint, not as in the library
   int hamming = 0;
   double margin = 0;
 };
 
-/// The mean of its corners.
+/// The mean of a tag's corners.
 ImagePoint middle_of(const TagCorners& corners);
 
-/// A part of an image, pixels; right and bottom edges do not belong to it.
+/// A part of an image, in pixels, without the right and bottom edges.
 struct PixelBox {
   int left = 0;
   int top = 0;
@@ -29,18 +29,19 @@ struct PixelBox {
   int bottom = 0;
 };
 
-/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library; codes with more
-/// than one wrong bit are not tags. Not for two threads at once; each makes its own.
+/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library; a code with more
+/// than one wrong bit does not count as a tag. Not thread-safe; create one per thread.
 class TagDetector {
  public:
-  /// BadInput for a family that is not among known_tag_families().
+  /// BadInput for a family that is not in known_tag_families().
   static Expected<TagDetector> of_family(const std::string& family);
   TagDetector(TagDetector&&) noexcept;
   TagDetector& operator=(TagDetector&&) noexcept;
   ~TagDetector();
 
-  /// Tags of a part of the image, cut off at its edges; searched at 1/`decimate` of its resolution;
-  /// corners are refined at full resolution. Sorted by tag, then by margin, best first.
+  /// Finds the tags in a part of the image; the part is clipped to the image. It is searched at
+  /// 1/`decimate` of its resolution, and corners are refined at full resolution. Sorted by tag
+  /// number, then by margin, largest first.
   std::vector<Detection> find(const GrayImage& image, const PixelBox& box, int decimate);
   std::vector<Detection> find(const GrayImage& image, int decimate);
 
@@ -50,11 +51,11 @@ class TagDetector {
   std::unique_ptr<Library> library_;
 };
 
-/// Tags, read without an error, that are the mirror images of tags, by number.
+/// The numbers of tags that are seen mirrored, and read without a wrong bit.
 std::vector<int> mirrored_tags(TagDetector& detector, const GrayImage& image);
-/// Whether an image shows tags as a mirror does: then none is found in it, whatever the light.
+/// Whether an image is mirrored. No tag can be found in such an image, whatever the light.
 bool is_mirrored(TagDetector& detector, const GrayImage& image);
-/// What to do about it.
+/// The advice for mirrored images.
 inline constexpr const char* kMirroredAdvice =
     "the pictures are mirrored: tags are found in their mirror image alone; turn mirroring off in "
     "the camera's settings, and calibrate from pictures that are not mirrored";

@@ -14,7 +14,7 @@ namespace {
 TagPattern pattern_of(apriltag_family_t& family, int id) {
   const std::unique_ptr<image_u8_t, void (*)(image_u8_t*)> image(
       apriltag_to_image(&family, static_cast<std::uint16_t>(id)), image_u8_destroy);
-  // The quiet zone is the outermost ring of the image, save where a family has bits there.
+  // The quiet zone is the outermost ring of the image, except for families that have bits there.
   const int ring = family.reversed_border ? 1 : 0;
   TagPattern pattern{.cells = image->width + 2 * ring, .border_cells = family.width_at_border};
   const int cells = pattern.cells * pattern.cells;

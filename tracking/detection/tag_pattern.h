@@ -8,11 +8,11 @@
 
 namespace swarmsmith {
 
-/// A tag as cells of black and white, upright, as the apriltag library draws its official images
-/// (OpenCV's AprilTags are turned by 180 degrees). A quiet zone of one white cell is part of it.
+/// A tag as black and white cells, upright, as in the official images of the apriltag library
+/// (OpenCV's AprilTags are turned by 180 degrees). It includes a quiet zone of one white cell.
 struct TagPattern {
-  int cells = 0;            ///< of a side, quiet zone included
-  int border_cells = 0;     ///< between the corners that a detector finds
+  int cells = 0;            ///< per side, including the quiet zone
+  int border_cells = 0;     ///< cells between the corners that a detector finds
   std::vector<bool> black;  ///< row by row from the upper left corner
 
   bool is_black(int row, int column) const {
@@ -21,8 +21,8 @@ struct TagPattern {
   }
 };
 
-/// For all families of `known_tag_families`. BadInput for a family that is not known, or an id that
-/// it has not; with what there is.
+/// The pattern of a tag of any family in `known_tag_families`. BadInput for an unknown family, or
+/// an id that the family does not have; the error lists the valid ones.
 Expected<TagPattern> tag_pattern(const std::string& family, int id);
 
 }  // namespace swarmsmith

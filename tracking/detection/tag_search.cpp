@@ -8,17 +8,17 @@
 namespace swarmsmith {
 namespace {
 
-/// At half the resolution, smaller tags are read in two of three cases only (tracking facts,
-/// section 6, pixel budget).
+/// At half resolution, smaller tags are read only two out of three times (tracking facts, section
+/// 6, pixel budget).
 constexpr double kLeastEdgeForHalfPx = 36;
 
-/// Between whole frames that missing tags ask for.
+/// Shortest time between searches of the whole frame for missing tags.
 constexpr double kLeastPatience_s = 0.1;
 
-/// A tag that was too faint for half the resolution is read at full resolution for so long.
+/// A tag that was too faint for half resolution is read at full resolution for this time.
 constexpr double kFineFor_s = 1;
 
-/// A speed is known from two sightings at most this far apart.
+/// Two sightings give a speed only if they are at most this far apart in time.
 constexpr double kSpeedKnownFor_s = 0.5;
 
 double length(const ImagePoint& a, const ImagePoint& b) {
@@ -44,7 +44,8 @@ bool contains(const std::vector<Detection>& seen, int tag) {
   return std::any_of(seen.begin(), seen.end(), [&](const Detection& d) { return d.tag == tag; });
 }
 
-/// Adds what is not there yet: windows overlap, and so do windows and the whole frame.
+/// Adds a detection unless it is already in the list: windows overlap with each other and with the
+/// whole frame.
 void add_new(const Detection& detection, std::vector<Detection>& seen) {
   const double same_px = diagonal_of(detection.corners) / 2;
   const ImagePoint centre = middle_of(detection.corners);
@@ -54,7 +55,8 @@ void add_new(const Detection& detection, std::vector<Detection>& seen) {
   if (!is_there) seen.push_back(detection);
 }
 
-/// Searches at full resolution are dear; a tag that stays away is worth one now and then.
+/// Searches at full resolution are expensive; for a tag that stays missing they are done only now
+/// and then.
 bool is_worth_a_second_look(int misses) {
   return misses < 4 || misses % 8 == 0;
 }
@@ -83,8 +85,9 @@ bool TagSearch::full_is_due(double time_s) const {
 void TagSearch::search_whole(const GrayImage& image, double time_s, std::vector<Detection>& seen) {
   const bool has_small = std::any_of(followed_.begin(), followed_.end(),
                                      [&](const auto& each) { return is_small(each.second); });
-  // The first frame, whose tags may be of any size; then every fourth in vain, the second first:
-  // perhaps the missing are small, or the light is poor.
+  // The first frame is searched at full resolution, because its tags may be of any size. While tags
+  // are missing, so is every fourth whole frame that is searched, beginning with the second one:
+  // the missing tags may be small, or the light poor.
   const bool is_first = full_searches_ == 0;
   const int decimate = is_first || has_small || passes_in_vain_ % 4 == 1 ? 1 : 2;
   for (const Detection& each : detector_.find(image, decimate))
@@ -107,7 +110,7 @@ bool TagSearch::take_window(const GrayImage& image, const PixelBox& box, int dec
 bool TagSearch::search_window(const GrayImage& image, double time_s, int tag, Followed& followed,
                               std::vector<Detection>& seen) {
   const double since_s = time_s - followed.seen_s;
-  // A hidden tag's window must not grow to the frame.
+  // The window of a hidden tag must not grow to the whole frame.
   const double most_px = 2 * followed.diagonal_px;
   const ImagePoint moved{std::clamp(followed.speed.u * since_s, -most_px, most_px),
                          std::clamp(followed.speed.v * since_s, -most_px, most_px)};
@@ -142,7 +145,7 @@ void TagSearch::follow(double time_s, const std::vector<Detection>& seen) {
     double best_px = 0;
     for (const Detection& each : seen) {
       if (each.tag != tag) continue;
-      // Of a tag that is there twice the one goes on that is where it should be.
+      // If a tag is seen twice, follow the one nearer to the expected place.
       const double off_px = known == followed_.end()
                                 ? -each.margin
                                 : length(middle_of(each.corners), known->second.centre);

@@ -16,10 +16,11 @@ std::vector<double> coefficients_of(const CameraModel& camera) {
   return {camera.distortion.begin(), camera.distortion.begin() + count};
 }
 
-/// The library's default of five steps is not converged in the corners of a wide lens.
+/// The library's default of five steps does not converge in the corners of a wide-angle lens.
 const cv::TermCriteria kConverged(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-12);
 
-/// Distorted radius of a ray at radius r (pinhole) or angle r (fisheye), as its derivative.
+/// The derivative of the distorted radius with respect to the radius r (pinhole) or the angle r
+/// (fisheye) of a ray.
 double slope(const CameraModel& camera, double r) {
   const auto& k = camera.distortion;
   const double q = r * r;
@@ -74,7 +75,7 @@ ImagePoint image_of(const CameraModel& camera, const Point3& point) {
 }
 
 bool is_monotonic(const CameraModel& camera) {
-  // The farthest corner bounds what must be reached.
+  // The radius to be checked is the distance of the farthest corner.
   const double far_u = std::max(camera.cx, camera.size.width - 1 - camera.cx) / camera.fx;
   const double far_v = std::max(camera.cy, camera.size.height - 1 - camera.cy) / camera.fy;
   const double wanted = std::hypot(far_u, far_v);

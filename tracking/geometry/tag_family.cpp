@@ -5,7 +5,7 @@
 namespace swarmsmith {
 
 std::span<const TagFamily> known_tag_families() {
-  // Counted in version 3.3 of the apriltag library.
+  // From version 3.3 of the apriltag library.
   static constexpr std::array<TagFamily, 9> kFamilies = {{{"tag36h11", 587},
                                                           {"tag36h10", 2320},
                                                           {"tag25h9", 35},

@@ -5,13 +5,13 @@
 
 namespace swarmsmith {
 
-/// A family of AprilTags, by the name that its library gives it.
+/// A family of AprilTags, with its name in the apriltag library.
 struct TagFamily {
   std::string_view name;
-  int tags = 0;  ///< they are numbered from 0
+  int tags = 0;  ///< number of tags; ids start at 0
 };
 
-/// Those that the programs can find, the usual one first.
+/// The families that the programs can find, the most common one first.
 std::span<const TagFamily> known_tag_families();
 
 }  // namespace swarmsmith

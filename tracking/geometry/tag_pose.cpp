@@ -26,7 +26,7 @@ TagPose tag_pose(const View& view, const TagCorners& corners, double edge_m, dou
   }
   const double length = std::hypot(along, across);
   const double model_spread = 2 * edge_m * edge_m;
-  // Of the best similarity; the residual is that of the rigid fit, without its scale.
+  // Squared residuals of the rigid fit, which does not use the scale of the best similarity.
   const double squares = spread + model_spread - 2 * length;
   return {{middle.x, middle.y, std::atan2(across, along)},
           length / model_spread,

@@ -11,31 +11,31 @@ namespace swarmsmith {
 /// bottom right, top right, top left of the upright tag.
 using TagCorners = std::array<ImagePoint, 4>;
 
-/// A tag on a plane, from its four corners there.
+/// The pose of a tag on a plane, from its four corners there.
 struct TagPose {
-  Pose pose;              ///< of the tag's middle; the heading is its x axis, left to right
-  double scale = 1;       ///< its edge as measured over its edge as declared
-  double residual_m = 0;  ///< root mean square of the corners about the rigid fit
+  Pose pose;              ///< of the tag's centre; the heading is its x axis, left to right
+  double scale = 1;       ///< measured edge divided by declared edge
+  double residual_m = 0;  ///< root mean square distance of the corners from the rigid fit
 };
 
-/// Rays through the four corners, cut with the plane of the tag's height, and a rigid fit in that
-/// plane (tracking facts, section 4). No six degrees of freedom: depth and tilt would leak into x
-/// and y.
+/// Intersects the rays through the four corners with the plane at the tag's height, and fits a
+/// rigid square in that plane (tracking facts, section 4). A fit with six degrees of freedom is not
+/// used, because errors of depth and tilt would affect x and y.
 TagPose tag_pose(const View& view, const TagCorners& corners, double edge_m, double height_m);
 
-/// Where a tag sits on its robot: tag = robot + turned by the tag's heading (x, y), and the tag's
-/// heading is the robot's plus `yaw` (tracking facts, section 5).
+/// The pose of a tag on its robot: tag = robot + offset (x, y) rotated by the tag's heading, and
+/// the tag's heading is the robot's heading plus `yaw` (tracking facts, section 5).
 struct TagOffset {
-  double x_m = 0;  ///< from the robot's origin to the tag's middle, in the tag's own axes
+  double x_m = 0;  ///< from the robot's origin to the tag's centre, in the tag's own axes
   double y_m = 0;
   double yaw_rad = 0;
 
   friend bool operator==(const TagOffset&, const TagOffset&) = default;
 };
 
-/// The robot that carries the tag; its heading in (-pi, pi].
+/// The pose of the robot that carries a tag; its heading is in (-pi, pi].
 Pose robot_pose(const Pose& tag, const TagOffset& offset);
-/// The other way round, for renderers and tests.
+/// The inverse of robot_pose, for renderers and tests.
 Pose tag_pose_of_robot(const Pose& robot, const TagOffset& offset);
 
 }  // namespace swarmsmith

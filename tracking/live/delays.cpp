@@ -6,7 +6,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kSteps = 1000;  ///< to e times a delay
+constexpr double kSteps = 1000;  ///< number of steps per factor of e
 constexpr double kLeast_s = 1e-6;
 constexpr std::size_t kLatest = 100;
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kHost = "127.0.0.1";
 constexpr int kQuality = 80;
-/// Each stream keeps a thread; the rest is for pages and states.
+/// Each stream occupies a thread; the other threads are for pages and states.
 constexpr std::size_t kThreads = 8;
 constexpr int kMostStreams = 4;
 constexpr std::chrono::seconds kPatience{2};
@@ -43,7 +43,7 @@ void draw_live(ColorImage& image, const LiveScenery& scenery, const LiveState& s
                      state.issues});
 }
 
-/// A state with the picture that belongs to it.
+/// A state and its picture.
 struct Shown {
   LiveState state;
   ColorImage picture;
@@ -117,8 +117,8 @@ class Pages final : public LivePages {
     std::atomic<int>* watchers_;
   };
 
-  /// Another name that points at this host (DNS rebinding) is not ours, and neither is
-  /// another user of it.
+  /// Refuses requests under another host name that resolves to this host (DNS rebinding), and
+  /// requests from another user of this host.
   httplib::Server::HandlerResponse gate(const httplib::Request& request,
                                         httplib::Response& response) const {
     response.set_header("X-Content-Type-Options", "nosniff");
@@ -144,7 +144,7 @@ class Pages final : public LivePages {
     return httplib::Server::HandlerResponse::Handled;
   }
 
-  /// A picture later than the `after`th, drawn; empty when none came.
+  /// The next picture after number `after`, with the drawing; empty if none arrived in time.
   std::string next_picture(std::int64_t& after) {
     std::shared_ptr<const Shown> shown;
     {
@@ -204,7 +204,7 @@ class Pages final : public LivePages {
         [this, watching, after](std::size_t, httplib::DataSink& sink) {
           const std::string jpeg = next_picture(*after);
           if (is_stopping()) return false;
-          // Nothing came: a browser keeps the last picture, and the stream stays open.
+          // No new picture: the browser keeps the last one, and the stream stays open.
           if (jpeg.empty()) return sink.is_writable();
           const std::string head = fmt::format(
               "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n", jpeg.size());

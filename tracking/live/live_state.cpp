@@ -50,7 +50,7 @@ std::string live_state_json(const LiveState& state) {
       {"robots", robots},
       {"tags", tags},
       {"issues", state.issues}};
-  // A robot's name may be anything; what is not UTF-8 is replaced.
+  // A robot's name may contain any bytes; invalid UTF-8 is replaced.
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -11,39 +11,40 @@
 
 namespace swarmsmith {
 
-/// A robot as a camera sees it now.
+/// A robot as the camera sees it now.
 struct LiveRobot {
   std::string name;
   int tag = 0;
   double height_m = 0;
-  std::optional<Pose> pose;      ///< the latest, of its centre
-  std::optional<double> seen_s;  ///< when that was, on the camera's clock
-  bool is_seen = false;          ///< in this frame
-  std::vector<Point> trail;      ///< of the last seconds, oldest first
+  std::optional<Pose> pose;      ///< latest pose of its centre
+  std::optional<double> seen_s;  ///< time of this pose, on the camera's clock
+  bool is_seen = false;          ///< its tag is in the current frame
+  std::vector<Point> trail;      ///< positions in the last seconds, oldest first
 };
 
-/// What is known of one frame.
+/// The results from one frame.
 struct LiveState {
   std::int64_t frame = 0;
-  double time_s = 0;  ///< of the camera's clock
+  double time_s = 0;  ///< time on the camera's clock
   double frames_per_s = 0;
-  double delay_s = 0;        ///< from having the frame to having the poses
-  double most_delay_s = 0;   ///< of the last hundred frames
-  std::int64_t dropped = 0;  ///< frames that were skipped, since newer ones were there
-  /// How far the floor tags are from where the calibration of the camera's place saw them: the
-  /// median over those seen in the last second.
+  double delay_s = 0;        ///< from the arrival of the frame to its poses
+  double most_delay_s = 0;   ///< largest delay of the last hundred frames
+  std::int64_t dropped = 0;  ///< frames that were skipped because a newer one had arrived
+  /// The distance of the floor tags from their positions in the calibration of the camera's place:
+  /// the median over the tags seen in the last second.
   std::optional<double> camera_shift_px;
-  std::optional<BoardProgress> board;  ///< while a board is shown to the camera
+  std::optional<BoardProgress> board;  ///< if the camera films a calibration board
   int references_seen = 0;
   int references = 0;
   std::vector<LiveRobot> robots;
   std::vector<OverlayTag> tags;
-  std::vector<std::string> issues;  ///< a sentence each
+  std::vector<std::string> issues;  ///< one sentence each
 };
 
-/// As one JSON object; lengths in metres, angles in radians, times in seconds.
+/// The state as a JSON object; lengths in metres, angles in radians, times in seconds.
 std::string live_state_json(const LiveState& state);
-/// "12.4 s, 30.0 frames/s, delay 8 ms (at most 14), robots 3 of 3, dropped 0", and the first issue.
+/// The state as one line, with the first issue: "12.4 s, 30.0 frames/s, delay 8 ms (at most 14),
+/// robots 3 of 3, dropped 0".
 std::string live_state_line(const LiveState& state);
 
 }  // namespace swarmsmith

@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kTrail_s = 5;
 constexpr double kRateOver_s = 2;
-/// A shorter gap is interpolated without a word (tracking facts, section 8).
+/// Shorter gaps are interpolated without an issue (tracking facts, section 8).
 constexpr double kLost_s = 0.5;
 constexpr double kScaleTolerance = 0.05;
-/// As in tracking (TrackLimits::moved_px).
+/// The same limit as in tracking (TrackLimits::moved_px).
 constexpr double kMoved_px = 1;
-/// Floor tags are looked for some times a second only.
+/// Floor tags are searched only a few times per second.
 constexpr double kReferenceSeen_s = 1;
 
 TagSearchOptions options_of(const Rig& rig) {
@@ -68,7 +68,7 @@ void LiveTracker::note_floor_tag(const Detection& seen, double time_s) {
   if (calibrated_.contains(seen.tag)) floor_looks_[seen.tag].emplace_back(time_s, seen.corners);
 }
 
-/// Means over a second, since a single look has the noise of its picture.
+/// Uses means over a second, because a single picture is noisy.
 std::optional<double> LiveTracker::camera_shift(double time_s) {
   std::vector<double> shifts;
   for (auto& [tag, looks] : floor_looks_) {
@@ -97,7 +97,8 @@ LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, doubl
   if (frame_times_.size() > 1)
     state.frames_per_s =
         static_cast<double>(frame_times_.size() - 1) / (time_s - frame_times_.front());
-  // Calibrations hold for one size of image; with another nothing would be where it is shown.
+  // A calibration is valid for one image size; with another size, everything would be drawn at the
+  // wrong place.
   if (view_.has_value() && view_->camera.size != ImageSize{image.width, image.height}) {
     state.issues.push_back(fmt::format(
         "the camera's calibration is for {} x {} pixels, its pictures have {} x {}: "
@@ -126,8 +127,8 @@ void LiveTracker::place(std::size_t robot, const std::vector<Detection>& seen, d
                         LiveState& state) {
   Known& known = known_[robot];
   const std::vector<RobotSetup> tags = each_tag(rig_.robots[robot]);
-  // The surest of two, which come first; an issue says that there are two. Of several tags
-  // of the robot's own, the first that is seen.
+  // If a tag is seen twice, the one with the larger margin comes first and is used; an issue
+  // reports the duplicate. If a robot has several tags, the first one that is seen is used.
   const auto tag_seen = [&](const RobotSetup& tag) {
     return std::ranges::find(seen, tag.tag, &Detection::tag);
   };

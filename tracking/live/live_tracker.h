@@ -13,15 +13,16 @@
 
 namespace swarmsmith {
 
-/// Poses from one camera, frame by frame, by nothing but the frames so far. Nothing is smoothed or
-/// dropped: what counts is what `track score` makes of the whole recording.
+/// Computes poses from one camera frame by frame, using only the frames so far. Poses are not
+/// smoothed, and outliers are not dropped; the results that count come from `track score` on the
+/// complete recording.
 class LiveTracker {
  public:
-  /// BadInput for an unknown tag family. A rig without calibrations shows tags alone. `arena`: to
-  /// tell when a robot is outside of it.
+  /// BadInput for an unknown tag family. Without calibrations, only tags are shown. `arena` is used
+  /// to warn when a robot leaves it.
   static Expected<LiveTracker> of(Rig rig, CameraSetup camera, std::optional<Arena> arena);
 
-  /// Times increase. Delay and dropped frames are for who knows the clock.
+  /// Times must increase. The caller, who has the clock, fills in the delay and the dropped frames.
   LiveState look_at(const GrayImage& image, std::int64_t frame, double time_s);
   const std::optional<View>& view() const { return view_; }
 
@@ -45,9 +46,9 @@ class LiveTracker {
   CameraSetup camera_;
   std::optional<Arena> arena_;
   std::optional<View> view_;
-  std::vector<Known> known_;        ///< a robot
-  std::deque<double> frame_times_;  ///< of the last two seconds
-  /// Looks of the last second of floor tags that the calibration of the place knows.
+  std::vector<Known> known_;        ///< one per robot
+  std::deque<double> frame_times_;  ///< frame times of the last two seconds
+  /// The sightings in the last second of floor tags that are in the calibration of the place.
   std::map<int, std::deque<std::pair<double, TagCorners>>> floor_looks_;
   std::map<int, TagCorners> calibrated_;
   std::map<int, double> references_seen_s_;

@@ -8,7 +8,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The preview shows ten pictures a second.
+/// The preview shows ten pictures per second.
 constexpr std::chrono::milliseconds kColorEvery{95};
 
 }  // namespace
@@ -25,7 +25,7 @@ NewestFrame::~NewestFrame() {
   thread_.join();
 }
 
-/// Whether to go on: a file's frames are held back until their times.
+/// Waits until the time of a file's frame; returns whether to continue.
 bool NewestFrame::wait_for_turn(double time_s) {
   std::unique_lock lock(mutex_);
   if (source_->info().is_live) return !stopping_;
@@ -63,14 +63,14 @@ void NewestFrame::run() {
     const double time_s =
         source_->frame().time_s.value_or(std::chrono::duration<double>(in - *began_).count());
     if (!wait_for_turn(time_s)) break;
-    // A frame of a file was decoded before its turn; a camera would have had it only now.
+    // A file's frame was decoded earlier; a camera would deliver it only now.
     if (!source_->info().is_live) in = Clock::now();
     GrabbedFrame grabbed = grab(time_s, in);
     {
       const std::scoped_lock lock(mutex_);
       if (newest_.has_value()) {
         ++dropped_;
-        // A client waits for the colours, whichever frame has them.
+        // A client still waits for a picture with colours, so the next frame must have them.
         if (!grabbed.color.has_value()) last_color_.reset();
       }
       newest_ = std::move(grabbed);

@@ -9,23 +9,24 @@
 namespace swarmsmith {
 namespace {
 
-/// Motion is looked at that long before a picture, and after it.
+/// Motion is measured over this time before and after a picture.
 constexpr double kAround_s = 0.35;
-/// A tag that goes less from frame to frame may stand: corners are found to some hundredths of a
-/// pixel, in bad films to a tenth.
+/// A tag that moves less between frames may stand still: corners are precise to some hundredths of
+/// a pixel, in bad films to a tenth.
 constexpr double kMoving_px = 0.4;
-/// Of its usual step, that what moves still makes between two copies of a picture, by the codec.
+/// Share of its usual step that a moving tag may still move between two copies of a picture, due to
+/// the codec.
 constexpr double kStandingShare = 0.2;
-/// What a tag's corners may differ by in the copies of a picture, key frames included.
+/// Largest difference of a tag's corners between copies of a picture, including key frames.
 constexpr double kStanding_px = 0.5;
-/// A longer stand needs a proof, since it is a gap if the pictures are repeats.
+/// A longer standstill needs proof, because it becomes a gap if the pictures are repeats.
 constexpr double kLong_s = 0.3;
-/// A robot that sets off makes no larger steps at once than afterwards; one whose picture stood
-/// makes up for it.
+/// A robot that starts to move does not make larger steps at first than later; a robot whose
+/// picture stood still jumps to make up for it.
 constexpr double kMakesUp = 1.3;
 constexpr double kMakesUpMuch = 1.5;
-/// One that stops by itself stops anywhere between two frames: of its usual step the last one is
-/// any share. One whose picture stood made all of it.
+/// A robot that really stops does so anywhere between two frames, so its last step is any share of
+/// its usual step. A robot whose picture stands still made its full last step.
 constexpr double kFullStep = 0.8;
 constexpr double kLargeStep = 0.6;
 constexpr double kDoubtful_s = 1;
@@ -61,17 +62,18 @@ class Search {
     return tag.is_seen(a) && tag.is_seen(b);
   }
 
-  // Pictures that come again for a few frames.
+  // Pictures that repeat for a few frames.
 
-  /// What it should have gone from the frame before; 0 for one that does not move there.
+  /// The distance that a tag should have moved since the previous frame; 0 if it does not move
+  /// there.
   double usual_step(const TagWay& tag, std::size_t frame) const {
     const double after = speed_after(tag, frame) * interval_s(frame);
-    // Of what was before the film nothing is known.
+    // The motion before the film is unknown.
     const double before = frame == 1 ? after : speed_before(tag, frame - 1) * interval_s(frame);
     return std::min(before, after) > kMoving_px ? (before + after) / 2 : 0;
   }
 
-  /// After a stand that ends before `next`.
+  /// Whether a tag that stands still at `frame` jumps to make up for it when it moves again.
   bool makes_up(const TagWay& tag, std::size_t frame) const {
     std::size_t next = frame + 1;
     while (next < frames() && both(tag, next - 1, next) &&
@@ -105,7 +107,7 @@ class Search {
     }
   }
 
-  // Pictures that stand for longer.
+  // Pictures that stand still for longer.
 
   bool stands(std::size_t from, std::size_t frame) const {
     bool any = false;
@@ -118,8 +120,8 @@ class Search {
     return any;
   }
 
-  /// Whether robots that stood from `from` to `last` are elsewhere at once in the next frame, and
-  /// stay there.
+  /// Whether robots that stood still from `from` to `last` are suddenly elsewhere in the next
+  /// frame, and stay there.
   bool makes_up_much(std::size_t from, std::size_t last) const {
     const std::size_t next = last + 1;
     int caught_up = 0;
@@ -136,7 +138,7 @@ class Search {
     return caught_up >= 2;
   }
 
-  /// A tag that was misread is back in the frame after.
+  /// A tag that was misread is back at its place in the following frame.
   bool stays_away(const TagWay& tag, std::size_t last, std::size_t next, double jump) const {
     if (next + 1 >= frames() || !tag.is_seen(next + 1)) return true;
     return corners_moved(tag.seen[last]->corners, tag.seen[next + 1]->corners) > jump / 2;
@@ -144,8 +146,8 @@ class Search {
 
   enum class End { Stopped, Frozen, Doubtful };
 
-  /// Steps of tags that stand, medians: in pictures in which others move, so that they are none
-  /// twice, and after a frame.
+  /// Median steps of tags that stand still: before a frame, in pictures where other tags move (so
+  /// that they are not repeats), and after this frame.
   struct Noise {
     double before_px = 0;
     double after_px = 0;
@@ -171,8 +173,8 @@ class Search {
     return Noise{upper_median(std::move(before)), upper_median(std::move(after))};
   }
 
-  /// What became of robots that stand from a frame to the film's end. A camera's noise moves the
-  /// corners of what stands, if the codec does not hide it; a copy has none.
+  /// Judges robots that stand still from a frame to the film's end. Camera noise moves the corners
+  /// of still tags, unless the codec hides it; a repeated picture has no noise.
   End end_of(std::size_t from) const {
     constexpr double kSeen_px = 0.005;
     const std::optional<Noise> noise = noise_around(from);
@@ -193,7 +195,7 @@ class Search {
     }
     if (moving >= 2 && full == moving) return End::Frozen;
     if (moving > 0) return large > 0 ? End::Doubtful : End::Stopped;
-    // Nothing moved before.
+    // Nothing moved before the standstill.
     const bool is_noisy = std::ranges::any_of(
         tags_, [&](const TagWay& tag) { return tag.way.back() > tag.way[from]; });
     if (times_.back() - times_[from] < kDoubtful_s || is_noisy || noise) return End::Stopped;
@@ -231,8 +233,8 @@ class Search {
     found_.frozen.push_back({times_[from], times_[last]});
   }
 
-  /// The frame after which no corner differs any more, or the stand's first one if there is motion
-  /// right before it.
+  /// The frame after which no corner changes any more; or the first frame of the standstill if
+  /// there is motion right before it.
   std::size_t end_begins(std::size_t from, std::size_t last) const {
     const bool moved = std::ranges::any_of(tags_, [&](const TagWay& tag) {
       return from > 0 && both(tag, from - 1, from) && step(tag, from) > kMoving_px;
@@ -247,9 +249,10 @@ class Search {
     return times_[last] - times_[first] >= kDoubtful_s ? first : from;
   }
 
-  // Some pictures over and over.
+  // Several pictures that repeat in a loop.
 
-  /// Whether all robots are where they were so many frames before, and two were elsewhere between.
+  /// Whether all robots are where they were `back` frames before, and at least two were elsewhere
+  /// meanwhile.
   bool comes_back(std::size_t frame, std::size_t back) const {
     constexpr double kElsewhere_px = 2;
     int away = 0;

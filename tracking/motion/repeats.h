@@ -10,34 +10,35 @@
 
 namespace swarmsmith {
 
-/// From when to when, on a camera's clock.
+/// A period on a camera's clock.
 struct ClockSpan {
   double from_s = 0;
   double to_s = 0;
-  bool is_loop = false;  ///< some pictures over and over, in place of one
+  bool is_loop = false;  ///< several pictures repeat in a loop, instead of one picture
 };
 
-/// Frames of one camera that show the picture before once more, as recorders write them that hang,
-/// or that are asked for more frames than the camera has. They are not samples.
+/// Frames of one camera that repeat the picture before them. Recorders write such frames when they
+/// hang, or when more frames are requested than the camera delivers. They are not samples.
 struct Repeats {
-  std::vector<bool> again;        ///< one a frame
-  std::size_t count = 0;          ///< of them
-  std::vector<ClockSpan> frozen;  ///< longer holds, from the last true picture to the last repeat
-  /// From when on the film stands still to its end, and nothing tells whether robots do, too.
+  std::vector<bool> again;        ///< per frame: it is a repeat
+  std::size_t count = 0;          ///< number of repeats
+  std::vector<ClockSpan> frozen;  ///< long repeats, from the last true picture to the last repeat
+  /// The film stands still from this time to its end, and it is unknown whether the robots do, too.
   std::optional<double> doubtful_from_s;
 };
 
-/// By the corners of robots' tags, since codecs write the same picture with other bits. A picture
-/// is a repeat where robots stand that moved before and move on afterwards, and
-/// - for a few frames: all that move stand, or the only one that moves then makes up for it;
-/// - for longer: they make up for it in one step; or, at the film's end, the camera's noise is gone
-///   that moved the corners of still tags before; or, where that cannot be told, two or more stop
-///   dead in one frame, each after a full step. One robot that does so is doubtful.
-/// Where robots come back, all at once and for three pictures or more, to where they were shortly
-/// before, the recorder repeats a few pictures.
-/// A film in which nothing moves before and after is not a repeat: its robots are where it shows
-/// them, but at its end it is doubtful when no corner differs by a thousandth of a pixel any more,
-/// and nothing tells whether the codec hides noise.
+/// Compares the corners of robots' tags, because codecs write the same picture with different bits.
+/// A picture is a repeat if robots that moved before stand still in it and move on afterwards, and
+/// - for a few frames: two or more robots stand, or a single one that jumps afterwards;
+/// - for longer: they make up for it in one step; or, at the film's end, the camera noise vanishes
+///   that moved the corners of still tags before; or, if this cannot be seen, two or more robots
+///   stop in the same frame, each after a full step. A single robot that stops like this is
+///   doubtful.
+/// If all robots return together to a place where they were shortly before, for three pictures or
+/// more, the recorder repeats several pictures in a loop. A film in which nothing moves before and
+/// after is not a repeat, since its robots really are where it shows them. But its end is doubtful
+/// if no corner changes by a thousandth of a pixel any more, and it is unknown whether the codec
+/// hides noise.
 Repeats repeats_of(const Observations& observations, int camera,
                    std::span<const RobotSetup> robots);
 

@@ -10,10 +10,10 @@
 #include "base/assert.h"
 #include "base/math.h"
 
-// A robot's coordinates move by a velocity that wanders like white noise. The best estimate of them
-// from samples of before and after is a Kalman filter forwards (Kalman 1960) and the smoother of
-// Rauch, Tung and Striebel (1965) backwards, for each coordinate on its own; between two samples it
-// is their bridge.
+// Each coordinate of a robot is the integral of a velocity that is a random walk. Its best estimate
+// from samples before and after is computed separately for each coordinate, with a Kalman filter
+// forwards (Kalman 1960) and the smoother of Rauch, Tung and Striebel (1965) backwards; between two
+// samples, with the bridge between their estimates.
 
 namespace swarmsmith {
 namespace {
@@ -34,28 +34,30 @@ double squared(double value) {
   return value * value;
 }
 
-/// A position and its velocity after a time without noise.
+/// Transition of a position and its velocity over a time, without noise.
 Matrix2d coasting(double time_s) {
   return Matrix2d{{1, time_s}, {0, 1}};
 }
 
-/// What white noise of the velocity, of one unit, adds to the covariance meanwhile.
+/// Covariance that white noise of unit intensity in the velocity adds over a time.
 Matrix2d wandering(double time_s) {
   const double square = squared(time_s);
   return Matrix2d{{square * time_s / 3, square / 2}, {square / 2, time_s}};
 }
 
-/// A sample's variance: none is free of noise, and the recursion divides by it.
+/// A sample's variance, never 0, because the recursion divides by it.
 double variance(double sigma) {
   constexpr double kLeast = 1e-6;
   return squared(std::max(sigma, kLeast));
 }
 
-/// Of a position and its velocity, when the position was seen with this variance. Returns the gain.
+/// Updates the covariance of a position and its velocity after the position was measured with this
+/// variance. Returns the gain.
 Eigen::Vector2d see(Matrix2d& covariance, double variance) {
   SWARMSMITH_ASSERT(covariance(0, 0) >= 0 && variance > 0, "variances are not negative");
   const Eigen::Vector2d gain = covariance.col(0) / (covariance(0, 0) + variance);
-  // The position's part is written as a product, which no rounding makes negative.
+  // The variance of the position is computed as a product, so that rounding cannot make it
+  // negative.
   const double left = variance / (covariance(0, 0) + variance);
   covariance(1, 1) -= gain(1) * covariance(0, 1);
   covariance(0, 0) *= left;
@@ -64,8 +66,8 @@ Eigen::Vector2d see(Matrix2d& covariance, double variance) {
   return gain;
 }
 
-/// One coordinate between two states, at shares of a time that they are apart: how much of each of
-/// the states it is, and what noise of one unit leaves open.
+/// One coordinate at a time between two states: the weights of both states, and the remaining
+/// covariance for noise of unit intensity.
 struct Bridge {
   Matrix2d from;
   Matrix2d to;
@@ -124,7 +126,8 @@ Motion::Motion(std::vector<TimedPose> track, const TrackLimits& limits)
 }
 
 void Motion::measure_diffusion() {
-  // Cameras that take turns, or nearly coincide, tell nothing of velocities.
+  // Samples of cameras that alternate, or that nearly coincide in time, show nothing about
+  // velocities.
   constexpr double kLeastApart_s = 0.015;
   const auto neighbour = [&](std::size_t i, std::ptrdiff_t step) -> std::optional<std::size_t> {
     for (auto k = static_cast<std::ptrdiff_t>(i); k + step >= 0;) {
@@ -150,7 +153,8 @@ void Motion::measure_diffusion() {
     const TimedPose& c = track_[*after];
     const double first_s = b.time_s - a.time_s;
     const double second_s = c.time_s - b.time_s;
-    // The velocities' difference varies by so many units of diffusion, and by the samples' noise.
+    // The variance of the velocities' difference is `units` times the diffusion, plus the samples'
+    // noise.
     const double units = (first_s + second_s) / 3;
     const auto beyond_noise = [&](double change, double of_a, double of_b, double of_c) {
       const double noise = squared(of_a / first_s) + squared(of_b / first_s + of_b / second_s) +
@@ -172,13 +176,14 @@ void Motion::measure_diffusion() {
     ++count;
   }
   if (count == 0) {
-    // Nothing is known of the velocities but their limits: they may be others a second later.
+    // Only the limits of the velocities are known: the velocities may change completely within a
+    // second.
     for (Knot& knot : knots_)
       knot.diffusion = {squared(limits_.top_speed_m_s), squared(limits_.top_turn_rad_s)};
     return;
   }
-  // Changes within the noise cannot be told from none. Noise is never averaged over more than the
-  // next few samples, so that the robot's own curves are not rounded.
+  // Changes smaller than the noise cannot be detected. Noise is never averaged over more than the
+  // next few samples, so that the robot's own curves are not smoothed.
   const double units = count * std::pow(interval_s / count, 3);
   const Diffusion always{mean.place / count + noise_squares.place / units,
                          mean.heading / count + noise_squares.heading / units};
@@ -196,13 +201,14 @@ void Motion::smooth(std::size_t first, std::size_t last) {
     Covariance covariance;
   };
   SWARMSMITH_ASSERT(first <= last && last < track_.size(), "a stretch has a sample");
-  // Forwards: what is known before each sample, then with it.
+  // Forwards: the prediction before each sample, then the estimate with it.
   std::vector<Prediction> predicted(last - first + 1);
   for (std::size_t i = first; i <= last; ++i) {
     Prediction& now = predicted[i - first];
     if (i == first) {
       now.state << track_[i].pose.x, track_[i].pose.y, track_[i].pose.theta, 0, 0, 0;
-      // How fast it goes is open, so that the first gap is bridged by a line and not by a brake.
+      // The initial velocity is unknown, so that the first gap is bridged by a straight line and
+      // not with a robot that starts from rest.
       constexpr double kOpen = 100;
       now.covariance = {Eigen::Vector2d(1, squared(kOpen * limits_.top_speed_m_s)).asDiagonal(),
                         Eigen::Vector2d(1, squared(kOpen * limits_.top_turn_rad_s)).asDiagonal()};
@@ -225,10 +231,11 @@ void Motion::smooth(std::size_t first, std::size_t last) {
     const Eigen::Vector2d turn_gain = see(knot.covariance.heading, variance(seen.sigma.sigma_rad));
     knot.state.col(0) += place_gain * (seen.pose.x - now.state(0, 0));
     knot.state.col(1) += place_gain * (seen.pose.y - now.state(0, 1));
-    // Turns go on as they went: so headings are unwrapped.
+    // Headings are unwrapped, so that turns are continuous.
     knot.state.col(2) += turn_gain * wrap_angle(seen.pose.theta - now.state(0, 2));
   }
-  // Backwards: what the later samples tell about each one, by as much as the forecast missed them.
+  // Backwards: corrects each estimate with the later samples, by their differences from the
+  // prediction.
   for (std::size_t i = last; i-- > first;) {
     Knot& knot = knots_[i];
     const Knot& next = knots_[i + 1];

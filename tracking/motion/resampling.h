@@ -7,72 +7,73 @@
 
 namespace swarmsmith {
 
-/// From samples at the instants of frames to poses at the instants of the simulator.
+/// Converts samples at the times of frames to poses at the instants of the simulator.
 
-/// The global instant that ends a control cycle; cycle 0 is the start. The simulator's own instants
-/// (tracking facts, section 7).
+/// The instant at the end of a control cycle, in seconds; cycle 0 is the start. The simulator has
+/// the same instants (tracking facts, section 7).
 inline double instant_s(int cycle) {
   return cycle * kControlPeriod_s;
 }
 
-/// Times nearer than this are one: the rounding of a clock's offset when it is subtracted.
+/// Times that differ by less count as equal; subtracting a clock's offset causes rounding errors.
 inline constexpr double kSameInstant_s = 1e-6;
 
 /// A robot's centre at a time of the run.
 struct TimedPose {
   double time_s = 0;
   Pose pose;
-  Scatter sigma{};  ///< of the pose
+  Scatter sigma{};  ///< standard deviation of the pose
 };
 
-/// Whether a robot can have come from the one to the other, `from` first, at the limits' speed and
-/// turn. A few millimetres and a degree are allowed for noise between frames that follow closely.
+/// Whether a robot can get from `from` to `to` within the limits of speed and turn. A few
+/// millimetres and a degree are added for the noise between frames in quick succession.
 bool is_reachable(const TimedPose& from, const TimedPose& to, const TrackLimits& limits);
 
-/// A pose at an instant and what it was made of.
+/// A pose at an instant, and how it was obtained.
 struct PoseAt {
   Pose pose;
-  Scatter sigma;  ///< where Missing, as far as the limits let the robot go
+  Scatter sigma;  ///< if Missing, the distance that the robot may have gone within the limits
   CycleKind kind = CycleKind::Missing;
-  double gap_s = 0;  ///< between the neighbours; 0 on a sample, and with one neighbour only
+  double gap_s = 0;  ///< between its neighbours; 0 at a sample, or with only one neighbour
 };
 
-/// A robot's motion as its samples tell it. Its velocities, along x, along y and turning, are taken
-/// for random walks that change by white noise: then the mean of the motion, given all samples, is
-/// a cubic smoothing spline, and its standard deviation is known at each time (Wahba 1978; the
-/// recursion is that of Rauch, Tung and Striebel 1965). How much velocities change is measured: the
-/// mean over the run, and what they change by around the gap itself, since robots go straight for
-/// seconds and turn at once.
+/// A robot's motion, estimated from its samples. Its velocities (along x, along y and turning) are
+/// modelled as random walks driven by white noise. Then the mean of the motion, given all samples,
+/// is a cubic smoothing spline, and its standard deviation is known at each time (Wahba 1978; the
+/// recursion is from Rauch, Tung and Striebel 1965). The intensity of the noise is measured as the
+/// mean over the run together with the changes of velocity around each gap, because robots go
+/// straight for seconds and then turn suddenly.
 class Motion {
  public:
   /// `track` is sorted by time and not empty.
   Motion(std::vector<TimedPose> track, const TrackLimits& limits);
 
-  /// A sample at the instant itself gives its own bits. Missing, and the last known pose (before
-  /// the first sample that one), where there is nothing to interpolate between: one neighbour only,
-  /// more than `degraded_gap_s`, or ends that the robot cannot have reached. Never extrapolates.
+  /// At the time of a sample, returns its pose unchanged. If interpolation is impossible, returns
+  /// Missing with the last known pose (before the first sample, the pose of that sample). This is
+  /// the case if there is only one neighbour, if the gap is longer than `degraded_gap_s`, or if the
+  /// robot cannot get from one end of the gap to the other. Never extrapolates.
   PoseAt at(double time_s) const;
 
  private:
-  /// x, y and heading, with their velocities below them.
+  /// First row: x, y and heading; second row: their velocities.
   using State = Eigen::Matrix<double, 2, 3>;
-  /// Of a position and its velocity: x and y have one, the heading another.
+  /// Covariances of a coordinate and its velocity: one for both x and y, another for the heading.
   struct Covariance {
     Eigen::Matrix2d place;
     Eigen::Matrix2d heading;
   };
-  /// White noise of the velocities: m^2/s^3 and rad^2/s^3.
+  /// Intensity of the white noise of the velocities: m^2/s^3 and rad^2/s^3.
   struct Diffusion {
     double place = 0;
     double heading = 0;
   };
-  /// What is known at a sample, from all samples.
+  /// The estimate at a sample, given all samples.
   struct Knot {
     State state;
     Covariance covariance;
-    Covariance with_next;    ///< of this one and the next
-    bool is_joined = false;  ///< with the next one
-    Diffusion diffusion;     ///< until the next one
+    Covariance with_next;    ///< between this knot and the next one
+    bool is_joined = false;  ///< connected to the next knot
+    Diffusion diffusion;     ///< until the next knot
   };
 
   void measure_diffusion();
@@ -82,7 +83,7 @@ class Motion {
 
   std::vector<TimedPose> track_;
   TrackLimits limits_;
-  std::vector<Knot> knots_;  ///< one a sample
+  std::vector<Knot> knots_;  ///< one per sample
 };
 
 }  // namespace swarmsmith

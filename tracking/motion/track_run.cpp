@@ -22,15 +22,15 @@
 namespace swarmsmith {
 namespace {
 
-/// A robot must have been seen by then (tracking facts, section 8).
+/// A robot must have been seen by this time (tracking facts, section 8).
 constexpr double kFirstLook_s = 2;
 
 constexpr Question kOffset{"fit of the tag's offset", "mm",
                            "a tag beside its robot's centre: scores look better than they are"};
 constexpr Question kUnknown{"undeclared tags", "", "a robot with another number"};
 
-/// One sigma on the floor from the calibration: half of what the worst tag is off by when it is
-/// left out, which is about the two sigma bound of a point between the tags.
+/// One sigma on the floor from the calibration: half of the worst tag's leave-one-out error, which
+/// is about the two-sigma bound of a point between the tags.
 double place_error(const Rig& rig, const CameraSetup& setup) {
   const auto place = rig.places.find(setup.place_file);
   return place == rig.places.end() ? 0 : 0.5 * place->second.worst_left_out_m;
@@ -105,7 +105,8 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, bool is_another, con
   return TaggedRobot{setup, {}};
 }
 
-/// The robot once for each of its tags. Those of several must say where it is and where it heads.
+/// A copy of the robot for each of its tags. A robot with several tags needs an offset and a
+/// heading for each.
 Expected<std::vector<TaggedRobot>> tagged_robots(const RobotSetup& setup, const Rig& rig,
                                                  const TrackOptions& options, TrackedRun& run) {
   TrackOptions asked = options;
@@ -127,7 +128,7 @@ Expected<std::vector<TaggedRobot>> tagged_robots(const RobotSetup& setup, const 
   return tags;
 }
 
-/// Numbers of the run's sightings by their tag.
+/// Indices of the run's sightings, by their tag.
 using SightingsByTag = std::map<int, std::vector<std::size_t>>;
 
 SightingsByTag sightings_of(const Observations& observations,
@@ -138,7 +139,7 @@ SightingsByTag sightings_of(const Observations& observations,
   SightingsByTag found;
   for (std::size_t i = 0; i < observations.sightings.size(); ++i) {
     const Sighting& seen = observations.sightings[i];
-    // A damaged store may name a camera that is lost.
+    // A damaged store may name a camera that does not exist.
     if (seen.camera < 0 || seen.camera >= static_cast<int>(cameras.size())) continue;
     const auto camera = static_cast<std::size_t>(seen.camera);
     const std::vector<bool>& again = repeats[camera].again;
@@ -170,7 +171,7 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
   run.issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list});
 }
 
-/// What was noticed that may be the cause: of the film, and tags that are there twice.
+/// Observations that may be the cause: notes about the film, and tags that appear twice.
 std::string causes(const Observations& observations, const Rig& rig) {
   std::string text;
   for (const Issue& issue : observations.issues) {
@@ -192,7 +193,7 @@ std::string causes(const Observations& observations, const Rig& rig) {
   return text;
 }
 
-/// Why a robot has no sample within the first seconds.
+/// The reason why a robot has no sample in the first seconds.
 Error missing(const TaggedRobot& robot, const RobotSamples& samples, const FrameReport& frames,
               const std::string& spans, const std::string& causes) {
   const auto of = [&](Sample::Use use) {
@@ -234,7 +235,7 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
       robot.setup.name);
 }
 
-/// Where the run begins on each camera's clock, and from when to when its video goes there.
+/// The start of the run on each camera's clock, and the period of its video on the same clock.
 std::string spans_text(const Observations& observations, std::span<const TrackedCamera> cameras) {
   std::string text;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -254,7 +255,7 @@ bool is_seen_early(const RobotSamples& samples) {
   });
 }
 
-/// All tags of all robots that were seen, with their own samples.
+/// All tags that were seen, of all robots, each with its own samples.
 std::vector<TrackedTag> seen_tags(const std::vector<TaggedRobot>& robots,
                                   const std::vector<std::vector<OneOfTags>>& several,
                                   const TrackedRun& run) {
@@ -270,7 +271,7 @@ std::vector<TrackedTag> seen_tags(const std::vector<TaggedRobot>& robots,
   return tags;
 }
 
-/// The robots' poses, instant by instant.
+/// Collects the robots' poses, instant by instant.
 void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
   SWARMSMITH_ASSERT(tracks.size() == run.robots.size(), "each robot of the run has a track");
   run.trajectory.robots = static_cast<int>(tracks.size());
@@ -282,7 +283,7 @@ void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
   }
 }
 
-/// A frame that was dropped is not a gap at 12 frames a second, and five of them are at 30.
+/// One dropped frame is not a gap at 12 frames/s, but five dropped frames are a gap at 30 frames/s.
 TrackOptions for_rate(TrackOptions options, double frame_rate) {
   constexpr double kLeast_s = 0.15;
   constexpr double kJitter = 1.1;
@@ -293,7 +294,7 @@ TrackOptions for_rate(TrackOptions options, double frame_rate) {
   return options;
 }
 
-/// Whether each lens was calibrated where the arena is in its picture.
+/// Checks whether each lens was calibrated in the part of its picture that shows the arena.
 void judge_lenses(const Rig& rig, const Arena& arena, TrackedRun& run) {
   for (const CameraSetup& camera : rig.cameras) {
     const std::optional<View> view = rig.view_of(camera);
@@ -362,7 +363,7 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
   list_unknown(sightings, rig, options, run);
   std::vector<TaggedRobot> robots;
   std::vector<RobotTrack> tracks;
-  std::vector<std::vector<OneOfTags>> several;  ///< of each robot; none where it has one tag
+  std::vector<std::vector<OneOfTags>> several;  ///< tags of robots with more than one
   for (const RobotSetup& setup : rig.robots) {
     const auto tags = tagged_robots(setup, rig, options, run);
     if (!tags) return Unexpected(tags.error());

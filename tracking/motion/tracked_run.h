@@ -12,26 +12,26 @@
 
 namespace swarmsmith {
 
-/// A robot's centre at one instant, from one sighting, or from those of several tags of its in one
-/// picture.
+/// A robot's centre at one instant, from one sighting, or from the sightings of several of its tags
+/// in one picture.
 struct Sample {
-  double time_s = 0;  ///< of the run: 0 is its start
+  double time_s = 0;  ///< time of the run: 0 is its start
   int camera = 0;
   std::int64_t frame = 0;
   Pose pose;
-  double scale = 1;       ///< of the tag, TagPose
-  double residual_m = 0;  ///< of the tag, TagPose
+  double scale = 1;       ///< scale of the tag (TagPose)
+  double residual_m = 0;  ///< residual of the tag (TagPose)
   enum class Use { Used, Outlier, Duplicate, BadFit, Outside } use = Use::Used;
-  std::size_t sighting = 0;  ///< that it was made of, by its number in the observations
-  std::vector<std::size_t> more_sightings = {};  ///< of the robot's other tags
+  std::size_t sighting = 0;                      ///< index of its sighting in the observations
+  std::vector<std::size_t> more_sightings = {};  ///< sightings of the robot's other tags
 };
 
 /// How a robot's pose at a control cycle was obtained.
 enum class CycleKind : std::int8_t {
-  Measured = 0,      ///< between neighbours at most two frames apart, and 0.2 s
+  Measured = 0,      ///< between samples at most two frames and at most 0.2 s apart
   Interpolated = 1,  ///< across a gap of at most 0.5 s
   Degraded = 2,      ///< across a gap of at most 1 s
-  Missing = 3        ///< nothing to interpolate between: the pose is the last known one
+  Missing = 3        ///< no interpolation possible: the last known pose
 };
 
 std::string_view name_of(CycleKind kind);
@@ -46,32 +46,32 @@ struct Scatter {
 struct TrackedRobot {
   std::string name;
   int tag = 0;
-  bool has_heading = false;       ///< a straight run told how its tag is turned on it
-  std::vector<Sample> samples;    ///< by time
-  std::vector<CycleKind> cycles;  ///< one a control cycle, from 0.1 s on
-  std::vector<Scatter> sigmas;    ///< of each cycle's pose: the wider the gap, the larger
+  bool has_heading = false;       ///< a straight run showed the direction of its tag
+  std::vector<Sample> samples;    ///< sorted by time
+  std::vector<CycleKind> cycles;  ///< one per control cycle, from 0.1 s on
+  std::vector<Scatter> sigmas;    ///< of each cycle's pose; larger in wider gaps
   double longest_gap_s = 0;
   double longest_gap_from_s = 0;
   int outliers = 0;
   double mean_scale = 1;
   double mean_residual_m = 0;
-  Scatter sigma;  ///< of one camera's sample, estimated
+  Scatter sigma;  ///< estimate for one camera's sample
 };
 
 /// A run as the simulator would have recorded it, and how it was obtained.
 struct TrackedRun {
   std::vector<Pose> starts;  ///< at 0 s
-  Trajectory trajectory;     ///< at 0.1 s, 0.2 s, ...: the instants that scores see
+  Trajectory trajectory;     ///< at 0.1 s, 0.2 s, ...: the instants at which scores are computed
   std::vector<TrackedRobot> robots;
-  double covered_s = 0;  ///< of the run by the videos
+  double covered_s = 0;  ///< time of the run that the videos cover
   double frame_rate_least = 0;
   double frame_rate_median = 0;
   double frame_rate_most = 0;
   std::int64_t frames = 0;
   std::int64_t frames_dropped = 0;
-  std::int64_t frames_twice = 0;  ///< the same picture again
+  std::int64_t frames_twice = 0;  ///< frames that repeat the picture before them
   std::vector<Issue> issues;
-  std::vector<Check> checks;  ///< all that were asked, and those that could not be
+  std::vector<Check> checks;  ///< all checks, including those that could not be done
 };
 
 }  // namespace swarmsmith

@@ -5,13 +5,13 @@
 
 namespace swarmsmith {
 
-/// How often a robot knew of its neighbours, by its own log beside what the camera saw.
+/// How often a robot detected its neighbours, from its own log and the camera's observations.
 struct NeighboursSeen {
-  std::int64_t there = 0;     ///< chances: a neighbour well within range, in one control cycle
-  std::int64_t seen = 0;      ///< of those
+  std::int64_t there = 0;     ///< cycles with a neighbour well within range, summed over neighbours
+  std::int64_t seen = 0;      ///< in how many of these the robot detected it
   std::int64_t phantoms = 0;  ///< neighbours in the log with no robot at that place
   double error = 0;           ///< one standard error of seen / there
-  std::string reason;         ///< why it cannot be told; then all else is 0
+  std::string reason;         ///< why there is no result; then all numbers are 0
 
   bool is_told() const { return reason.empty(); }
   double miss_rate() const {

@@ -15,14 +15,14 @@
 namespace swarmsmith {
 namespace {
 
-/// Containers' counts of frames may be a little off without anything being lost.
+/// A container's count of frames may be slightly wrong although no frame was lost.
 constexpr double kCountsMayDiffer = 0.01;
 
-/// Keeps the picture before, to see when it comes again: what a camera's program writes in place of
-/// a frame that it lost.
+/// Keeps the previous picture to detect repeats, which camera programs write instead of lost
+/// frames.
 class LastPicture {
  public:
-  /// Whether the picture is the last one, bit for bit; it is the last one from now on.
+  /// Whether the picture is equal to the last one, bit for bit; stores it as the last one.
   bool is_repeated_by(const GrayImage& image) {
     width_ = image.width;
     height_ = image.height;
@@ -48,7 +48,7 @@ class LastPicture {
   int height_ = 0;
 };
 
-/// Sightings and medians of one camera, as frames come.
+/// Collects sightings and medians of one camera, frame by frame.
 class Recorder {
  public:
   Recorder(const CameraSetup& camera, const ObserveOptions& options, int rows)
@@ -89,7 +89,7 @@ Issue truncated(const std::string& name, const std::string& what) {
   return {IssueCode::VideoTruncated, name + ": " + what, {}, std::nullopt, std::nullopt};
 }
 
-/// What the end of a video says of it: an issue, or an error when it was not a video at all.
+/// Evaluates how a video ended: adds an issue, or returns an error if it was not a video at all.
 Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& broken,
                         CameraObservations& seen) {
   const SourceInfo& info = video.source.info();
@@ -151,12 +151,12 @@ std::optional<std::string> other_family(const std::string& own, const GrayImage&
 
 namespace {
 
-/// Frames in which the first tag is looked for in other ways, when there was none yet.
+/// While no tag has been found, other explanations are tried in these frames.
 bool is_to_doubt(std::int64_t frame) {
   return frame == 0 || frame == 20 || frame == 200 || frame == 1000;
 }
 
-/// Why no tag was found so far.
+/// Finds the reason why no tag was found so far.
 Expected<void> doubt(const ObserveOptions& options, TagDetector& detector, const GrayImage& image,
                      const std::string& name) {
   if (is_mirrored(detector, image))
@@ -166,7 +166,7 @@ Expected<void> doubt(const ObserveOptions& options, TagDetector& detector, const
   return {};
 }
 
-/// What is odd about the film, and about tags that were never seen, by its last picture.
+/// Adds notes about the film, and about tags that were never seen, using its last picture.
 void note_oddities(const SourceInfo& info, const ObserveOptions& options, const std::set<int>& ever,
                    TagDetector& detector, const GrayImage& image, std::vector<Issue>& issues) {
   const auto add = [&](const std::string& text) {
@@ -207,7 +207,7 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
   search_options.expected.insert(options.references.begin(), options.references.end());
   search_options.still.insert(options.references.begin(), options.references.end());
   TagSearch search(std::move(*detector), search_options);
-  // For a look at pictures without a tag; the other one is busy with what it follows.
+  // A separate detector for pictures without a tag, so that `search` is not disturbed.
   auto second = TagDetector::of_family(options.family);
   if (!second.has_value()) return Unexpected(second.error());
 

@@ -13,7 +13,7 @@
 
 namespace swarmsmith {
 
-/// A video to look at, opened.
+/// A video that was opened for observing.
 struct ObservedVideo {
   CameraSetup camera;
   FrameSource& source;
@@ -24,23 +24,24 @@ struct ObservedVideo {
 struct ObserveOptions {
   std::string family = "tag36h11";
   TagSearchOptions search;
-  std::set<int> references;     ///< floor tags, kept as medians and not as sightings; lie still
-  double reference_span_s = 1;  ///< that a median is taken over
+  std::set<int> references;     ///< floor tags; kept as medians and not as sightings
+  double reference_span_s = 1;  ///< length of the spans for these medians
 };
 
-/// Is called after each frame: how many are done, of how many (0: not known), and what was seen.
+/// Called after each frame with the number of frames done, the total number (0: unknown), and the
+/// tags seen.
 using OnFrame =
     std::function<void(std::int64_t done, std::int64_t of, const std::vector<Detection>& seen)>;
 
-/// When a camera saw a row of a frame: the middle of its exposure. A stamp speaks of the first row;
-/// `v` / `rows` of the readout later is the one at `v` (tracking facts, section 4).
+/// The time at which a camera saw a row of a frame: the middle of the row's exposure. A time stamp
+/// belongs to the first row; the row at `v` is read out later by the share `v` / `rows` of the
+/// readout time (tracking facts, section 4).
 double exposed_at(const CameraSetup& camera, double stamp_s, double v, int rows);
 
-/// What one camera saw from the first frame to the last, with its sightings in order. Fails when
-/// the video cannot be read at all, is mirrored, or its times cannot be trusted; a video that
-/// breaks off is a record with E_VIDEO_TRUNCATED. Frames that were dropped are found by their
-/// times, not here. A picture that is bit for bit that of the frame before has that frame's corners
-/// again.
+/// Observes a video from the first frame to the last; sightings are in order. Fails if the video
+/// cannot be read at all, is mirrored, or has unreliable times; a video that ends early gives a
+/// record with E_VIDEO_TRUNCATED. Dropped frames are not detected here, but later from their times.
+/// A picture that is bit for bit equal to the previous one gets the corners of the previous one.
 Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& options,
                                      const OnFrame& on_frame = {});
 

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Tags of other families than this one in a picture, a sentence.
+/// A sentence about tags in a picture that belong to other families than `own`, if there are any.
 std::optional<std::string> other_family(const std::string& own, const GrayImage& image);
 
 }  // namespace swarmsmith

@@ -9,15 +9,15 @@
 
 namespace swarmsmith {
 
-/// Gathers where floor tags are seen into medians over spans of some seconds, so that a camera that
-/// is pushed shows, and read noise does not.
+/// Collects the corners of floor tags into medians over spans of some seconds, so that a pushed
+/// camera is visible and noise is not.
 class ReferenceMedians {
  public:
   explicit ReferenceMedians(double span_s) : span_s_(span_s) {}
 
-  /// Times increase.
+  /// Times must increase.
   void add(double time_s, int tag, const TagCorners& corners);
-  /// By time, then tag; nothing is left after it.
+  /// Returns the looks by time, then tag, and clears them.
   std::vector<ReferenceLook> take();
 
  private:
@@ -27,7 +27,7 @@ class ReferenceMedians {
   std::optional<double> first_s_;
   double last_s_ = 0;
   std::int64_t span_ = 0;
-  std::map<int, std::vector<TagCorners>> seen_;  ///< in the present span, by tag
+  std::map<int, std::vector<TagCorners>> seen_;  ///< in the current span, by tag
   std::vector<ReferenceLook> looks_;
 };
 

@@ -7,7 +7,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Whether the tag is in each of the camera's frames.
+/// For each frame of the camera, whether the tag is in it.
 std::vector<bool> presence_of(int tag, const Observations& observations, int camera) {
   std::vector<bool> present(
       observations.cameras[static_cast<std::size_t>(camera)].frame_times.size());
@@ -18,8 +18,8 @@ std::vector<bool> presence_of(int tag, const Observations& observations, int cam
   return present;
 }
 
-/// First frames of the stretches of at least kSyncFrames that are `wanted`, each after such a
-/// stretch that is not; shorter ones belong to what was before them.
+/// The first frames of the periods of at least kSyncFrames in which the presence is `wanted`, each
+/// after such a period in which it is not. Shorter periods belong to the period before them.
 std::vector<std::size_t> changes_to(bool wanted, const std::vector<bool>& present) {
   std::vector<std::size_t> changes;
   std::optional<bool> state;

@@ -6,14 +6,14 @@
 
 namespace swarmsmith {
 
-/// Frames that a tag must be gone, or there, before it counts as hidden, or shown; fewer are a
-/// flicker of the detector.
+/// Number of consecutive frames a tag must be missing (or visible) before it counts as hidden (or
+/// shown); shorter changes are flicker of the detector.
 inline constexpr std::size_t kSyncFrames = 3;
 
-/// When the tag of a sync event was hidden, or shown, on the clock of camera `camera` of the
-/// observations: between the last frame before and the first frame after, at the middle, so that it
-/// is half a frame off at most. E_CONFIG when it never was, and when it was more than once, with
-/// the times: then `start` must say it.
+/// The time when the tag of a sync event was hidden (or shown), on the clock of camera `camera` of
+/// the observations. It is half way between the last frame before the change and the first frame
+/// after it, so the error is at most half a frame. E_CONFIG if this never happened, or more than
+/// once (with the times); then `start` must give the time.
 Expected<double> sync_instant(const Observations& observations, int camera, const RunStart& start);
 
 }  // namespace swarmsmith

@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-// Okabe and Ito's colours, which people with any colour vision tell apart.
+// The colours of Okabe and Ito, which people can distinguish with any colour vision.
 constexpr std::array<Rgb, 6> kRobotColors = {
     {{230, 159, 0}, {86, 180, 233}, {240, 228, 66}, {204, 121, 167}, {0, 158, 115}, {213, 94, 0}}};
 constexpr Rgb kWhite{255, 255, 255};
@@ -21,9 +21,9 @@ constexpr Rgb kGrey{200, 200, 200};
 constexpr Rgb kWarning{255, 190, 90};
 constexpr Rgb kTile{86, 180, 233};
 constexpr double kTileShare = 0.55;
-/// A tile fades to a third in so long.
+/// Time in which a tile fades to a third.
 constexpr double kTileFades_s = 15;
-/// In smaller tiles there is no room for their ages.
+/// Smaller tiles have no room for their ages.
 constexpr double kLeastTileWithAge_px = 55;
 constexpr std::size_t kMostWarnings = 4;
 
@@ -87,7 +87,8 @@ cv::Point2d seen_at(const View& view, const Point3& world) {
   return {at.u, at.v};
 }
 
-/// That of the patch, but for dark ones, whose line would be lost on them.
+/// The colour of a patch's line: the patch's colour, but white for dark patches, on which their own
+/// colour would be invisible.
 Rgb line_color_of(const Patch& patch) {
   const bool is_dark = std::max({patch.color.r, patch.color.g, patch.color.b}) < 100;
   return is_dark || std::holds_alternative<FloorImage>(patch.shape) ? kWhite : patch.color;
@@ -108,7 +109,7 @@ void draw_tiles(Brush& brush, const View& view, const Coverage& rule,
     shares.push_back(kTileShare * std::exp(-ages_s[i] / kTileFades_s));
   }
   brush.fill(shapes, kTile, shares);
-  // Tiles without a visit yet are all of one age; they stay without it.
+  // Tiles without a visit all have the largest age, which is not written on them.
   const double oldest_s = *std::max_element(ages_s.begin(), ages_s.end());
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].size() < 4) continue;
@@ -123,7 +124,7 @@ void draw_tiles(Brush& brush, const View& view, const Coverage& rule,
   }
 }
 
-/// What words come above a moment of a run.
+/// The lines of text for a moment of a run.
 std::vector<std::string> lines_of(const Mission& mission, const OverlayMoment& moment) {
   const double duration_s = mission.cycles * kControlPeriod_s;
   std::string time;
@@ -173,7 +174,7 @@ void draw_robots(ColorImage& image, const View& view, const Outline& body,
     const std::vector<cv::Point2d> shape = Brush::seen(view, around, true);
     if (robot.kind == CycleKind::Measured) brush.fill({shape}, color, std::array{0.35});
     brush.line(shape, color, robot.kind == CycleKind::Measured ? 2 : 1, true);
-    // Ahead is where the line leaves the body.
+    // This line leaves the body at its front.
     brush.line({seen_at(view, on_robot(robot, {0, 0})),
                 seen_at(view, on_robot(robot, {1.3 * reach_m, 0}))},
                color, 3, false);
@@ -203,7 +204,7 @@ void draw_tags(ColorImage& image, const std::vector<OverlayTag>& tags) {
       if (corner.v > lowest.y) lowest = corners.back();
     }
     brush.line(corners, color, 1.5, true);
-    // The upright tag's lower edge, so that a tag that is read turned is seen.
+    // Marks the lower edge of the upright tag, so that a wrong rotation is visible.
     brush.line({corners[0], corners[1]}, color, 4, false);
     brush.label({lowest.x, lowest.y + 28 * brush.scale()},
                 fmt::format("{}{}", each.tag, each.kind == OverlayTag::Kind::Unknown ? "?" : ""),

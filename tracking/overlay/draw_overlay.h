@@ -17,15 +17,16 @@ struct OverlayTag {
   enum class Kind { Robot, Reference, Unknown } kind = Kind::Robot;
 };
 
-/// Words in the upper left corner of the picture, a line each, and warnings in the lower left one.
+/// Lines of text in the upper left corner of the picture, and warnings in the lower left corner.
 struct OverlayWords {
   std::vector<std::string> lines;
   std::vector<std::string> warnings;
 };
 
-/// Draws walls, patches and tiles as the camera sees them on the floor, lens and all; robots at the
-/// height of their tags, with a cross where their centre is on the floor, which is what scores see;
-/// trails on the floor; tags where they were found. A robot between measurements is hollow.
+/// Draw walls, patches and tiles on the floor as the camera sees them, including the distortion of
+/// the lens; robots at the height of their tags, with a cross at their centre on the floor, which
+/// is the position used by scores; trails on the floor; tags where they were found. A robot whose
+/// pose was not measured at this time is drawn hollow.
 void draw_floor(ColorImage& image, const View& view, const Mission& mission,
                 const std::vector<double>& tile_ages_s);
 void draw_robots(ColorImage& image, const View& view, const Outline& body,
@@ -33,7 +34,7 @@ void draw_robots(ColorImage& image, const View& view, const Outline& body,
 void draw_tags(ColorImage& image, const std::vector<OverlayTag>& tags);
 void draw_words(ColorImage& image, const OverlayWords& words);
 
-/// All of it.
+/// Draws all of these.
 void draw_overlay(ColorImage& image, const View& view, const Mission& mission,
                   const OverlayMoment& moment, const std::vector<OverlayTag>& tags);
 

@@ -11,10 +11,10 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kTrail_s = 5;
-/// Issues of one instant are shown for so long.
+/// Time for which an issue of a single instant is shown.
 constexpr double kIssueShown_s = 1;
 
-/// As CoverageScorer counts them.
+/// The tile on which a robot is, as in CoverageScorer.
 std::optional<std::size_t> tile_of(const Coverage& rule, const Pose& robot) {
   const double tiles = rule.tiles;
   const double column = robot.x * tiles / rule.side_m + 0.5 * tiles;
@@ -79,7 +79,7 @@ OverlayMoment OverlayRun::at(double time_s) const {
                               (issue.robot.empty() ? "" : issue.robot + ": ") + issue.text);
   if (time_s < 0 || cycles_ == 0) return moment;
   const double place = std::min(time_s / kControlPeriod_s, static_cast<double>(cycles_));
-  // A frame at an instant shows that instant, however the clock's offset was rounded.
+  // A frame at an instant shows this instant, however the clock's offset was rounded.
   const auto done = static_cast<int>(std::floor(place + 1e-6));
   const auto before = static_cast<std::size_t>(done);
   const auto after = static_cast<std::size_t>(std::min(done + 1, cycles_));
@@ -101,7 +101,7 @@ OverlayMoment OverlayRun::at(double time_s) const {
   if (done > 0) moment.score = scores_[before - 1];
   for (const std::vector<int>& visits : visits_) {
     const auto next = std::upper_bound(visits.begin(), visits.end(), done);
-    // At the first instant all tiles are of age 0, visited or not.
+    // At the first instant all tiles have age 0, visited or not.
     const int last = next == visits.begin() ? std::min(1, done) : *std::prev(next);
     moment.tile_ages_s.push_back((done - last) * kControlPeriod_s);
   }

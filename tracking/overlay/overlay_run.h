@@ -13,30 +13,29 @@ namespace swarmsmith {
 /// A robot at one time of a run.
 struct OverlayRobot {
   std::string name;
-  Pose pose;            ///< of its centre
-  double height_m = 0;  ///< of its tag
+  Pose pose;            ///< pose of its centre
+  double height_m = 0;  ///< height of its tag
   CycleKind kind = CycleKind::Measured;
-  std::vector<Point> trail;  ///< of its centre, oldest first, up to now
+  std::vector<Point> trail;  ///< positions of its centre until now, oldest first
 };
 
-/// What there is to be seen at one time of a run.
+/// Everything that an overlay shows at one time of a run.
 struct OverlayMoment {
-  double time_s = 0;  ///< of the run; negative before it
+  double time_s = 0;  ///< time of the run; negative before its start
   std::vector<OverlayRobot> robots;
-  std::optional<double> score;      ///< of what was until now
-  std::vector<double> tile_ages_s;  ///< row by row, of a mission that scores coverage
-  std::vector<std::string> issues;  ///< that concern this time: "E_GAP rvr2: ..."
+  std::optional<double> score;      ///< score of the run until now
+  std::vector<double> tile_ages_s;  ///< row by row, for a mission that scores coverage
+  std::vector<std::string> issues;  ///< issues of this time: "E_GAP rvr2: ..."
 };
 
-/// A run as moments.
+/// A run as a sequence of moments.
 class OverlayRun {
  public:
-  /// `mission` with the patches of the run in its arena; `issues`: those of scoring, or of
-  /// tracking.
+  /// `mission` has the patches of the run in its arena; `issues` are from scoring or from tracking.
   OverlayRun(const TrackedRun& run, const Rig& rig, Mission mission, std::vector<Issue> issues);
 
-  /// Between cycles poses are interpolated, the score is that of the last cycle. There are no
-  /// robots before the run; after it they stay where they ended.
+  /// Between two cycles, poses are interpolated, and the score is that of the earlier cycle. Before
+  /// the run there are no robots; after it they stay at their last poses.
   OverlayMoment at(double time_s) const;
   double duration_s() const;
   const Mission& mission() const { return mission_; }
@@ -45,14 +44,14 @@ class OverlayRun {
   struct Robot {
     std::string name;
     double height_m = 0;
-    std::vector<Pose> poses;  ///< one a cycle, that of the start first
+    std::vector<Pose> poses;  ///< one per cycle, beginning with the start
     std::vector<CycleKind> kinds;
   };
 
   Mission mission_;
   std::vector<Robot> robots_;
   std::vector<double> scores_;            ///< after each cycle
-  std::vector<std::vector<int>> visits_;  ///< a tile: the cycles in which it held a robot
+  std::vector<std::vector<int>> visits_;  ///< per tile: the cycles in which a robot was on it
   std::vector<Issue> issues_;
   int cycles_ = 0;
 };

@@ -12,13 +12,13 @@
 namespace swarmsmith {
 namespace {
 
-/// How many times larger the board could be; below 1 it does not fit.
+/// The factor by which the board could be enlarged; if it is below 1, the board does not fit.
 double room_for(const Board& board, const Paper& paper) {
   const PrintedArea area = printed_area(paper);
   return std::min(area.width / (1000 * board.width_m()), area.height / (1000 * board.height_m()));
 }
 
-/// Neighbours of one row become one bar; bars of one thickness become one shape.
+/// Joins neighbours of one row to one bar, and bars of one thickness to one shape.
 void draw_boxes(Svg& svg, const std::vector<BlackBox>& boxes, PagePoint top_left) {
   constexpr double kTouching = 1e-6;  // mm
   std::map<double, std::vector<PageBar>> bars;
@@ -38,7 +38,7 @@ void draw_boxes(Svg& svg, const std::vector<BlackBox>& boxes, PagePoint top_left
     svg.bars(row, thickness, "#000000");
 }
 
-/// The board with squares of whole tenths of a millimetre that fits.
+/// The scaled board, with squares rounded down to a tenth of a millimetre.
 Board largest_like(const Board& board, double scale) {
   Board fitting = board;
   fitting.square_m = std::floor(1e4 * board.square_m * scale) / 1e4;

@@ -8,8 +8,8 @@
 
 namespace swarmsmith {
 
-/// A page as SVG with the calibration board in true scale, on the paper standing or lying.
-/// BadInput for a board that is too large, with the largest of its kind that fits.
+/// A page as SVG with the calibration board in true scale, in portrait or landscape. BadInput for a
+/// board that is too large; the error gives the largest similar board that fits.
 Expected<std::string> board_sheet(const Board& board, const Paper& paper);
 
 }  // namespace swarmsmith

@@ -14,7 +14,7 @@ struct KnownPaper {
   double height_mm;
 };
 
-/// ISO 216, and ANSI/ASME Y14.1.
+/// From ISO 216 and ANSI/ASME Y14.1.
 constexpr std::array<KnownPaper, 3> kPapers = {
     {{"A4", 210, 297}, {"A3", 297, 420}, {"letter", 215.9, 279.4}}};
 

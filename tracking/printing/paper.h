@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// A sheet of paper, standing, millimetres.
+/// A sheet of paper in portrait, in millimetres.
 struct Paper {
   std::string name;
   double width_mm = 0;
@@ -17,11 +17,11 @@ struct Paper {
   friend bool operator==(const Paper&, const Paper&) = default;
 };
 
-/// "A4", "A3" or "letter". BadInput for another name.
+/// The paper "A4", "A3" or "letter". BadInput for another name.
 Expected<Paper> paper_from_name(std::string_view name);
 std::vector<std::string> paper_names();
 
-/// The same sheet lying on its longer side.
+/// The same sheet with width and height exchanged.
 Paper turned(const Paper& paper);
 
 }  // namespace swarmsmith

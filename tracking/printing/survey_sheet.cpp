@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kPicture = 112;  ///< side of the arena's picture
+constexpr double kPicture = 112;  ///< side of the arena's drawing
 constexpr double kTop = kPageMargin + 14;
 constexpr double kRow = 7;
 constexpr double kThin = 0.2;
@@ -29,7 +29,7 @@ double distance_to_line(const Wall& wall) {
   return std::abs(wall.from.x * dy - wall.from.y * dx) / std::sqrt(dx * dx + dy * dy);
 }
 
-/// From metres, y up, to the page.
+/// Converts metres (y up) to positions on the page.
 class Plan {
  public:
   Plan(const Arena& arena, PagePoint top_left) {
@@ -75,7 +75,7 @@ void draw_arena(Svg& svg, const SurveySheetOptions& options, const std::vector<P
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Pose& place = places[i];
     draw_square(svg, plan, place, options.edge_m);
-    // Labels towards the middle, where there is room.
+    // Labels are nearer to the middle, where there is room.
     const double radius = std::hypot(place.x, place.y);
     const double inwards = 1 - (options.edge_m * 0.75 + 5 / plan.scale()) / radius;
     const PagePoint at = plan.at(place.x * inwards, place.y * inwards);
@@ -87,7 +87,7 @@ void draw_arena(Svg& svg, const SurveySheetOptions& options, const std::vector<P
   }
 }
 
-/// A tag with its corners numbered and its axis, and what to measure.
+/// Draws a tag with numbered corners and its axis, and the quantities to measure.
 void draw_explanation(Svg& svg, const SurveySheetOptions& options, double width) {
   const double left = kPageMargin + kPicture + 8;
   constexpr double kSide = 26;
@@ -163,7 +163,8 @@ void draw_table(Svg& svg, const SurveySheetOptions& options, const std::vector<P
   }
 }
 
-/// Distances between corners of a wall's polygon, from one to the next ones: what a tape checks.
+/// Distances from a corner of the walls' polygon to the following corners, for checking with a
+/// tape.
 std::string corner_distances(const Arena& arena) {
   const std::vector<Point> corners = corners_of(arena);
   std::string text;
@@ -180,7 +181,7 @@ std::vector<Pose> suggested_places(const Arena& arena, std::size_t tags, double 
   double inradius = distance_to_line(arena.walls.front());
   for (const Wall& wall : arena.walls)
     inradius = std::min(inradius, distance_to_line(wall));
-  // Half of the diagonal of tag and quiet zone, and two centimetres to the wall.
+  // Half of the diagonal of the tag with its quiet zone, and two centimetres from the wall.
   const double radius = inradius - edge_m * 1.25 * std::numbers::sqrt2 / 2 - 0.02;
   std::vector<Pose> places;
   for (std::size_t i = 0; i < tags; ++i) {

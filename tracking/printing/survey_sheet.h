@@ -9,21 +9,21 @@
 
 namespace swarmsmith {
 
-/// A form for measuring where floor tags lie.
+/// A form for the survey of floor tags.
 struct SurveySheetOptions {
   Arena arena;
-  std::vector<int> ids;  ///< of the floor tags
-  double edge_m = 0.1;   ///< of their black border
+  std::vector<int> ids;  ///< numbers of the floor tags
+  double edge_m = 0.1;   ///< edge of their black border
   Paper paper;
 };
 
-/// Where so many floor tags may lie: on a circle near the walls, heading along x. Four of them
-/// cover just half of a dodecagon.
+/// Proposes positions for a number of floor tags: on a circle near the walls, with heading along x.
+/// Four of them just cover half of a dodecagon.
 std::vector<Pose> suggested_places(const Arena& arena, std::size_t tags, double edge_m);
 
-/// One page: the arena from above with a place for each tag, which corner of a tag is which, how
-/// its angle counts, and a table to write the measured numbers into.
-/// BadInput: no id, or more than the page has lines for.
+/// A page with the arena from above and a position for each tag, an explanation of a tag's corners
+/// and angle, and a table for the measured numbers. BadInput without an id, or with more ids than
+/// the page has lines.
 Expected<std::string> survey_sheet(const SurveySheetOptions& options);
 
 }  // namespace swarmsmith

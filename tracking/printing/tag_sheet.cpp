@@ -17,13 +17,13 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kStrip = 6;  ///< below a tag, with its name
-constexpr double kGap = 5;    ///< between neighbours, and half of it around all: room for the marks
-constexpr double kMark = 1.7;     ///< length of a mark to cut at
-constexpr double kMarkOff = 0.4;  ///< its distance from what is cut out
+constexpr double kStrip = 6;      ///< strip below a tag, with its name
+constexpr double kGap = 5;        ///< between tags, and half of it at the edges: room for the marks
+constexpr double kMark = 1.7;     ///< length of a cutting mark
+constexpr double kMarkOff = 0.4;  ///< distance of a mark from the part to cut out
 constexpr double kMarkWidth = 0.1;
 
-/// How many tags of a side (quiet zone included, mm) a sheet holds.
+/// The number of tags that fit on a sheet; the side of a tag in mm includes the quiet zone.
 struct Grid {
   int columns = 0;
   int rows = 0;
@@ -36,13 +36,13 @@ Grid grid_on(const Paper& paper, double side) {
           std::max(0, static_cast<int>(std::floor(area.height / (side + kStrip + kGap) + 1e-9)))};
 }
 
-/// The sheet the way round that holds more.
+/// The sheet in portrait or landscape, whichever holds more tags.
 Paper better_way_round(const Paper& paper, double side) {
   const Paper lying = turned(paper);
   return grid_on(lying, side).count() > grid_on(paper, side).count() ? lying : paper;
 }
 
-/// Rows of neighbouring black cells as one bar each.
+/// Draws each row of neighbouring black cells as one bar.
 void draw_cells(Svg& svg, const TagPattern& pattern, PagePoint top_left, double cell) {
   std::vector<PageBar> bars;
   for (int row = 0; row < pattern.cells; ++row) {
@@ -59,7 +59,7 @@ void draw_cells(Svg& svg, const TagPattern& pattern, PagePoint top_left, double 
   svg.bars(bars, cell, "#000000");
 }
 
-/// Marks at the corners of what is cut out, and where its strip begins.
+/// Draws marks at the corners of the part to cut out, and where its strip begins.
 void draw_marks(Svg& svg, PagePoint top_left, double side) {
   const Paint paint = stroked("#000000", kMarkWidth);
   const auto mark = [&](double x0, double y0, double x1, double y1) {
@@ -78,7 +78,7 @@ void draw_marks(Svg& svg, PagePoint top_left, double side) {
   }
 }
 
-/// The tag's x axis and upper side, in a box of 12 x 5 mm whose right edge is given.
+/// Draws the tag's x axis and upper side in a box of 12 x 5 mm, given its right edge.
 constexpr double kAxesWidth = 13;
 void draw_axes(Svg& svg, double right, double top) {
   const PagePoint origin = {right - 7.5, top + kStrip - 1.2};
@@ -90,7 +90,8 @@ void draw_axes(Svg& svg, double right, double top) {
            {.size = 2.2, .anchor = TextStyle::Anchor::End, .fill = ink});
 }
 
-/// The name on one line, or on two smaller ones. Some families have a white border.
+/// Draws the name on one line, or on two smaller ones. It contains the colour of the border,
+/// because some families have a white one.
 void draw_name(Svg& svg, const TagSheetOptions& options, int id, const TagPattern& pattern,
                PagePoint at, double width) {
   const int border = (pattern.cells - pattern.border_cells) / 2;
@@ -130,7 +131,7 @@ Expected<int> number_from(std::string_view text, std::string_view part) {
       fmt::format("\"{}\" is not an id or a range of ids; write them as 1-3,100", part), "--ids");
 }
 
-/// The largest whole millimetre that fits, either way round.
+/// The largest edge in whole millimetres that fits in portrait or landscape.
 double largest_edge_mm(const Paper& paper, const TagPattern& pattern) {
   double edge = std::floor(paper.height_mm);
   while (edge > 0) {

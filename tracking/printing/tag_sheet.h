@@ -13,23 +13,24 @@ namespace swarmsmith {
 struct TagSheetOptions {
   std::string family = "tag36h11";
   std::vector<int> ids;
-  double edge_m = 0.1;  ///< of the square between the corners that a detector finds
+  double edge_m = 0.1;  ///< edge of the square between the corners that a detector finds
   Paper paper;
 };
 
-/// The edges that can be asked for, metres.
+/// Limits of the edge, in metres.
 inline constexpr double kLeastPrintedEdge_m = 0.015;
 inline constexpr double kMostPrintedEdge_m = 1;
 
-/// Ids from "1-3,100-105": in that order, each once. BadInput with the part that is not an id.
+/// Reads ids such as "1-3,100-105"; keeps their order, each once. BadInput with the part that is
+/// not an id.
 Expected<std::vector<int>> ids_from_text(std::string_view text);
 
-/// Pages as SVG in true scale, as many tags on each as fit, on the paper standing or lying. Around
-/// each quiet zone there are marks to cut at; below it a strip, which may be left on, names the
-/// tag and shows its x axis and its upper side.
+/// Pages as SVG in true scale, with as many tags on each as fit, in portrait or landscape. Marks
+/// around each quiet zone show where to cut; a strip below it, which may be left on, shows the
+/// tag's name, its x axis and its upper side.
 ///
-/// BadInput: family or id not known, no id, an edge that is too large for the paper (with the
-/// largest that fits).
+/// BadInput for an unknown family or id, without ids, or if the edge is too large for the paper
+/// (the error gives the largest that fits).
 Expected<std::vector<std::string>> tag_sheets(const TagSheetOptions& options);
 
 }  // namespace swarmsmith

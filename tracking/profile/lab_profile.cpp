@@ -14,30 +14,32 @@
 namespace swarmsmith {
 namespace {
 
-/// Delays of a profile are multiples of it.
+/// Delays in a profile are multiples of this.
 constexpr double kStep_ms = 10;
-/// The simulator steers at the ends of its steps: half of one is in each delay already.
+/// The simulator controls the treads at the ends of its steps, so each delay already includes half
+/// a step.
 constexpr double kHalfStep_ms = kStep_ms / 2;
-/// A control period that is nearer to 100 ms than this is 100 ms.
+/// A control period that differs from 100 ms by less than `kLeastPeriodOff_ms` counts as 100 ms.
 constexpr double kNominal_ms = 100;
 constexpr double kLeastPeriodOff_ms = 0.5;
-/// One in so many robots' figures is missing its reason in the file; the first is an example.
+/// The largest number of robots' reasons that the file gives for a missing figure.
 constexpr std::size_t kReasons = 3;
-/// Delays of single commands tell the latency when there are so many, of all robots and of one; and
-/// its law, when there are more, and they scatter by so much.
+/// Smallest number of single commands whose delays give the latency: of all robots, and of one
+/// robot; and the number from which they also give the distribution of the delay.
 constexpr std::size_t kLeastDelays = 10;
 constexpr std::size_t kLeastOfOne = 3;
 constexpr std::size_t kLeastOfLaw = 30;
-/// Three of them may agree by chance.
+/// Lower bound of the standard error, because three delays may agree by chance; and the scatter
+/// from which the distribution is given.
 constexpr double kLeastError_s = 0.001;
 constexpr double kLeastScatter_s = 0.015;
 
-/// Rounded for people; the profile loses nothing by it, since errors are larger.
+/// Rounds for readability; the profile loses nothing, since its errors are larger.
 double rounded(double value, double digits) {
   return std::round(value * digits) / digits;
 }
 
-/// Figures of the robots that tell one, and the reasons of the others.
+/// The figures of robots that have one, and the reasons of the others.
 struct Told {
   std::vector<Estimate> estimates;
   std::vector<std::string> reasons;
@@ -105,7 +107,7 @@ class Writer {
     return text;
   }
 
-  /// The comment of a figure that was measured.
+  /// The comment on a measured figure.
   static std::string comment(const std::string& name, const Pooled& value, const Told& told,
                              double factor, const std::string& unit) {
     return fmt::format("# {}: {:.1f} {} [{:.1f}, {:.1f}], spread {:.1f} {}; {}\n", name,
@@ -113,7 +115,7 @@ class Writer {
                        factor * value.spread, unit, count_text(told));
   }
 
-  /// The comment of one that could not be, and its figure.
+  /// The comment on a figure that could not be measured; also adds the figure.
   std::string left(const std::string& name, const Told& told, const std::string& unit) {
     std::string reason = "no robot could tell it";
     for (std::size_t i = 0; i < std::min(told.reasons.size(), kReasons); ++i)
@@ -163,7 +165,7 @@ class Writer {
            "\nweak_miss_rate = " + rate(groups.weak) + "\n";
   }
 
-  /// By single commands that changed the turning; empty where too few of them did.
+  /// The latency from single commands that changed the turning speed; empty if there are too few.
   std::string latency_of_changes() {
     std::vector<double> delays_s;
     double squares = 0;
@@ -171,7 +173,7 @@ class Writer {
       const std::vector<double>& own = of.reality.delays_s;
       const Estimate mean = mean_of(own);
       for (const double one : own)
-        squares += (one - mean.value) * (one - mean.value);  // robots may differ, too
+        squares += (one - mean.value) * (one - mean.value);  // robots may differ
       delays_s.insert(delays_s.end(), own.begin(), own.end());
       into.add(of, own.size() < kLeastOfOne ? std::nullopt : std::optional(mean),
                "too few of its commands changed the turning");
@@ -185,7 +187,7 @@ class Writer {
       double mean_s = 0;
       for (const DrawnDelay& delay : drawn)
         mean_s += delay.seconds * delay.probability;
-      // Late commands delay those after them.
+      // Late commands also delay the commands after them; this is subtracted.
       const double later_s = all.mean - mean_s;
       for (double* value : {&all.mean, &all.low, &all.high})
         *value -= later_s;
@@ -227,7 +229,7 @@ class Writer {
                        number_text(probability));
   }
 
-  /// As two multiples of 10 ms, less what the simulator takes itself.
+  /// The mean delay as a mix of two multiples of 10 ms, minus the simulator's own delay.
   static std::string delays_of_mean(const Pooled& all, double own_ms) {
     const double mean_ms = std::max(0.0, 1000 * all.mean - own_ms);
     const double before_ms = kStep_ms * std::floor(mean_ms / kStep_ms);

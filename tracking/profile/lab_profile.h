@@ -12,33 +12,33 @@ namespace swarmsmith {
 
 /// A robot in a scored run.
 struct MeasuredRobot {
-  std::string run;  ///< its name
+  std::string run;  ///< name of the run
   std::string robot;
   Reality reality;
 };
 
-/// A number of the profile.
+/// A measured number of the profile.
 struct LabFigure {
   std::string name;  ///< "latency"
   std::optional<Pooled> value;
   std::string unit;    ///< "ms", "%"
   std::string basis;   ///< "of 3 robots in 4 runs (1 could not tell)"
-  std::string reason;  ///< why it was left as the base has it, a sentence
+  std::string reason;  ///< why the base's value was kept, a sentence
 };
 
-/// A profile that was measured: `base` where the runs tell nothing.
+/// A measured profile; values that the runs do not show are from the base.
 struct LabProfile {
-  std::string text;  ///< of the file
+  std::string text;  ///< text of the profile file
   std::vector<LabFigure> figures;
 
   bool is_measured() const;
 };
 
-/// The runs that it rests on, and what others need to know of it.
+/// The runs on which a profile is based, and its origin.
 struct LabSource {
   std::vector<MeasuredRobot> robots;
   std::string base = "rvr";  ///< a built-in profile
-  std::string program;       ///< with its version
+  std::string program;       ///< name of the program, with its version
 };
 
 LabProfile lab_profile(const LabSource& source);

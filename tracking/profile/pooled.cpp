@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kTail = 0.025;
 constexpr double kNormal = 1.959963984540054;
-/// No estimate is known better: without it one without noise would outweigh all others.
+/// Lower bound of the error; otherwise an estimate without noise would outweigh all others.
 constexpr double kLeastError = 1e-9;
 
 constexpr double kLeastDifference = 0.1;
@@ -83,7 +83,7 @@ Groups grouped(std::vector<Estimate> rates) {
     const double difference = high.mean - low.mean;
     const double spread = std::max(spread_of(usual, low.mean), spread_of(weak, high.mean));
     if (difference < kLeastDifference || difference < kLeastSpreads * spread) continue;
-    // The errors of single ones: a group of one has no spread that could be seen.
+    // Use the errors of single estimates, because the spread of a group of one is unknown.
     const double error = std::hypot(usual.back().error, weak.front().error);
     if (weak.front().value - usual.back().value < kLeastErrors * error) continue;
     if (weak.front().value - usual.back().value <= most) continue;

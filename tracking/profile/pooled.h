@@ -11,7 +11,7 @@ struct Estimate {
   double error = 0;  ///< one standard error
 };
 
-/// What many of them tell together.
+/// The combined result of several estimates.
 struct Pooled {
   double mean = 0;
   double error = 0;   ///< one standard error of the mean
@@ -21,19 +21,20 @@ struct Pooled {
   std::size_t count = 0;
 };
 
-/// Weighed by error and spread (DerSimonian and Laird 1986); the interval is Student's, with the
-/// variance of Hartung and Knapp (2001) where it is larger. Of a single estimate it is that of its
-/// error alone. At least one.
+/// Combines estimates, weighted by error and spread (DerSimonian and Laird 1986). The interval is
+/// Student's, with the variance of Hartung and Knapp (2001) if it is larger. For a single estimate,
+/// the interval follows from its error alone. Needs at least one estimate.
 Pooled pooled(std::span<const Estimate> estimates);
 
-/// Two groups; the second is worse.
+/// Two groups of robots; the second one is worse.
 struct Groups {
   std::vector<Estimate> usual;
-  std::vector<Estimate> weak;  ///< empty: they are one group
+  std::vector<Estimate> weak;  ///< empty if there is only one group
 };
 
-/// By the gap that separates them best: rates are two groups when the means of the groups differ by
-/// more than a tenth, by over five standard errors and by over three times the spread within them.
+/// Splits rates at the gap that separates them best. There are two groups only if the means of the
+/// groups differ by more than a tenth, by over five standard errors, and by over three times the
+/// spread within the groups.
 Groups grouped(std::vector<Estimate> rates);
 
 }  // namespace swarmsmith

@@ -34,7 +34,7 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-/// "2026-11-21T14:03:00Z" as "2026-11-21 14:03".
+/// Converts "2026-11-21T14:03:00Z" to "2026-11-21 14:03".
 std::string date_text(const std::string& made) {
   constexpr std::size_t kToMinutes = 16;
   std::string text = made.substr(0, kToMinutes);
@@ -283,7 +283,7 @@ void write_issues(HtmlPage& page, const RunFindings& run) {
   page.table(issues);
 }
 
-/// Those that did not pass first.
+/// Writes all checks, those that did not pass first.
 void write_checks(HtmlPage& page, const RunFindings& run) {
   page.heading(2, "Checks");
   const auto& checks = run.scored.checks;
@@ -300,7 +300,7 @@ void write_checks(HtmlPage& page, const RunFindings& run) {
                   .columns = {{"Outcome"},
                               {"Check"},
                               {"Of"},
-                              {"Number"},  // with words, which may wrap
+                              {"Number"},  // contains words, and may wrap
                               {"Limit"},
                               {"What it catches; why it could not run"}}};
   for (const auto outcome : kWorstFirst) {

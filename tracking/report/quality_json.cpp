@@ -7,7 +7,7 @@
 namespace swarmsmith {
 namespace {
 
-/// In the order of writing, which is that of reading.
+/// Keeps the order in which keys are written, which is also the reading order.
 using Json = nlohmann::ordered_json;
 
 template <class Number>
@@ -89,7 +89,7 @@ Json border_json(const RobotFinding& robot) {
           {"too_close", robot.border->too_close}};
 }
 
-/// What the robot's own log says.
+/// The data from the robot's own log.
 Json log_json(const RobotFinding& robot) {
   if (robot.log == nullptr) return nullptr;
   const LogHead& head = robot.log->record.head;

@@ -47,7 +47,8 @@ std::string named(const Check& check) {
   return check.subject.empty() ? check.name : check.name + ", " + check.subject;
 }
 
-/// "  warned   longest gap, rvr1: 0.83 s, at most 1 s; it catches a robot that was hidden".
+/// A line for a check: "  warned   longest gap, rvr1: 0.83 s, at most 1 s; it catches a robot that
+/// was hidden".
 std::string check_line(const Check& check) {
   std::string text = fmt::format("  {:<7}  {}", name_of(check.outcome), named(check));
   if (!check.reason.empty()) text += ": " + check.reason;
@@ -56,8 +57,8 @@ std::string check_line(const Check& check) {
   return text + "; it catches " + check.catches + "\n";
 }
 
-/// What could not be asked for one reason, in one line: "  not checked: motion as commanded, end of
-/// the robot's log (rvr1, rvr2): the run log names no log of it".
+/// Checks that could not be done for the same reason, in one line: "  not checked: motion as
+/// commanded, end of the robot's log (rvr1, rvr2): the run log names no log of it".
 std::string unasked_lines(const std::vector<Check>& checks) {
   struct Line {
     std::vector<std::string> names, subjects;
@@ -98,7 +99,7 @@ std::string checks_text(const std::vector<Check>& checks, bool all) {
                             all ? "" : "; --checks lists them");
 }
 
-/// "VALID; not checked: length of the film".
+/// The verdict as text: "VALID; not checked: length of the film".
 std::string verdict_text(const ScoredRun& scored) {
   std::string text(name_of(scored.verdict));
   if (scored.biased) text += ", BIASED (tags taken for centres)";

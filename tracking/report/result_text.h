@@ -8,17 +8,17 @@
 
 namespace swarmsmith {
 
-/// What a person wants to know of a scored run: score, verdict and why, how well each robot was
-/// seen, and what was checked: all of it with `all_checks`, else what did not pass.
+/// The result of a scored run as text: score, verdict with its reasons, how well each robot was
+/// seen, and its checks: all of them with `all_checks`, otherwise only those that did not pass.
 std::string result_text(const RunFindings& run, bool all_checks = false);
 
-/// The same as keys of the object.
+/// The same as keys of a JSON object.
 void add_result(JsonObject& object, const RunFindings& run);
 
-/// "12", "-3.25", "no score".
+/// A score as text: "12", "-3.25", "no score".
 std::string score_text(const std::optional<double>& score);
 
-/// The measured trajectory as the simulator writes its own.
+/// The measured trajectory in the simulator's CSV format.
 std::string trajectory_csv(const TrackedRun& tracked);
 
 }  // namespace swarmsmith

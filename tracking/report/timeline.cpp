@@ -14,7 +14,7 @@ namespace {
 constexpr double kRow = 7;
 constexpr double kIssueRow = 4.4;
 
-/// Colours that also differ in brightness, and heights that differ too.
+/// The kinds differ in colour, in brightness and in height.
 struct KindStyle {
   std::string_view name;
   std::string_view color;
@@ -26,7 +26,7 @@ constexpr std::array<KindStyle, 4> kKinds = {{{"measured", "#9ecae1", 2.2},
                                               {"missing", "#000000", 4.2}}};
 constexpr std::string_view kDropped = "#7b3294";
 
-/// Stretches of cycles of one kind, bars of one colour each.
+/// Draws a bar for each run of cycles of the same kind.
 void draw_strip(Svg& svg, const TrackedRobot& robot, const Axis& axis, double middle) {
   std::array<std::vector<PageBar>, kKinds.size()> bars;
   for (std::size_t at = 0; at < robot.cycles.size();) {
@@ -42,7 +42,7 @@ void draw_strip(Svg& svg, const TrackedRobot& robot, const Axis& axis, double mi
     svg.bars(bars.at(kind), kKinds.at(kind).height, kKinds.at(kind).color);
 }
 
-/// Short marks below the strip.
+/// Draws short marks below the strip.
 void draw_dropped(Svg& svg, const TrackedRobot& robot, const Axis& axis, double middle) {
   constexpr double kLength = 1.2;
   std::vector<PageBar> marks;
@@ -54,7 +54,7 @@ void draw_dropped(Svg& svg, const TrackedRobot& robot, const Axis& axis, double 
   svg.bars(marks, 0.3, kDropped, BarDirection::Down);
 }
 
-/// The issues that can be shown, once each code, robot and time.
+/// The issues with a time, once per code, robot and time.
 std::vector<const Issue*> timed(const std::vector<Issue>& issues) {
   std::vector<const Issue*> found;
   for (const Issue& issue : issues)

@@ -7,9 +7,9 @@
 
 namespace swarmsmith {
 
-/// How each robot's pose was obtained, cycle by cycle, as SVG: a strip a robot, coloured by
-/// CycleKind, the better the thinner; ticks below it are samples that were dropped. The issues that
-/// have a time are marked below, each with its code.
+/// A timeline as SVG that shows how each robot's pose was obtained in each cycle: a strip per
+/// robot, coloured by CycleKind, thinner for better kinds; ticks below a strip are samples that
+/// were dropped. Issues that have a time are marked at the bottom with their codes.
 std::string timeline(const TrackedRun& run, const std::vector<Issue>& issues, double width_mm);
 
 }  // namespace swarmsmith

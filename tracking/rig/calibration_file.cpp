@@ -15,7 +15,7 @@ constexpr Limits<double> kNotNegative{0, 1e9};
 constexpr Limits<std::int64_t> kCount{0, 1'000'000'000};
 constexpr Limits<double> kShare{0, 1.0 + 1e-9};
 
-/// A calibration file being read: complaints become errors of the configuration.
+/// A calibration file that is being read; complaints become errors of the configuration.
 class File {
  public:
   File(std::string_view text, const std::string& file) : complaints_(file), file_(file) {
@@ -32,7 +32,7 @@ class File {
   bool is_broken() const { return broken_.has_value(); }
   TableReader root() { return {document_, "", complaints_}; }
 
-  /// What was read, if nothing was wrong with it and it is fit.
+  /// The calibration, if the file has no errors and the calibration is usable.
   template <class Calibration, class... Limits>
   OrComplaints<Calibration> finish(Calibration calibration, Limits... limits) {
     std::vector<Error> errors = this->errors();
@@ -65,7 +65,7 @@ class File {
   std::optional<Error> broken_;
 };
 
-/// Complains about a key that is missing.
+/// Adds an error if a key is missing.
 void need(TableReader& table, const char* key) {
   if (!table.has(key)) table.complain(key, table.name() + " needs `" + key + "`");
 }
@@ -85,7 +85,8 @@ std::string text_of(TableReader& table, const char* key) {
   return table.text(key).value_or("");
 }
 
-/// Format and kind: a calibration of another kind is named before its unknown keys are.
+/// Reads format and kind, so that a calibration of the wrong kind is reported as such and not by
+/// its unknown keys.
 bool read_head(TableReader& root, const std::string& kind) {
   read_format(root);
   const std::string found = text_of(root, "kind");
@@ -95,7 +96,7 @@ bool read_head(TableReader& root, const std::string& kind) {
   return false;
 }
 
-/// Corners of a hull, u and v in turn; none in files of the time before they were kept.
+/// The corners of a hull, as alternating u and v; empty for old files, which did not keep the hull.
 std::vector<ImagePoint> read_hull(TableReader& table) {
   constexpr std::size_t kMost = 2000;
   const Node* node = table.take("hull");
@@ -121,7 +122,7 @@ std::vector<ImagePoint> read_hull(TableReader& table) {
   return hull;
 }
 
-/// A row of numbers, exactly as many as wanted.
+/// An array of exactly `count` numbers.
 std::vector<double> row_of(TableReader& table, const char* key, std::size_t count) {
   std::vector<double> values(count);
   need(table, key);
@@ -168,7 +169,8 @@ CameraModel read_model(TableReader& table) {
   return model;
 }
 
-/// A rotation has rows of length 1 that stand on each other, and does not mirror.
+/// The rows of a rotation matrix have length 1 and are perpendicular, and its determinant is
+/// positive (no reflection).
 bool is_rotation(const std::array<double, 9>& rows) {
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> r(rows.data());
   return (r * r.transpose()).isIdentity(1e-6) && r.determinant() > 0;
@@ -189,7 +191,7 @@ PlaceCalibration::Seen read_seen(TableReader& table) {
   return seen;
 }
 
-/// What an offset calibration says of one tag.
+/// Reads the entries of an offset calibration for one tag.
 void read_tag(TableReader& table, OffsetCalibration& calibration) {
   calibration.tag = count_of(table, "tag");
   calibration.edge_m = number_of(table, "edge", kPositive);
@@ -257,7 +259,8 @@ OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
   for (TableReader& seen : root.tables("seen"))
     calibration.tags.push_back(read_seen(seen));
   root.finish();
-  // The range of heights is the arena file's, and checked with it; below the floor hangs nothing.
+  // The arena file gives the range of heights, and the place is checked against it elsewhere; here
+  // the camera must only be above the floor.
   PlaceLimits limits;
   limits.least_height_m = 0;
   limits.most_height_m = kAny.most;

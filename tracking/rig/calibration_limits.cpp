@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kDegree = kPi / 180;
 
-/// Collects faults of one kind.
+/// Collects errors.
 class Faults {
  public:
-  /// `wrong`: written so that what is not a number is wrong.
+  /// Callers write `wrong` so that it is true for NaN.
   void add_if(bool wrong, IssueCode code, std::string text) {
     if (wrong) errors_.push_back(error_of(code, std::move(text), ""));
   }
@@ -24,10 +24,10 @@ class Faults {
   std::vector<Error> errors_;
 };
 
-/// The camera need not hang yet.
+/// An assumed height, since the camera may not be mounted yet.
 constexpr double kFloor_m = 2.5;
 
-/// " (0.80 mm on the floor)".
+/// The error on the floor in brackets: " (0.80 mm on the floor)".
 std::string in_brackets(double pixels, const PlaceCalibration& calibration) {
   const std::string text = on_the_floor(pixels, calibration);
   return text.empty() ? text : " (" + text + ")";

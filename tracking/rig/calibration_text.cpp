@@ -19,7 +19,7 @@ std::string numbers(std::span<const double> values) {
   return "[" + list_of(values, number_text) + "]";
 }
 
-/// First lines of every calibration file.
+/// The first lines of every calibration file.
 std::string head(const char* what, const char* kind, const std::string& made) {
   return std::string("# ") + what + "\nformat = 1\n" + line("kind", quoted_text(kind)) +
          line("made", quoted_text(made));
@@ -34,7 +34,7 @@ std::vector<double> pairs_of(const std::vector<ImagePoint>& points) {
   return pairs;
 }
 
-/// Of one tag of a robot.
+/// The lines for one tag of a robot.
 std::string tag_lines(const OffsetCalibration& calibration) {
   constexpr double kOneDegree = kPi / 180;
   return line("tag", std::to_string(calibration.tag)) +

@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Three decimals of small numbers, and fewer of large ones.
+/// A number with its unit: three decimals for small numbers, fewer for large ones.
 std::string numbered(double number, std::string_view unit) {
   const double size = std::fabs(number);
   std::string text = fmt::format("{:.{}f}", number, size < 10 ? 3 : size < 100 ? 2 : 1);
@@ -56,7 +56,8 @@ std::string limit_text(const Check& check) {
   if (!check.limit) return "";
   const std::string text = numbered(*check.limit, check.unit);
   if (!check.value || *check.value == *check.limit) return "limit " + text;
-  // On the good side of it, or not.
+  // A passed check has its value on the good side of the limit, any other check on the bad side;
+  // this shows whether the limit is a minimum or a maximum.
   const bool is_over = *check.value > *check.limit;
   const bool is_least = is_over == (check.outcome == Check::Outcome::Passed);
   return (is_least ? "at least " : "at most ") + text;

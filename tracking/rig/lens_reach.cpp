@@ -9,12 +9,12 @@
 namespace swarmsmith {
 namespace {
 
-/// Of the larger side of the picture: over so little a lens does not change its mind.
+/// As a share of the picture's larger side; a lens hardly changes over this distance.
 constexpr double kMargin = 0.05;
 constexpr double kGrid_m = 0.05;
 
-/// How far a point is outside of a hull whose corners go round in either direction; negative
-/// inside.
+/// The distance of a point from a hull, negative inside. The corners of the hull may be in either
+/// direction of rotation.
 double outside_by(const std::vector<ImagePoint>& hull, const ImagePoint& point) {
   double area = 0;
   for (std::size_t i = 0; i < hull.size(); ++i) {

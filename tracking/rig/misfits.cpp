@@ -63,7 +63,8 @@ void check_offset(const Rig& rig, const RobotSetup& robot, std::vector<Error>& e
                             robot.offset_file));
 }
 
-/// How far the corners that a place was found from are from where it sees them now; RMS, pixels.
+/// The RMS distance, in pixels, between the corners from which a place was solved and their
+/// positions in the view from this place.
 double rms_of_seen(const View& view, const PlaceCalibration& place) {
   double squares = 0;
   for (const PlaceCalibration::Seen& seen : place.tags)
@@ -71,7 +72,7 @@ double rms_of_seen(const View& view, const PlaceCalibration& place) {
   return place.tags.empty() ? 0 : std::sqrt(squares / static_cast<double>(4 * place.tags.size()));
 }
 
-/// A floor tag whose entry in the arena file has changed since the place was found.
+/// Whether the arena file's entry for a floor tag has changed since the place was solved.
 bool was_moved(const ReferenceTag& then, const ReferenceTag& now) {
   constexpr double kSame_m = 1e-4;
   constexpr double kSame_rad = 1e-3;
@@ -101,7 +102,7 @@ std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera) {
   std::vector<Issue> doubts;
   constexpr const char* kAgain =
       "`swarmsmith track calibrate arena --again` finds it from the same pictures";
-  // Corners are kept to 1/1000 of a pixel.
+  // Files keep corners to 1/1000 of a pixel.
   constexpr double kRounding_px = 0.01;
   const double rms_px = rms_of_seen(*view, place->second);
   if (!(rms_px <= place->second.rms_px + kRounding_px)) {

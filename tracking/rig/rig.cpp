@@ -44,7 +44,7 @@ std::optional<TagOffset> Rig::offset_of(const RobotSetup& robot) const {
   const auto found = offsets.find(robot.offset_file);
   if (found == offsets.end()) return std::nullopt;
   if (const OffsetCalibration* const own = of_tag(found->second, robot.tag)) return own->offset;
-  // Of a robot with one tag, whose number is asked elsewhere.
+  // For a robot with one tag, the tag's number is checked elsewhere (`misfits`).
   const bool is_first = std::ranges::find(robots, robot.tag, &RobotSetup::tag) != robots.end();
   return is_first ? std::optional(found->second.offset) : std::nullopt;
 }

@@ -14,13 +14,14 @@
 
 namespace swarmsmith {
 
-/// The rig: cameras, surveyed floor tags and tagged robots of an arena, as the arena file says it,
-/// and the calibrations that it names, each a file of its own (docs/tracking.md).
+/// The rig: the cameras, surveyed floor tags and tagged robots of an arena, as the arena file
+/// describes them, and the calibrations that the arena file names, each in its own file
+/// (docs/tracking.md).
 
-/// A tag that lies on the floor at a surveyed place.
+/// A tag that lies on the floor at a surveyed position.
 struct ReferenceTag {
   int tag = 0;
-  Pose pose;  ///< of its middle; heading of its x axis
+  Pose pose;  ///< position of its centre, and direction of its x axis
   double edge_m = 0;
 
   friend bool operator==(const ReferenceTag&, const ReferenceTag&) = default;
@@ -28,23 +29,23 @@ struct ReferenceTag {
 
 /// The tag's corners on the floor, in the order of TagCorners.
 std::array<Point, 4> corners_of(const ReferenceTag& tag);
-/// How far its corners are from where they should be seen: sum of the squares, pixels.
+/// How well the corners were seen where they should be: sum of the squared errors, in pixels.
 double squares_off(const View& view, const ReferenceTag& tag, const TagCorners& seen);
 
-/// What a time stamp of a frame means.
-enum class StampedAt { Start, Middle, End };  ///< of its exposure
+/// The moment of the exposure to which a frame's time stamp refers.
+enum class StampedAt { Start, Middle, End };
 
 /// A camera over the arena.
 struct CameraSetup {
   std::string name;
-  std::string model_file;  ///< of its CameraCalibration, relative to the arena file
-  std::string place_file;  ///< of its PlaceCalibration
+  std::string model_file;  ///< file of its CameraCalibration, relative to the arena file
+  std::string place_file;  ///< file of its PlaceCalibration
   StampedAt stamped_at = StampedAt::Middle;
   double exposure_s = 0;
-  double readout_s = 0;         ///< first row to last; 0 for a global shutter
-  double least_height_m = 0.5;  ///< that it may hang at
+  double readout_s = 0;         ///< time from the first row to the last; 0 for a global shutter
+  double least_height_m = 0.5;  ///< limits of the height at which it may hang
   double most_height_m = 20;
-  double time_error_s = 0.005;  ///< one sigma of its stamps against the run's clock
+  double time_error_s = 0.005;  ///< one sigma of its time stamps against the run's clock
 
   friend bool operator==(const CameraSetup&, const CameraSetup&) = default;
 };
@@ -52,63 +53,64 @@ struct CameraSetup {
 struct RobotSetup {
   std::string name;
   int tag = 0;
-  double edge_m = 0;              ///< of the tag's black border
-  double height_m = 0;            ///< of the tag's plane above the floor
-  std::string offset_file;        ///< of its OffsetCalibration; empty: none
+  double edge_m = 0;              ///< edge of the tag's black border
+  double height_m = 0;            ///< height of the tag's plane above the floor
+  std::string offset_file;        ///< file of its OffsetCalibration; may be empty
   double height_error_m = 0.001;  ///< one sigma
-  /// That it carries besides, each as if the robot carried it alone: its name, its file.
+  /// The robot's other tags, each as if it were its only tag, with the robot's name and offset
+  /// file.
   std::vector<RobotSetup> more_tags = {};
 
   friend bool operator==(const RobotSetup&, const RobotSetup&) = default;
 };
 
-/// The robot once for each tag that it carries, its first one first.
+/// A copy of the robot for each of its tags, the first tag first.
 std::vector<RobotSetup> each_tag(const RobotSetup& robot);
 std::vector<RobotSetup> each_tag(std::span<const RobotSetup> robots);
-/// "tag 1", "tags 1, 11".
+/// The tag numbers as text: "tag 1", "tags 1, 11".
 std::string tags_text(const RobotSetup& robot);
 
-/// A file that a program made, with a digest of its text and the date from which it holds.
+/// A calibration file, with a digest of its text and the date when it was made.
 struct CalibrationFile {
-  std::string file;    ///< as the arena file names it
+  std::string file;    ///< its name in the arena file
   std::string text;    ///< the whole file
   std::string sha256;  ///< of the text
   std::string made;    ///< "2026-11-21T14:03:00Z"
 };
 
-/// Intrinsics and how well they were found.
+/// The lens of a camera, and the quality of its calibration.
 struct CameraCalibration {
   CameraModel model;
   double rms_px = 0;
   double worst_view_px = 0;
-  int views = 0;                 ///< used
-  int views_dropped = 0;         ///< as outliers
-  double coverage = 0;           ///< of the frame by the hull of the corners, 0 to 1
-  std::vector<ImagePoint> hull;  ///< of the corners; empty in files that did not keep it
-  double focal_sigma_px = 0;     ///< standard deviation of f by the fit; 0: not known (fisheye)
-  std::string board;             ///< as it was described
+  int views = 0;                 ///< number of views that were used
+  int views_dropped = 0;         ///< number of views that were dropped as outliers
+  double coverage = 0;           ///< share of the frame that the hull of the corners covers, 0 to 1
+  std::vector<ImagePoint> hull;  ///< hull of the corners; empty in files that did not keep it
+  double focal_sigma_px = 0;     ///< standard deviation of f from the fit; 0 if not known (fisheye)
+  std::string board;             ///< its description on the command line
   std::string made;
 };
 
-/// Where a camera hangs and how well that was found.
+/// The place of a camera, and the quality of its calibration.
 struct PlaceCalibration {
   CameraPlace place;
   double rms_px = 0;
   double worst_left_out_m = 0;  ///< largest leave-one-tag-out error on the floor
   int worst_tag = 0;
-  double coverage = 0;  ///< of the arena by the hull of the tags
+  double coverage = 0;  ///< share of the arena that the hull of the tags covers
   struct Seen {
     ReferenceTag tag;
-    TagCorners corners;     ///< medians
-    double rms_px = 0;      ///< reprojection
-    double left_out_m = 0;  ///< floor error when solved without it
+    TagCorners corners;     ///< medians over the frames
+    double rms_px = 0;      ///< reprojection error
+    double left_out_m = 0;  ///< its error on the floor when the place is solved without it
   };
   std::vector<Seen> tags;
-  std::string camera_sha256;  ///< of the intrinsics it was solved with
+  std::string camera_sha256;  ///< digest of the lens calibration that was used
   std::string made;
 };
 
-/// Where a robot's tag sits on it.
+/// The position and direction of a tag on its robot.
 struct OffsetCalibration {
   std::string robot;
   int tag = 0;
@@ -119,36 +121,36 @@ struct OffsetCalibration {
   double rms_m = 0;
   double sigma_x_m = 0;
   double sigma_y_m = 0;
-  double drift_m_s = 0;  ///< of the centre, while it span
+  double drift_m_s = 0;  ///< speed of the centre during the spin
   double turned_rad = 0;
   int samples = 0;
   std::string made;
-  std::vector<OffsetCalibration> more_tags = {};  ///< of the same robot, found at the same time
+  std::vector<OffsetCalibration> more_tags = {};  ///< the robot's other tags, from the same films
 };
 
-/// What the calibration of a robot says of one of its tags; null when it has none of that tag.
+/// The part of a robot's calibration for one of its tags; null if there is none for this tag.
 const OffsetCalibration* of_tag(const OffsetCalibration& calibration, int tag);
 
-/// The arena file, with the calibrations that it names, all read and checked.
+/// The contents of an arena file and of the calibrations that it names, read and checked.
 struct Rig {
   std::string file;  ///< the arena file's name
   std::string family = "tag36h11";
   std::vector<CameraSetup> cameras;  ///< at least one
   std::vector<ReferenceTag> references;
-  std::vector<RobotSetup> robots;  ///< in the order of the score's robots
+  std::vector<RobotSetup> robots;  ///< in the order of the robots in a score
   double survey_error_m = 0.002;   ///< one sigma of the floor tags' frame against the arena
-  double tilt_error_rad = 0.5 * 0.017453292519943295;  ///< one sigma of a robot's lean
-  /// By the file's name in the setups; only those that exist.
+  double tilt_error_rad = 0.5 * 0.017453292519943295;  ///< one sigma of how far a robot leans
+  /// By the file name in the setups; only files that exist.
   std::map<std::string, CalibrationFile> files;
   std::map<std::string, CameraCalibration> models;
   std::map<std::string, PlaceCalibration> places;
   std::map<std::string, OffsetCalibration> offsets;
 
-  /// The camera of that name; empty: the only one. Null when there is none.
+  /// The camera with this name, or the only camera if the name is empty. Null if there is none.
   const CameraSetup* setup_of(const std::string& camera) const;
-  /// Nothing when a calibration is missing.
+  /// Nothing if a calibration is missing.
   std::optional<View> view_of(const CameraSetup& camera) const;
-  /// Of one of `each_tag`.
+  /// The offset of one of the entries of `each_tag`.
   std::optional<TagOffset> offset_of(const RobotSetup& robot) const;
 };
 

@@ -20,17 +20,17 @@ namespace {
 constexpr Limits<double> kEdge{0.005, 2};
 constexpr Limits<double> kTagHeight{0, 20};
 constexpr Limits<double> kCameraHeight{0.05, 100};
-/// Exposure and readout of a frame: a second is far beyond what can be tracked.
+/// Limits of a frame's exposure and readout; frames of a second are far too slow for tracking.
 constexpr Limits<double> kFrameTime{0, 1};
-/// One sigma of what people measure.
+/// Limits of one sigma of a manual measurement.
 constexpr Limits<double> kLengthError{0, 0.1};
 constexpr Limits<double> kTiltError{0, 20};
 
-/// The arena file while it is read.
+/// The state while an arena file is read.
 struct Reading {
   Rig rig;
   int tags_of_family = 0;
-  std::vector<std::pair<int, std::string>> tags;  ///< that are taken, and by what
+  std::vector<std::pair<int, std::string>> tags;  ///< tags in use, and their owners
 };
 
 void read_family(TableReader& root, Reading& reading) {
@@ -43,7 +43,7 @@ void read_family(TableReader& root, Reading& reading) {
   }
 }
 
-/// A tag's number, which belongs to one thing alone.
+/// Reads the number of a tag, which may have only one owner.
 int read_tag(TableReader& table, Reading& reading, const std::string& owner) {
   if (!table.has("tag")) table.complain("tag", table.name() + " needs a `tag`, its number");
   const auto tag = table.integer("tag", {0, reading.tags_of_family - 1});
@@ -98,7 +98,7 @@ ReferenceTag read_reference(TableReader& table, Reading& reading) {
   return reference;
 }
 
-/// What each tag of a robot has of its own.
+/// Reads the values that a robot has for each of its tags.
 void read_tag_of(TableReader& table, Reading& reading, RobotSetup& robot) {
   robot.tag = read_tag(table, reading, "robot \"" + robot.name + "\"");
   robot.edge_m = need(table, "edge", kEdge);
@@ -130,8 +130,8 @@ RobotSetup read_robot(TableReader& table, Reading& reading, const std::vector<st
   return robot;
 }
 
-/// A calibration that `table` names by `key`, when it is there: its file goes to the rig, and what
-/// it says to `into`.
+/// Reads a calibration that `table` names under `key`, if it exists: its file goes into the rig,
+/// and its contents into `into`.
 template <class Calibration, class Parse>
 void read_calibration(TableReader& table, std::string_view key, const std::string& file,
                       const Expected<std::optional<std::string>>& text, const Parse& parse,

@@ -15,7 +15,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Cameras' clocks may count from 1970.
+/// Clocks of cameras may count from 1970.
 constexpr Limits<double> kClock{-1e12, 1e12};
 constexpr Limits<double> kAhead{-86'400, 86'400};
 constexpr Limits<double> kLength{0.1, 86'400};
@@ -23,7 +23,8 @@ constexpr Limits<std::int64_t> kTag{0, 65'535};
 
 const std::vector<std::string> kSyncs = {"hidden", "shown"};
 
-/// `mission`: the name of a built-in one, a mission file, or a [[mission]] in the log itself.
+/// Reads `mission`: the name of a built-in mission, a mission file, or a [[mission]] in the log
+/// itself.
 Mission read_log_mission(TableReader& root, const std::filesystem::path& folder) {
   if (!root.has("mission")) {
     root.take("mission");
@@ -50,7 +51,7 @@ Mission read_log_mission(TableReader& root, const std::filesystem::path& folder)
   return {};
 }
 
-/// `design` or `candidate`: what ran on the robots.
+/// Reads `design` or `candidate`, which name the control software of the robots.
 void read_control(TableReader& root, RunLog& log) {
   if (const auto design = root.text("design")) {
     log.design = *design;
@@ -72,7 +73,7 @@ void read_control(TableReader& root, RunLog& log) {
   }
 }
 
-/// `start`, or `sync`.
+/// Reads `start` and `sync`.
 RunStart read_start(TableReader& root) {
   RunStart start;
   start.time_s = root.seconds("start", kClock);
@@ -98,7 +99,7 @@ RunVideo read_video(TableReader& table) {
   return video;
 }
 
-/// `layout` and the [[patch]] tables.
+/// Reads `layout` and the [[patch]] tables.
 RunLayout read_layout(TableReader& root) {
   static const std::vector<std::string> kLayouts = {"measured"};
   RunLayout layout;
@@ -159,7 +160,7 @@ RobotNote read_robot_note(TableReader& table) {
   return note;
 }
 
-/// Each robot has one note.
+/// A robot may have only one note.
 void check_notes(TableReader& root, const std::vector<RobotNote>& notes) {
   for (std::size_t i = 0; i < notes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -170,13 +171,13 @@ void check_notes(TableReader& root, const std::vector<RobotNote>& notes) {
   }
 }
 
-/// "2026-11-21".
+/// A date as text: "2026-11-21".
 std::string date_text(std::chrono::year_month_day date) {
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
                      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-/// Videos of one run are by different cameras.
+/// Each video of a run must be from another camera.
 void check_videos(TableReader& root, const std::vector<RunVideo>& videos) {
   for (std::size_t i = 0; i < videos.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// Where a camera's frame times come from, best first.
+/// The source of a camera's frame times, best first.
 enum class TimeSource { Sidecar, Container, FrameRate };
 
 inline std::string_view name_of(TimeSource source) {

@@ -11,29 +11,30 @@
 namespace swarmsmith {
 namespace {
 
-/// Of the simulator: the RVR's drive, 1.5 Nm on 0.0273 kg m^2, and half of its step.
+/// Values of the simulator: the RVR's drive (1.5 Nm on 0.0273 kg m^2), and half of a simulation
+/// step.
 constexpr double kSpinRate_radps2 = 55.0;
 constexpr double kHalfStep_s = 0.005;
-/// Changes of the turning that are seen well, and speeds that are the same.
+/// Smallest change of the rotation speed that is measured, and largest difference of equal speeds.
 constexpr double kLeastChange_radps = 1.5;
 constexpr double kSame_radps = 0.1;
-/// Commands are steady so long before and after, and by the latency longer.
+/// Commands must be steady for this long before and after the change, plus the latency.
 constexpr double kBefore_s = 0.4;
 constexpr double kAfter_s = 0.6;
 constexpr double kLongestGap_s = 0.25;
-/// Where nothing better is known.
+/// Assumed if the latency is unknown.
 constexpr double kLongestLatency_s = 0.5;
 
 constexpr double kStep_s = 0.01;
 constexpr double kLeastProbability = 0.01;
-/// Standard errors by which a law's steps are higher than what is before them.
+/// A step of the distribution must be this many standard errors higher than the step before it.
 constexpr double kLeastRise = 3;
 
 double spin_of(const TimedCommand& command) {
   return (command.right_mps - command.left_mps) / kTreadDistance_m;
 }
 
-/// The samples of the camera that has most of them.
+/// The samples of the camera that has the most samples.
 std::vector<Sample> best_seen(std::span<const Sample> seen) {
   std::map<int, int> counts;
   for (const Sample& sample : seen)
@@ -47,7 +48,7 @@ std::vector<Sample> best_seen(std::span<const Sample> seen) {
   return best;
 }
 
-/// What was turned from one sample to another; nothing across a gap.
+/// The angle turned between the first and the last sample; nothing if there is a gap between them.
 std::optional<double> turned(std::span<const Sample> samples) {
   double sum = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -57,14 +58,15 @@ std::optional<double> turned(std::span<const Sample> samples) {
   return sum;
 }
 
-/// Whether commands `first` to the last before `until_s` turn as that one does.
+/// Whether all commands from `first` until `until_s` turn as fast as `first` does.
 bool is_steady(std::span<const TimedCommand> commands, std::size_t first, double until_s) {
   for (std::size_t i = first; i < commands.size() && commands[i].time_s < until_s; ++i)
     if (std::fabs(spin_of(commands[i]) - spin_of(commands[first])) > kSame_radps) return false;
   return true;
 }
 
-/// A part of the law: from a step on, so many of those commands had arrived whose successors had.
+/// A level of the distribution: from this step on, `had` of those `of` commands had acted whose
+/// successors had acted.
 struct Level {
   int step = 0;
   double had = 0;
@@ -73,7 +75,7 @@ struct Level {
   double arrived() const { return of > 0 ? had / of : 0; }
 };
 
-/// By how many standard errors the second level is higher.
+/// The height of the second level above the first, in standard errors.
 double rise(const Level& low, const Level& high) {
   if (low.of <= 0 || high.of <= 0) return low.of <= 0 && high.had > 0 ? kLeastRise : 0;
   const double both = (low.had + high.had + 0.5) / (low.of + high.of + 1);
@@ -81,8 +83,8 @@ double rise(const Level& low, const Level& high) {
          std::sqrt(both * (1 - both) * (1 / low.of + 1 / high.of));
 }
 
-/// Neighbours become one, the least different first, until all that are left rise: a law never
-/// falls, and chance makes many small steps of a large one.
+/// Joins neighbouring levels, the most similar first, until every level is clearly higher than the
+/// one before: a distribution never falls, and chance splits a large step into many small ones.
 void join_levels(std::vector<Level>& levels) {
   while (levels.size() > 1) {
     std::size_t least = 1;
@@ -106,7 +108,7 @@ std::vector<double> delays_of(std::span<const TimedCommand> commands, std::span<
   const double known_s = std::max(latency_s.value_or(kLongestLatency_s), 0.0);
   const double before_s = known_s + kBefore_s;
   const double after_s = known_s + kAfter_s;
-  std::size_t first = 0;  // since when commands turn as the last one does
+  std::size_t first = 0;  // first of the commands that turn as fast as the last one
   for (std::size_t i = 1; i < commands.size(); ++i) {
     const double change = spin_of(commands[i]) - spin_of(commands[first]);
     if (std::fabs(change) <= kSame_radps) continue;
@@ -143,7 +145,7 @@ std::vector<DrawnDelay> drawn_delays(std::vector<double> acted_s, double period_
   std::vector<Level> levels;
   const int last = std::max(0, static_cast<int>(std::ceil(acted_s.back() / kStep_s)));
   for (int step = 0; step <= last; ++step) {
-    // Within a period the same commands are counted at each step.
+    // Steps within one period count the same commands.
     const double share = kStep_s / period_s;
     levels.push_back(
         {step, share * acted(step * kStep_s), share * acted(step * kStep_s + period_s)});

@@ -19,13 +19,13 @@ constexpr double kLeastRate = 0.5;
 constexpr double kMostRate = 2.0;
 constexpr double kLeastShift_s = -0.2;
 constexpr double kMostShift_s = 0.8;
-/// Of the logarithm of the likelihood: what counts as far likelier.
+/// Difference of log-likelihoods that counts as "far likelier".
 constexpr double kFarLikelier = 20;
 constexpr double kLeastCorrelation = 0.5;
-/// In pairs of samples closer than that in time errors belong together.
+/// Errors of sample pairs closer in time than this are correlated.
 constexpr double kIndependent_s = 0.5;
 
-/// Sum of a commanded speed until a time.
+/// The integral of a commanded speed until a time.
 class Told {
  public:
   Told(const std::vector<TimedCommand>& commands, bool is_turn)
@@ -70,7 +70,7 @@ std::vector<Interval> intervals_of(std::span<const Sample> seen) {
   for (const Sample& sample : seen) {
     if (sample.use != Sample::Use::Used || sample.time_s < 0) continue;
     const Sample* const before = last[sample.camera];
-    // About a cycle apart, so that a film of many frames costs no more.
+    // Take samples about a cycle apart, so that a film with many frames costs no more.
     if (before != nullptr && sample.time_s - before->time_s < 0.9 * kPeriod_s) continue;
     last[sample.camera] = &sample;
     if (before == nullptr || sample.time_s - before->time_s > kLongestGap_s) continue;
@@ -90,7 +90,7 @@ struct LoggedRobot {
   Told turn;
 };
 
-/// The logarithm of the likelihood of a stretch and shift, up to a constant, and the correlation.
+/// The log-likelihood of a stretch and shift, up to a constant, and the correlation.
 struct Fit {
   double likelihood = 0;
   double correlation = 0;
@@ -134,7 +134,7 @@ struct Best {
   Fit fit;
 };
 
-/// At one rate, over all shifts.
+/// The best fit at one rate, over all shifts.
 Fit best_fit(const std::vector<LoggedRobot>& robots, double rate, double start_s) {
   Fit best{-1e300, 0};
   const double stretched_s = (1 - rate) * start_s;
@@ -176,7 +176,7 @@ FilmRate film_rate(std::span<const ToldAndSeen> all, double start_s) {
     found.reason = "no robot's log has commands while the camera saw it";
     return found;
   }
-  // So near that the next one is less than a cycle off at the end.
+  // With this step, two neighbouring rates differ by less than a cycle at the end of the run.
   const double step = std::clamp(kPeriod_s / std::max(end_s, 1.0), 0.001, 0.005);
   const Best coarse = best_of(robots, start_s, kLeastRate, kMostRate, step);
   const Best best =
@@ -185,8 +185,8 @@ FilmRate film_rate(std::span<const ToldAndSeen> all, double start_s) {
     found.reason = "robots did not move as their logs command, at no speed of the film";
     return found;
   }
-  // One that is far off needs to be known less well: half way to a right film, which it must be far
-  // likelier than, too.
+  // A rate far from 1 may be less precise: it is compared with rates half way to 1, and must also
+  // be far likelier than 1.
   constexpr double kAside = 0.01;
   const double away = std::max(kAside, std::fabs(best.rate - 1) / 2);
   double aside = std::max(best_fit(robots, best.rate * (1 + away), start_s).likelihood,

@@ -8,17 +8,18 @@
 
 namespace swarmsmith {
 
-/// What the camera saw of a robot between two of its frames.
+/// The motion of a robot between two frames of a camera.
 struct SeenInterval {
   double from_s = 0;
   double to_s = 0;
-  double ahead_m = 0;  ///< along the heading in the middle
+  double ahead_m = 0;  ///< along the mean heading
   double aside_m = 0;
   double turn_rad = 0;
 };
 
-/// Between each two samples of one camera that were used, up to a time. Samples that are over 0.25
-/// s apart say nothing of when something happened between them, and give none.
+/// The intervals between consecutive used samples of each camera, until `until_s`. Samples more
+/// than 0.25 s apart give no interval, because they do not show when something happened between
+/// them.
 std::vector<SeenInterval> intervals_of(std::span<const Sample> seen, double until_s);
 
 }  // namespace swarmsmith

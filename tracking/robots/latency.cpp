@@ -17,33 +17,34 @@
 namespace swarmsmith {
 namespace {
 
-/// Shifts that are tried; then the best one is refined, twice.
+/// Range and step of the shifts that are tried; the best one is then refined twice.
 constexpr double kLeast_s = -0.5;
 constexpr double kMost_s = 1.5;
 constexpr double kStep_s = 0.02;
 constexpr int kShifts = 101;
 constexpr double kFineStep_s = 0.005;
 
-/// Accelerations that are tried, m/s^2 and rad/s^2: the last ones are without a limit.
+/// Accelerations that are tried, m/s^2 and rad/s^2; the last one is practically unlimited.
 constexpr std::array kWayLimits{0.2, 0.4, 0.75, 1.5, 3.0, 8.0, 1000.0};
 constexpr std::array kTurnLimits{3.0, 6.0, 12.0, 25.0, 50.0, 100.0, 250.0, 1e5};
 
-/// A command holds that long where no other follows.
+/// Duration of the last command.
 constexpr double kPeriod_s = 0.1;
 constexpr double kBlock_s = 2;
 constexpr std::size_t kLeastIntervals = 50;
 constexpr double kLargestError_s = 0.02;
 constexpr double kLeastSurprise = 10;
-/// A limit that explains more than this is more than chance, though it may not be a limit.
+/// An acceleration limit that improves the fit by more than this is not chance, although the motion
+/// may have another cause.
 constexpr double kLeastDoubt = 2;
-/// What is commanded below this over a whole run is standing: metres and radians.
+/// A robot whose commands over a whole run sum to less than this stands still: metres and radians.
 constexpr double kLeastWay_m = 0.05;
 constexpr double kLeastTurn_rad = 0.5;
-/// Sums of squares of a motion without noise are not less.
+/// Lower bound of the sums of squares, for motion without noise.
 constexpr double kLeastSquares = 1e-12;
 
-/// What treads do that follow their commands with a limited acceleration: how far they came until a
-/// time. `values` are the commanded speeds; before the first one the treads stand.
+/// The motion of treads that follow their commands with a limited acceleration, as the distance
+/// until a time. `values` are the commanded speeds; before the first one the treads do not move.
 class Response {
  public:
   Response(std::span<const TimedCommand> commands, const std::vector<double>& values, double limit)
@@ -79,7 +80,7 @@ class Response {
  private:
   static constexpr double kTable_s = 0.005;
 
-  /// Over one step of the table; `next` is the first command that was not reached before.
+  /// Mean command over one step of the table; `next` is the first command after the previous step.
   static double mean_command(std::span<const TimedCommand> commands,
                              const std::vector<double>& values, double from_s, std::size_t& next) {
     const double to_s = from_s + kTable_s;
@@ -97,15 +98,15 @@ class Response {
   std::vector<double> ways_;
 };
 
-/// Commanded and seen motion of one kind at one shift.
+/// Commanded and seen motion of one kind, at one shift.
 struct Fit {
-  std::vector<double> told;      ///< an interval
-  std::array<double, 2> gain{};  ///< ahead and aside; of a turn the first alone
-  double left = kLeastSquares;   ///< sum of squares
+  std::vector<double> told;      ///< commanded motion of each interval
+  std::array<double, 2> gain{};  ///< ahead and to the side; for turns only the first
+  double left = kLeastSquares;   ///< sum of squared residuals
   double agreement = 0;
 };
 
-/// What the camera saw, of one kind: the ways ahead and aside, or the turns.
+/// Seen motion of one kind: distances ahead and to the side, or turns.
 class Seen {
  public:
   Seen(const std::vector<SeenInterval>& intervals, bool is_turn)
@@ -135,16 +136,17 @@ class Seen {
     }
     if (told > 0) fit.gain = {both[0] / told, both[1] / told};
     fit.left = std::max(seen - both[0] * fit.gain[0] - both[1] * fit.gain[1], kLeastSquares);
-    // A turn to the other side is not agreement; a way to the other side is a heading that is off.
+    // A turn in the opposite direction is disagreement; a distance in another direction means that
+    // the heading is off.
     const double common = is_turn_ ? both[0] : hypot(both[0], both[1]);
     if (told > 0 && seen > 0) fit.agreement = common / std::sqrt(told * seen);
     return fit;
   }
 
-  /// Numbers seen, whose variance is one.
+  /// Number of seen values, all with the same variance.
   double count() const { return static_cast<double>(intervals_.size()) * (is_turn_ ? 1 : 2); }
 
-  /// Minus the logarithm of the likelihood with the variance that makes it largest.
+  /// The negative log-likelihood, with the variance that maximises the likelihood.
   double surprise(const Fit& fit) const { return count() / 2 * std::log(fit.left / count()); }
 
  private:
@@ -152,8 +154,7 @@ class Seen {
   bool is_turn_;
 };
 
-/// Treads that followed their commands: one kind of motion, and the acceleration that fits them
-/// best.
+/// One kind of motion of the treads, with the acceleration limit that fits it best.
 class Followed {
  public:
   Followed(std::span<const TimedCommand> commands, std::vector<double> values, Seen seen,
@@ -163,10 +164,10 @@ class Followed {
       responses_.emplace_back(commands_, values_, limit);
   }
 
-  /// Whether accelerations are limited from now on.
+  /// Sets whether accelerations are limited.
   void limit(bool is_limited) { is_limited_ = is_limited; }
 
-  /// At a shift, the best of the limits that are tried; remembers none.
+  /// The surprise at a shift with the best of the limits that are tried; does not keep this limit.
   double coarse(double shift_s) const {
     if (!is_limited_) return seen_.surprise(seen_.fit(responses_.back(), shift_s));
     double least = kNone;
@@ -175,7 +176,7 @@ class Followed {
     return least;
   }
 
-  /// From now on limits are looked for around the best one at this shift.
+  /// From now on, limits are searched around the best limit at this shift.
   void settle(double shift_s) {
     double least = kNone;
     for (std::size_t i = 0; i < responses_.size(); ++i) {
@@ -187,7 +188,7 @@ class Followed {
     }
   }
 
-  /// The limit at which the surprise is least, by golden sections.
+  /// The limit with the smallest surprise, by golden-section search.
   double best_limit(double shift_s) const {
     constexpr double kGolden = 0.6180339887498949;
     constexpr int kSections = 9;
@@ -235,8 +236,8 @@ class Followed {
   double high_ = 0;
 };
 
-/// Adds to each block of time what one kind of motion makes of a shift: the surprise with gain,
-/// variance and acceleration of the best one.
+/// Adds the surprise of one kind of motion at a shift to each block of time, with gain, variance
+/// and acceleration of the best shift.
 void add_blocks(const Followed& motion, const std::vector<SeenInterval>& intervals, double shift_s,
                 double by_s, std::map<std::int64_t, double>& blocks) {
   const Response response = motion.response_of(motion.best_limit(shift_s));
@@ -252,8 +253,8 @@ void add_blocks(const Followed& motion, const std::vector<SeenInterval>& interva
   }
 }
 
-/// The sum over blocks of their squared slopes, divided by the squared curvature: the variance when
-/// the errors of a block belong together. At least that of errors that do not.
+/// The sum of the blocks' squared slopes, divided by the squared curvature: the variance if the
+/// errors within a block are correlated. At least the variance of independent errors.
 double sandwich_variance(const Followed& way, const Followed& turn,
                          const std::vector<SeenInterval>& intervals, double shift_s) {
   using Blocks = std::map<std::int64_t, double>;
@@ -289,7 +290,7 @@ double sum_of_sizes(const std::vector<double>& values) {
   return sum;
 }
 
-/// A place between three neighbours that are `step` apart, and how much the curve bends there.
+/// The minimum of a parabola through three points that are `step` apart, and its curvature.
 struct Parabola {
   double off = 0;
   double curvature = 0;
@@ -301,12 +302,12 @@ Parabola parabola(double before, double here, double after, double step) {
   return {std::clamp(step * (before - after) / (2 * bend), -step, step), bend / (step * step)};
 }
 
-/// The shift that fits best, with limited accelerations or without.
+/// The best shift, with or without limited accelerations.
 struct Shift {
   double shift_s = 0;
   double surprise = 0;
-  double curvature = 0;    ///< 0 where none is found
-  bool is_beyond = false;  ///< it lies at the end of what is tried
+  double curvature = 0;    ///< 0 if none was found
+  bool is_beyond = false;  ///< it lies at the end of the range of shifts
 };
 
 Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
@@ -321,12 +322,12 @@ Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
       static_cast<std::size_t>(std::ranges::min_element(surprises) - surprises.begin());
   Shift best{.shift_s = kLeast_s + kStep_s * static_cast<double>(least),
              .surprise = surprises[least]};
-  // Where all shifts fit alike, none is the best.
+  // If all shifts fit equally well, there is no best shift.
   if (least == 0 || least + 1 == surprises.size()) {
     best.is_beyond = std::ranges::max(surprises) - best.surprise > kLeastSurprise;
     return best;
   }
-  // A shift has its own best limit, and the valley of both is narrower than the steps above.
+  // Each shift has its own best limit, and the joint minimum is narrower than the steps above.
   const auto settled = [&](double shift_s) {
     way.settle(shift_s);
     turn.settle(shift_s);
@@ -344,7 +345,7 @@ Shift best_shift(Followed& way, Followed& turn, bool is_limited) {
     const auto at = [&](double by_s) { return settled(best.shift_s + by_s); };
     best.surprise = at(0);
     const Parabola curve = parabola(at(-step), best.surprise, at(step), step);
-    // Between frames a curve may be flat that bends over a whole frame.
+    // Within the time between frames the curve may be flat, although it bends over a whole frame.
     if (curve.curvature > 0) best.curvature = curve.curvature;
     if (step == kFineStep_s) best.shift_s += curve.off;
   }
@@ -374,8 +375,8 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
   }
   Followed way(commands, std::move(speeds), Seen(intervals, false), kWayLimits);
   Followed turn(commands, std::move(spins), Seen(intervals, true), kTurnLimits);
-  // Where commands change at the same place between frames each time, a limit and a shift can take
-  // each other's part: a limit must be worth it.
+  // If commands always change at the same phase between frames, a limit and a shift can replace
+  // each other, so a limit must improve the fit enough.
   const Shift unlimited = best_shift(way, turn, false);
   const Shift limited = best_shift(way, turn, true);
   const double worth = unlimited.surprise - limited.surprise;
@@ -417,7 +418,8 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
         1000 * latency.error_s, 1000 * kLargestError_s);
     return latency;
   }
-  // How long treads take to their speed cannot be told, then, and may be a part of the latency.
+  // In this case the time that treads need to reach their speed is unknown, and may be a part of
+  // the latency.
   if (!is_limited && worth > kLeastDoubt && !limited.is_beyond)
     latency.error_s = std::hypot(latency.error_s, limited.shift_s - unlimited.shift_s);
   latency.seconds = best.shift_s;

@@ -10,7 +10,7 @@ namespace {
 using Outcome = Check::Outcome;
 
 constexpr Question kOwnLog{"log of this run", "", "a log of another run, robot or machine"};
-/// Its number are the cycles that it lost.
+/// The value of this check is the share of cycles that were lost.
 constexpr Question kNode{"robot's own verdict", "%", "a robot that stood still or skipped cycles"};
 constexpr Question kDriver{"driver watched", "s",
                            "treads that did not obey: a driver that was silent, dead, replaced, "
@@ -24,7 +24,7 @@ constexpr Question kWay{"way of what was told", "% off",
 constexpr Question kMotion{"motion as commanded", "",
                            "logs or tags that were swapped, a robot that was held, a wrong start"};
 
-/// The worst that was found of a robot under some codes.
+/// The worst outcome of a robot's issues with some codes.
 Outcome worst_of(const std::vector<Issue>& issues, const std::string& robot,
                  std::initializer_list<IssueCode> codes) {
   auto worst = Outcome::Passed;
@@ -36,7 +36,7 @@ Outcome worst_of(const std::vector<Issue>& issues, const std::string& robot,
   return worst;
 }
 
-/// Its number is the longest time for which the treads were not known to obey.
+/// The value of this check is the longest time for which the treads were not known to obey.
 Check driver_check(const RobotLog& log) {
   const std::string& robot = log.robot;
   if (!log.record.head.end) return not_asked(kDriver, robot, "its log has no end");
@@ -52,7 +52,8 @@ Check driver_check(const RobotLog& log) {
   constexpr std::array kOutcomes = {Outcome::Passed, Outcome::Warned, Outcome::Failed};
   const Outcome outcome = kOutcomes.at(static_cast<std::size_t>(end.driver));
   const double limit_s = outcome == Outcome::Failed ? kDriverGone_s : kDriverOff_s;
-  // There are other ways not to obey.
+  // The time off explains the outcome only if both are on the same side of the limit; treads can
+  // disobey in other ways.
   const bool is_why = (end.driver_off_s > limit_s) == (outcome != Outcome::Passed);
   return is_why ? answered(kDriver, robot, outcome, end.driver_off_s, limit_s)
                 : answered(kDriver, robot, outcome);
@@ -71,7 +72,7 @@ void ask_treads(const std::string& robot, const Reality& reality, std::vector<Ch
                             : not_asked(kWay, robot, way.reason));
 }
 
-/// All that is asked of one robot that has a log.
+/// All checks of one robot that has a log.
 void ask(const RobotLog& log, const std::optional<Latency>& latency,
          const std::optional<Reality>& reality, const RunLog& run, const std::vector<Issue>& issues,
          std::vector<Check>& checks) {
@@ -106,7 +107,7 @@ void ask_node(const std::string& robot, const RobotLog* log, const RobotNote* no
     const LogCounts counts = log_counts(log->record);
     const double lost = static_cast<double>(counts.held + counts.skipped) / run.mission.cycles;
     const double limit = outcome == Outcome::Failed ? kInvalidShare : kDegradedShare;
-    // A node may have other reasons.
+    // The node may have other reasons for its verdict.
     const bool is_why = (lost > limit) == (outcome != Outcome::Passed);
     checks.push_back(is_why ? answered(kNode, robot, outcome, 100 * lost, 100 * limit)
                             : answered(kNode, robot, outcome));

@@ -12,18 +12,18 @@
 namespace swarmsmith {
 namespace {
 
-/// Nearer than the range by this much, a robot is there whatever the noise.
+/// A robot nearer than the range minus this is within the range despite the noise.
 constexpr double kEdge_m = 0.05;
-/// What is seen may be so far from where the robot is: it moves between reading and cycle, and a
-/// lidar sees the side that faces it.
+/// Largest distance between a seen neighbour and the robot: the robot moves between reading and
+/// cycle, and a lidar sees the near side of it.
 constexpr double kOff_m = 0.25;
 constexpr double kBlock_s = 2;
 constexpr std::int64_t kLeastChances = 50;
 constexpr std::size_t kLeastBlocks = 5;
-/// Where most of what is seen is nowhere, directions or logs are wrong.
+/// If more than this share of the seen neighbours do not exist, directions or logs are wrong.
 constexpr double kMostPhantoms = 0.5;
 
-/// Poses of all robots at a time of the run; none where the camera does not know one of them.
+/// Poses of all robots at a time of the run; none if the camera does not know the pose of one.
 std::optional<std::vector<Pose>> poses_at(const TrackedRun& run, double time_s) {
   if (run.starts.size() != run.robots.size()) return std::nullopt;
   const double place = time_s / kControlPeriod_s;
@@ -42,7 +42,7 @@ std::optional<std::vector<Pose>> poses_at(const TrackedRun& run, double time_s) 
   return poses;
 }
 
-/// Takes the nearest of what the log has out of it, if one is near enough.
+/// Removes the nearest seen neighbour from `seen`, if it is near enough.
 bool take(std::vector<Point>& seen, Point place) {
   const auto off = [&](Point point) { return hypot(point.x - place.x, point.y - place.y); };
   const auto nearest = std::ranges::min_element(seen, {}, off);
@@ -51,7 +51,7 @@ bool take(std::vector<Point>& seen, Point place) {
   return true;
 }
 
-/// Chances and what became of them, of one span of time.
+/// Chances to see a neighbour in a period, and how many were used.
 struct Block {
   double there = 0;
   double seen = 0;
@@ -118,7 +118,8 @@ class Count {
     for (const auto& [number, block] : blocks_)
       squares += std::pow(block.seen - seen / there * block.there, 2);
     const auto count = static_cast<double>(blocks);
-    // None missed does not prove that none ever will be: one chance in two is taken for a miss.
+    // No miss so far does not prove that there will never be one, so at least half a miss is
+    // assumed.
     const double least =
         std::sqrt((seen + 0.5) * (there - seen + 0.5)) / (there + 1) / std::sqrt(there);
     result.error = std::max(std::sqrt(squares * count / (count - 1)) / there, least);

@@ -12,11 +12,11 @@
 namespace swarmsmith {
 namespace {
 
-/// Nearer than by this a robot may touch what is there.
+/// A robot may touch things that are nearer than this.
 constexpr double kRoom_m = 0.03;
 constexpr std::int64_t kLeastCycles = 50;
 
-/// From the centre to the farthest corner.
+/// The distance from the centre to the farthest corner.
 double radius_of(const Outline& outline) {
   return std::visit(
       Overloaded{[](const CircleOutline& circle) { return circle.radius_m; },
@@ -40,7 +40,7 @@ double distance_to(const Wall& wall, Point point) {
   return hypot(px - share * dx, py - share * dy);
 }
 
-/// Whether the robot touches neither wall nor robot at an instant.
+/// Whether the robot touches neither a wall nor another robot at an instant.
 bool is_free_at(const RobotOfRun& of, std::span<const Pose> poses) {
   const Point own = poses[of.robot].position();
   const double reach_m = radius_of(of.mission.robot.body.outline) + kRoom_m;
@@ -59,9 +59,9 @@ bool is_free_at(const RobotOfRun& of, std::span<const Pose> poses) {
   return true;
 }
 
-/// The instants at which the robot is free, the start being 0.
+/// For each instant, whether the robot is free; index 0 is the start.
 std::vector<bool> free_instants(const RobotOfRun& of) {
-  if (of.run.starts.size() != of.run.robots.size()) return {};  // where they were is unknown
+  if (of.run.starts.size() != of.run.robots.size()) return {};  // initial positions are unknown
   std::vector<bool> free{is_free_at(of, of.run.starts)};
   for (int instant = 0; instant < of.run.trajectory.instants(); ++instant)
     free.push_back(is_free_at(of, of.run.trajectory.at(instant)));
@@ -93,7 +93,7 @@ double begin_of(const RunRecord& record) {
 }
 
 std::vector<TimedCommand> commands_of(const RunRecord& record) {
-  // Robots begin when their own clock says so.
+  // A robot starts when its own clock reaches the start time.
   const double begin_s = begin_of(record);
   std::vector<TimedCommand> commands;
   commands.reserve(record.rows.size());
@@ -117,7 +117,7 @@ Reality reality_of(const RobotOfRun& of, const Latency& latency) {
   const std::vector<TimedCommand> commands = commands_of(of.log.record);
   Slip slip = slip_of(commands, samples, latency.seconds, is_free);
   std::vector<double> delays_s;
-  // One that varies much is not told as a number, but single commands tell it.
+  // A latency that varies much is not given as a number, but single commands still show it.
   const bool follows = latency.agreement.value_or(0) >= kLeastAgreement && !latency.beyond;
   slip.way.is_against = slip.way.is_against && follows && robot.has_heading;
   if (follows && slip.turn.gain)

@@ -13,35 +13,36 @@
 
 namespace swarmsmith {
 
-/// What a run tells of the world as it is, of one robot: what a simulator's profile can be made of.
+/// The behaviour of one robot in a real run, as far as a simulator's profile can use it.
 struct Reality {
   Latency latency;
   Slip slip;
-  std::vector<double> delays_s;  ///< of single commands, delays_of; empty where none can be told
+  std::vector<double> delays_s;  ///< delays of single commands, from delays_of; empty if unknown
   NeighboursSeen neighbours;
-  std::optional<double> period_s;                ///< of its control cycles; none of fewer than 50
-  std::vector<std::pair<int, double>> states_s;  ///< time in each state of its machine, by state
+  std::optional<double> period_s;                ///< of its control cycles; none for fewer than 50
+  std::vector<std::pair<int, double>> states_s;  ///< time in each state of its machine
 };
 
 /// A robot in a run.
 struct RobotOfRun {
   const TrackedRun& run;
   const Mission& mission;
-  std::size_t robot = 0;  ///< its number
+  std::size_t robot = 0;  ///< its index in the run
   const RobotLog& log;
 };
 
-/// `latency` as judge_robots found it. Pure.
+/// Determines the behaviour of a robot; `latency` is the result of judge_robots. Pure.
 Reality reality_of(const RobotOfRun& of, const Latency& latency);
 
-/// By the log's readings and the camera's poses at the time they were taken: a robot is there when
-/// it is well within the range of neighbours, and seen when the log has one in its direction and at
-/// its distance. What a stored log knows of them is taken where it has no readings.
+/// Compares the log's readings with the camera's poses at the time of the readings. A neighbour
+/// counts as present if it is well within the range of neighbours, and as seen if the log has a
+/// neighbour in its direction and at its distance. A stored log without readings gives the result
+/// that was stored with it.
 NeighboursSeen neighbours_of(const RobotOfRun& of);
 
-/// The clock of the robot at 0 s of the run.
+/// The time on the robot's clock at the start of the run.
 double begin_of(const RunRecord& record);
-/// Speeds of the treads as the log has them, by the time of the run.
+/// The tread speeds in the log, by the time of the run.
 std::vector<TimedCommand> commands_of(const RunRecord& record);
 
 }  // namespace swarmsmith

@@ -78,7 +78,7 @@ NeighboursSeen neighbours_in_report(const std::string& report, const std::string
       return neighbours;
     }
   } catch (const nlohmann::json::exception&) {
-    return unknown;  // a user's own report
+    return unknown;  // the user wrote the report
   }
   return unknown;
 }

@@ -10,15 +10,15 @@
 namespace swarmsmith {
 namespace {
 
-/// Motion before its command: half a cycle. A start, and where a speed begins to change between two
-/// pictures, are not known better.
+/// How much earlier than its command a motion may seem to begin: half a cycle. The start, and the
+/// moment between two pictures when a speed begins to change, are not known more precisely.
 constexpr double kEarly_s = 0.05;
 
 Verdict verdict_of(RunVerdict verdict) {
   return *verdict_from_name(name_of(verdict));
 }
 
-/// What is known of one robot.
+/// The data on one robot.
 struct Known {
   const TrackedRobot& robot;
   const RobotLog* log;    ///< may be null
@@ -47,7 +47,7 @@ class Judge {
     judge_treads(known, reality);
   }
 
-  /// Once all robots were judged: all of them see the same film.
+  /// Called once all robots were judged, because they share the film.
   void judge_film() {
     constexpr double kTolerance_s = 0.2;
     Check check{.name = "film beside the robots' logs",
@@ -83,7 +83,7 @@ class Judge {
 
   double duration_s() const { return run_.mission.cycles * kControlPeriod_s; }
 
-  /// The worse of what the log and the note say, with all reasons.
+  /// Takes the worse verdict of log and note, with the reasons of both.
   void judge_node(const Known& known) {
     std::optional<Verdict> verdict;
     std::vector<std::string> reasons;
@@ -111,7 +111,7 @@ class Judge {
             reasons.empty() ? "it gives no reason" : fmt::format("{}", fmt::join(reasons, "; "))));
   }
 
-  /// A node that was killed has no verdict; its rows tell how it kept its clock.
+  /// A node that was killed has no verdict; its rows show how many cycles it lost.
   void judge_without_end(const Known& known) {
     const LogCounts counts = log_counts(known.log->record);
     const std::int64_t lost = counts.skipped + counts.held;
@@ -166,7 +166,7 @@ class Judge {
     return latency;
   }
 
-  /// What a driver says of them may be wrong.
+  /// The treads' motion is checked here, because a driver's report on them may be wrong.
   void judge_treads(const Known& known, const Reality& reality) {
     if (is_late(reality.latency)) {
       add(IssueCode::MotionUnlikeLog, known,

@@ -14,16 +14,18 @@
 namespace swarmsmith {
 namespace {
 
-/// A command holds that long where no other follows.
+/// Duration of the last command.
 constexpr double kPeriod_s = 0.1;
-/// Commands that differ by less are the same, m/s.
+/// Commands that differ by less than this count as equal, m/s.
 constexpr double kSame_mps = 0.01;
-/// Treads need so long to come to a speed: an RVR has 0.75 m/s^2, and may reverse from 0.35 m/s.
+/// Time that treads need to reach a speed: an RVR accelerates at 0.75 m/s^2, and may reverse from
+/// 0.35 m/s.
 constexpr double kWaySettles_s = 1.0;
 constexpr double kTurnSettles_s = 0.25;
 constexpr double kLatencySpread_s = 0.15;
 constexpr double kLongestLatency_s = 0.5;
-/// Slower motion says little of slip, and straight ways turn less.
+/// Slower motion shows little about slip; turns of straight motion are slower than
+/// `kMostSpin_radps`.
 constexpr double kLeastSpeed_mps = 0.03;
 constexpr double kLeastSpin_radps = 0.3;
 constexpr double kMostSpin_radps = 0.3;
@@ -32,12 +34,13 @@ constexpr double kLeastSeconds = 2;
 constexpr std::size_t kLeastBlocks = 4;
 constexpr double kLargestError = 0.05;
 
-/// Commands that hold from one time to another.
+/// Finds periods with constant commands.
 class Steady {
  public:
   explicit Steady(std::span<const TimedCommand> commands) : commands_(commands) {}
 
-  /// Their mean, where they are the same all the time. `from_s` never decreases from call to call.
+  /// The mean command of a period, if the command is constant in it. `from_s` must not decrease
+  /// from call to call.
   std::optional<TimedCommand> within(double from_s, double to_s) {
     while (first_ + 1 < commands_.size() && commands_[first_ + 1].time_s <= from_s)
       ++first_;
@@ -62,7 +65,7 @@ class Steady {
   std::size_t first_ = 0;
 };
 
-/// Told and seen of one kind: a number, and one across it.
+/// Commanded and seen motion of one kind; seen motion also has a component to the side.
 struct Pair {
   double time_s = 0;
   double seconds = 0;
@@ -82,7 +85,8 @@ Gain gain_of(const std::vector<Pair>& pairs, const std::string& what) {
   }
   std::map<std::int64_t, double> blocks;
   if (told > 0) {
-    // A heading that is off by a constant angle makes a way ahead one to the side.
+    // If the heading is off by a constant angle, a part of the distance ahead appears as distance
+    // to the side.
     const double size = both[1] == 0 ? both[0] / told : hypot(both[0], both[1]) / told;
     const double scale = size == 0 ? 0 : 1 / (size * told);
     for (const Pair& pair : pairs) {
@@ -131,7 +135,7 @@ Slip slip_of(std::span<const TimedCommand> commands, std::span<const Sample> see
   std::vector<Pair> ways;
   std::vector<Pair> turns;
   auto intervals = intervals_of(seen, commands.back().time_s + kPeriod_s + most_s);
-  std::ranges::sort(intervals, {}, &SeenInterval::from_s);  // of several cameras
+  std::ranges::sort(intervals, {}, &SeenInterval::from_s);  // the intervals of several cameras
   for (const SeenInterval& interval : intervals) {
     const double seconds = interval.to_s - interval.from_s;
     const auto told_of = [&](Steady& steady, double settles_s) {

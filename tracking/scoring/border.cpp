@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kDirections = 1000;
 
-/// Looks for a parameter that says when the score looks. A formula may see more than the floor, so
-/// that it has no borders.
+/// Finds the parameter that says when the score is computed. A formula may use more than the floor,
+/// so it has no borders.
 struct EndFinder {
   bool found = false;
   bool has_formula = false;
@@ -30,14 +30,14 @@ struct EndFinder {
   void operator()(const ScoreField& /*field*/, const Value& /*value*/) {}
 };
 
-/// What a robot that stands there alone scores.
+/// The score of a single robot at a point.
 double share_at(const ScoreRule& rule, const Arena& arena, Point point) {
   Scorer scorer(rule, arena);
   scorer.observe(std::span(&point, 1));
   return scorer.score();
 }
 
-/// Where along a ray patches begin and end, metres.
+/// A place where a ray crosses the border of a patch.
 struct Crossing {
   double distance_m = 0;
   const Patch* patch = nullptr;
@@ -77,7 +77,8 @@ class LineOfSight {
     add(along + half, patch, crossings);
   }
 
-  /// Where the ray crosses the lines of a grid of pixels; a rectangle has but one.
+  /// Adds the crossings of the ray with the lines of a grid of pixels; a rectangle is a grid of one
+  /// pixel.
   void cross_grid(const Rectangle& area, int columns, int rows, const Patch& patch,
                   std::vector<Crossing>& crossings) const {
     const Point low{area.centre.x - 0.5 * area.width_m, area.centre.y - 0.5 * area.height_m};
@@ -97,7 +98,7 @@ class LineOfSight {
   Point direction_;
 };
 
-/// Directions that the nearest point of a disc or rectangle may lie in, and all others in steps.
+/// The directions in which the nearest point of a disc or rectangle may be, and regular steps.
 std::vector<Point> directions_from(Point point, const Arena& arena) {
   std::vector<Point> directions{{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const auto towards = [&](double x, double y) {
@@ -122,7 +123,7 @@ std::vector<Point> directions_from(Point point, const Arena& arena) {
   return directions;
 }
 
-/// Where along the ray the share changes first, if nearer than `best`.
+/// Finds the first place along the ray where the share changes, if it is nearer than `best`.
 void look_along(const LineOfSight& ray, const ScoreRule& rule, const Arena& arena, double here,
                 std::optional<NearestBorder>& best) {
   std::vector<Crossing> crossings;
@@ -133,7 +134,7 @@ void look_along(const LineOfSight& ray, const ScoreRule& rule, const Arena& aren
     const double distance = crossings[i].distance_m;
     if (best && distance >= best->distance_m) return;
     const bool is_last = i + 1 == crossings.size();
-    // Within the strip behind this crossing; a strip of no width is none.
+    // The middle of the strip behind this crossing; strips of no width are skipped.
     const double behind = is_last ? distance + 1e-3 : crossings[i + 1].distance_m;
     if (behind - distance < 1e-9) continue;
     const double beyond = share_at(rule, arena, ray.at(0.5 * (distance + behind)));

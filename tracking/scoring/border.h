@@ -7,25 +7,25 @@
 
 namespace swarmsmith {
 
-/// Whether the score depends on where the robots are at the last instant alone.
+/// Whether the score depends only on the positions of the robots at the last instant.
 bool is_scored_at_the_end(const ScoreRule& rule);
 
-/// The nearest place where a robot's share of the score, which is what it would score alone, is
-/// another one.
+/// The nearest place where a robot's share of the score changes; its share is the score that it
+/// would get alone.
 struct NearestBorder {
   double distance_m = 0;
   std::string name;   ///< "black spot at (0, 0)", "green patch at (0.3, 0)"
-  double here = 0;    ///< the robot's share
+  double here = 0;    ///< the robot's share at its place
   double beyond = 0;  ///< its share on the other side
 };
 
-/// The border nearest to a point, looked for in all directions to where the floor changes; exact
-/// for discs and rectangles that do not overlap, else to the 1/1000 of a turn. Nothing when there
-/// is none, or when the score looks at more than the last instant. `arena` with the patches of the
-/// run.
+/// The nearest border around a point, searched in all directions where the floor may change. Exact
+/// for discs and rectangles that do not overlap, otherwise searched in steps of 1/1000 of a turn.
+/// Nothing if there is no border, or if the score uses more than the last instant. `arena` includes
+/// the patches of the run.
 std::optional<NearestBorder> nearest_border(const ScoreRule& rule, const Arena& arena, Point point);
 
-/// "black spot at (0, 0)".
+/// A patch as text: "black spot at (0, 0)".
 std::string patch_text(const Patch& patch);
 
 }  // namespace swarmsmith

@@ -16,9 +16,10 @@
 namespace swarmsmith {
 namespace {
 
-/// Below, the best colour is hardly better than the next.
+/// With a smaller confidence, the best colour is hardly better than the second best.
 constexpr double kLeastConfidence = 0.35;
-/// Two colours of the labeler are 1 apart: further off than this is another colour.
+/// Neighbouring colours of the labeler are 1 apart; a measured colour farther away than this
+/// matches none.
 constexpr double kMostDistance = 0.6;
 
 Unexpected missing(const std::string& text, const Mission& mission) {
@@ -31,7 +32,7 @@ std::string ratio_text(const std::array<double, 3>& ratio) {
                      ratio[1], ratio[2]);
 }
 
-/// Channel by channel, over the pictures.
+/// The median over the pictures, channel by channel.
 std::array<double, 3> median_ratio(const std::vector<std::array<double, 3>>& ratios) {
   std::array<double, 3> medians{};
   for (std::size_t channel = 0; channel < medians.size(); ++channel) {
@@ -44,7 +45,7 @@ std::array<double, 3> median_ratio(const std::vector<std::array<double, 3>>& rat
   return medians;
 }
 
-/// Whether some of the places stay bare.
+/// Whether some of the places have no patch.
 bool has_bare_places(const Mission& mission) {
   std::size_t patches = 0;
   for (const ShuffledPatches::Share& share : mission.shuffled.shares)
@@ -52,7 +53,7 @@ bool has_bare_places(const Mission& mission) {
   return patches < mission.shuffled.places.size();
 }
 
-/// The mission's colours, and its floor.
+/// The mission's colours, and the colour of its floor.
 std::vector<Rgb> candidates_of(const Mission& mission) {
   std::vector<Rgb> colors;
   for (const ShuffledPatches::Share& share : mission.shuffled.shares)
@@ -84,7 +85,7 @@ Expected<MeasuredPatch> measured_patch(const Rectangle& place,
   return patch;
 }
 
-/// How many places have a colour.
+/// The number of places with a colour.
 std::int64_t count_of(const MeasuredLayout& layout, Rgb color) {
   return std::ranges::count(layout.places, color, &MeasuredPatch::color);
 }

@@ -26,11 +26,11 @@ std::array<double, 8> flat(const TagCorners& corners) {
   return numbers;
 }
 
-/// The same run has the same key, whatever it is scored with.
+/// The key of a run; it does not depend on the rig or the program with which the run is scored.
 std::string key_of(const RunFindings& run, const std::vector<double>& starts_s) {
   std::string text;
   for (std::size_t i = 0; i < run.observations.cameras.size(); ++i) {
-    // To the millisecond: what is nearer is the same begin.
+    // Rounded to milliseconds: starts that differ by less are the same.
     text += fmt::format("{} {:.3f}\n", run.observations.cameras[i].sha256, starts_s[i]);
   }
   return sha256_of(text);
@@ -171,7 +171,7 @@ RealPatchRow patch_row(const Patch& patch) {
                           row.width_m = box.width_m;
                           row.height_m = box.height_m;
                         },
-                        // Patches of a run lie on places, which are rectangles.
+                        // Patches of a run are on places, which are rectangles.
                         [](const FloorImage&) {}},
              patch.shape);
   return row;

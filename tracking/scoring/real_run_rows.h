@@ -10,21 +10,21 @@
 
 namespace swarmsmith {
 
-/// The run as rows; `starts_s` is of RunSpan. Left for the caller: the candidate, and of the score
-/// the report and the program. The key is one of the videos' bytes and of where in them the run
-/// begins.
+/// The rows of a run for a store; `starts_s` is RunSpan::starts_s. The caller adds the candidate,
+/// and the score's report and program. The key depends on the videos' contents and on the time in
+/// them at which the run begins.
 RealRunRows real_run_rows(const RunFindings& run, const std::string& arena_text,
                           const std::vector<double>& starts_s);
 
-/// What a run is scored from, without its videos.
+/// The data from which a run is scored, without its videos.
 struct StoredRun {
   Rig rig;  ///< with all robots and cameras of the arena file
   RunLog log;
   Observations observations;
 };
 
-/// The other way round, calibrations included; corners as stores keep them, which is all that
-/// track_run looks at. Fails as parse_rig and parse_run_log do.
+/// The inverse of real_run_rows, including calibrations; corners are rounded as in stores, which is
+/// all that track_run uses. Fails like parse_rig and parse_run_log.
 OrComplaints<StoredRun> stored_run(const RealRunRows& rows);
 
 }  // namespace swarmsmith

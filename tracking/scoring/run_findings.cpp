@@ -28,7 +28,7 @@ const Item* item_of(const std::vector<Item>& items, const std::string& name, Par
   return found == items.end() ? nullptr : &*found;
 }
 
-/// Of a robot; lists of a run that was not asked are empty.
+/// The item of a robot; a list that was not computed is empty.
 template <class Item>
 const Item* item_of(const std::vector<std::optional<Item>>& items, std::size_t robot) {
   return robot < items.size() && items[robot] ? &*items[robot] : nullptr;

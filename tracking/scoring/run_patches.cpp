@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Logs are written by people, with centimetres.
+/// People write positions in logs with a precision of centimetres.
 constexpr double kSamePlace_m = 0.005;
 
 double distance(Point a, Point b) {
@@ -24,7 +24,8 @@ Unexpected wrong(const std::string& text, const Mission& mission) {
   return Unexpected(error_of(IssueCode::Config, text, mission.name));
 }
 
-/// The colours' numbers must be the mission's: else it is another mission.
+/// The number of patches of each colour must agree with the mission; otherwise the log is of
+/// another mission.
 std::optional<std::string> wrong_number(const Mission& mission, const std::vector<Patch>& patches) {
   for (const ShuffledPatches::Share& share : mission.shuffled.shares) {
     const auto count = std::ranges::count(patches, share.color, &Patch::color);

@@ -16,10 +16,10 @@ constexpr Question kBorder{"border at the end", "mm", "a robot that may stand on
 constexpr Question kPatches{"places of the patches", "",
                             "colour patches that are not the mission's"};
 
-/// A robot nearer to a border than this many sigmas may stand on its other side.
+/// A robot nearer to a border than this many sigmas may be on the other side.
 constexpr double kSigmas = 3;
 
-/// What keeps a run from being scored, whatever was seen in it.
+/// The reason why a run cannot be scored, whatever was seen in it.
 std::optional<Error> misfit(const TrackedRun& run, const Mission& mission) {
   const auto wrong = [&](const std::string& text) {
     return error_of(IssueCode::Config, text, mission.name);
@@ -40,7 +40,8 @@ std::optional<Error> misfit(const TrackedRun& run, const Mission& mission) {
   return std::nullopt;
 }
 
-/// Distances to the borders at the end, and issues for those too near to tell the sides.
+/// Computes the distances to the borders at the end, and adds an issue for each robot whose side is
+/// uncertain.
 void measure_borders(const TrackedRun& run, const Mission& mission, const Arena& arena,
                      ScoredRun& scored) {
   const std::span<const Pose> last = run.trajectory.at(run.trajectory.instants() - 1);
@@ -72,7 +73,7 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
   }
 }
 
-/// Warnings that are only to be known; the others make a score less certain.
+/// Whether an issue makes a score less certain; some warnings are only for information.
 bool degrades(IssueCode code) {
   return code != IssueCode::Outliers && code != IssueCode::UnknownTags &&
          code != IssueCode::FilmOdd;
@@ -108,7 +109,7 @@ Expected<ScoredRun> score_run(const TrackedRun& run, const Mission& mission,
   scored.issues.insert(scored.issues.end(), run.issues.begin(), run.issues.end());
   scored.checks.insert(scored.checks.end(), run.checks.begin(), run.checks.end());
   if (!mission.shuffled.places.empty()) {
-    // What does not fit is refused.
+    // Wrong patches were refused earlier.
     const auto places = static_cast<double>(mission.shuffled.places.size());
     scored.checks.push_back(answered(kPatches, "", Check::Outcome::Passed,
                                      static_cast<double>(scored.patches.size()), places));

@@ -7,12 +7,12 @@
 
 namespace swarmsmith {
 
-/// Whether the mission's score depends on the last instant alone.
+/// Whether the mission's score depends only on the last instant.
 bool is_scored_at_the_end(const Mission& mission);
 
-/// The mission's score of a measured trajectory, by the simulator's own scoring code, and a verdict
-/// on it. Pure. `patches` are those of this run; a mission with shuffled patches and none given is
-/// E_LAYOUT_MISSING. `before` are the issues of observing, `asked` the checks.
+/// Scores a measured trajectory with the simulator's own scoring code, and gives a verdict. Pure.
+/// `patches` are the patches of this run; a mission with shuffled patches and without `patches` is
+/// an E_LAYOUT_MISSING. `before` are the issues from observing, `asked` the checks so far.
 Expected<ScoredRun> score_run(const TrackedRun& run, const Mission& mission,
                               const std::optional<std::vector<Patch>>& patches,
                               const std::vector<Issue>& before,

@@ -12,27 +12,28 @@
 
 namespace swarmsmith {
 
-/// How near a robot's last pose is to where its score would change.
+/// The distance of a robot's last position from the border where its score would change.
 struct BorderDistance {
-  double signed_m = 0;     ///< positive inside of what counts
+  double signed_m = 0;     ///< positive on the side that counts
   std::string border;      ///< "spot at (0, 0.5)", "green patch at (0.3, 0)"
-  bool too_close = false;  ///< less than three times its sigma
-  double sigma_m = 0;      ///< of the robot's coordinates at that instant
+  bool too_close = false;  ///< the distance is less than three times its sigma
+  double sigma_m = 0;      ///< of the robot's coordinates at this instant
 };
 
 struct ScoredRun {
-  std::vector<Patch> patches;   ///< of this run, over the arena's own
-  std::optional<double> score;  ///< none when the run cannot be scored at all
+  std::vector<Patch> patches;   ///< patches of this run, in addition to the arena's own
+  std::optional<double> score;  ///< none if the run cannot be scored at all
   Verdict verdict = Verdict::Valid;
   bool biased = false;                                 ///< a tag was taken for its robot's centre
-  std::vector<std::string> reasons;                    ///< for the verdict, a sentence each
-  std::vector<std::optional<BorderDistance>> borders;  ///< a robot; for scores of the last instant
-  /// Of each robot's motion behind its commands; none where it has no log. Empty: not looked at.
+  std::vector<std::string> reasons;                    ///< reasons for the verdict, a sentence each
+  std::vector<std::optional<BorderDistance>> borders;  ///< per robot; if the last instant is scored
+  /// Latency of each robot's motion behind its commands; none for a robot without a log. Empty if
+  /// it was not computed.
   std::vector<std::optional<Latency>> latencies;
-  /// What each robot's log and the camera tell of the world as it is; as `latencies`.
+  /// Results of comparing each robot's log with the camera; as for `latencies`.
   std::vector<std::optional<Reality>> reality;
-  std::vector<Issue> issues;  ///< all: of files, times, tracking, scoring
-  std::vector<Check> checks;  ///< the same: all that was asked, and what could not be
+  std::vector<Issue> issues;  ///< all issues: of files, times, tracking, scoring
+  std::vector<Check> checks;  ///< all checks, including those that could not be done
 };
 
 }  // namespace swarmsmith

@@ -21,7 +21,7 @@ TimeSource time_source_of(const std::string& name) {
   return TimeSource::FrameRate;
 }
 
-/// The sha256 of the calibration that a camera or robot had; empty when it took no part.
+/// The sha256 of the calibration of a camera or robot; empty if it took no part in the run.
 std::string calibration_of(const RealRunRows& rows, CalibrationKind kind,
                            const std::string& subject) {
   for (const RealVideoRow& row : rows.videos) {
@@ -63,7 +63,7 @@ Observations observations_of(const RealRunRows& rows) {
   return observations;
 }
 
-/// The name of a robot by its number.
+/// The name of a robot, by its index.
 std::string robot_of(const RealRunRows& rows, std::int64_t robot) {
   for (const RealRobotRow& row : rows.robots) {
     if (row.robot == robot) return row.name;
@@ -71,7 +71,7 @@ std::string robot_of(const RealRunRows& rows, std::int64_t robot) {
   return {};
 }
 
-/// As far as the store keeps them.
+/// The robots' logs, as far as the store keeps them.
 OrComplaints<std::vector<RobotLog>> logs_of(const RealRunRows& rows) {
   std::vector<RobotLog> logs;
   for (const RealLogRow& row : rows.logs) {

@@ -31,7 +31,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// The next row's cells; none when a quote is never closed.
+/// The cells of the next row; none if a quote is not closed.
 std::vector<std::string> next_cells(CsvReader& reader) {
   std::vector<std::string> cells = reader.next().value_or(std::vector<std::string>());
   for (std::string& cell : cells)
@@ -47,7 +47,7 @@ std::optional<Number> number_of(std::string_view text) {
   return value;
 }
 
-/// Of a text that may be anything, as it stands in a sentence.
+/// Quotes an arbitrary text for a message.
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 30;
   std::string shown;
@@ -56,17 +56,17 @@ std::string in_quotes(std::string_view text) {
   return "`" + shown + "`";
 }
 
-/// Between two frames of one video.
+/// Longest time between two frames of one video.
 constexpr double kMostPause_s = 3600;
 
 struct Columns {
   std::size_t frame = 0;
   std::size_t time = 0;
   std::size_t count = 0;
-  double unit_s = 1;  ///< of the times
+  double unit_s = 1;  ///< unit of the times
 };
 
-/// A column of times, by its name, and the unit.
+/// The name of a column of times, and its unit.
 struct TimeColumn {
   std::string_view name;
   double unit_s = 1;
@@ -103,7 +103,7 @@ double mean_interval_s(const std::vector<double>& times) {
   return (times.back() - times.front()) / static_cast<double>(times.size() - 1);
 }
 
-/// Times that are about a thousand times as far apart as the file's own rate says.
+/// Whether times are about a thousand times as far apart as the file's own rate says.
 bool is_in_milliseconds(const std::vector<double>& times, double frame_rate) {
   if (times.size() < 2 || !(frame_rate > 0)) return false;
   const double ratio = mean_interval_s(times) * frame_rate;

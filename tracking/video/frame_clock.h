@@ -12,26 +12,26 @@
 
 namespace swarmsmith {
 
-/// Times of frames that a camera's program wrote beside the video: CSV with the columns `frame`
-/// (from 0, without gaps) and `time_s`, `time_ms`, `time_us` or `time_ns`, or `time` with dates as
-/// ISO 8601 writes them (increasing, the camera's clock).
+/// Reads the frame times that a camera's program wrote beside the video: CSV with the columns
+/// `frame` (from 0, without gaps) and `time_s`, `time_ms`, `time_us`, `time_ns`, or `time` with ISO
+/// 8601 dates (increasing, on the camera's clock).
 Expected<std::vector<double>> parse_frame_times(std::string_view text);
 
-/// When each frame was taken: by the sidecar, else by the container, else by counting at the
-/// nominal rate, in that order of trust (tracking facts, section 7).
+/// The time of each frame: from the sidecar if there is one, otherwise from the container,
+/// otherwise counted with the nominal rate, in this order of trust (tracking facts, section 7).
 class FrameClock {
  public:
-  /// `sidecar`: its times, or nothing. E_TIMESTAMPS when there is neither sidecar, nor times in the
-  /// container, nor a constant rate.
+  /// `sidecar` are its times, or nothing. E_TIMESTAMPS if there is no sidecar, the container has no
+  /// times, and the rate is not constant.
   static Expected<FrameClock> of(const SourceInfo& source,
                                  std::optional<std::vector<double>> sidecar);
 
   TimeSource source() const { return source_; }
-  /// E_TIMESTAMPS for a time that is missing or not later than the one before, with the frame;
-  /// E_SIDECAR_MISMATCH for a frame beyond the sidecar's end.
+  /// E_TIMESTAMPS, with the frame, if its time is missing or not later than the time of the
+  /// previous frame; E_SIDECAR_MISMATCH for a frame after the sidecar's end.
   Expected<double> time_of(const Frame& frame);
-  /// E_SIDECAR_MISMATCH when the sidecar has more rows than `frames`, those that came and those
-  /// that were damaged.
+  /// E_SIDECAR_MISMATCH if the sidecar has more rows than `frames`, the number of frames including
+  /// damaged ones.
   Expected<void> finish(std::int64_t frames) const;
 
  private:

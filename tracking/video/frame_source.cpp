@@ -17,7 +17,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A folder of a bag's parts with a topic: `run07:/ceiling/image_raw`.
+/// A folder with the parts of a bag, and a topic: `run07:/ceiling/image_raw`.
 struct BagParts {
   std::string folder;
   std::vector<std::string> files;

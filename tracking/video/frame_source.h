@@ -12,15 +12,15 @@
 
 namespace swarmsmith {
 
-/// Brightness of an image, row by row; its owner is elsewhere.
+/// The brightness of an image, row by row; does not own its pixels.
 struct GrayImage {
   const std::uint8_t* pixels = nullptr;
   int width = 0;
   int height = 0;
-  std::ptrdiff_t stride = 0;  ///< bytes from row to row
+  std::ptrdiff_t stride = 0;  ///< bytes from one row to the next
 };
 
-/// Blue, green, red, a byte each, row by row without gaps.
+/// Blue, green, red, one byte each, row by row without gaps.
 struct ColorImage {
   int width = 0;
   int height = 0;
@@ -28,46 +28,46 @@ struct ColorImage {
 };
 
 struct Frame {
-  /// From 0, in the order of display; one that was left out leaves a hole, so that rows of a
-  /// sidecar and counted times stay right.
+  /// From 0, in display order. A frame that is left out keeps its number, so that rows of a sidecar
+  /// and counted times stay correct.
   std::int64_t number = 0;
-  std::optional<double> time_s;  ///< as the container or the camera says it
-  GrayImage gray;                ///< lives until the next frame is asked for
-  std::string file;              ///< of a picture; empty in videos
+  std::optional<double> time_s;  ///< time from the container or the camera
+  GrayImage gray;                ///< valid until the next frame is read
+  std::string file;              ///< file name of a picture; empty for videos
 };
 
 struct SourceInfo {
-  std::string name;  ///< of file, folder or device, a bag's with the topic that was asked for
+  std::string name;  ///< of file, folder or device; for a bag with the requested topic
   ImageSize size;
-  double frame_rate = 0;             ///< nominal; 0 when it is unknown
-  std::int64_t expected_frames = 0;  ///< with the damaged ones; 0 when not known
-  bool has_times = false;            ///< frames carry times worth trusting
-  bool has_count = false;     ///< constant rate, and as many frames as the file says it should have
-  bool is_truncated = false;  ///< a file that ends before its own header says
+  double frame_rate = 0;             ///< nominal; 0 if unknown
+  std::int64_t expected_frames = 0;  ///< including damaged frames; 0 if unknown
+  bool has_times = false;            ///< frames have reliable times
+  bool has_count = false;            ///< constant rate, and as many frames as the header says
+  bool is_truncated = false;         ///< the file ends earlier than its header says
   bool is_live = false;
-  std::vector<std::string> oddities;  ///< that explain it when tags are not found, a sentence each
+  std::vector<std::string> oddities;  ///< reasons why tags may not be found, a sentence each
 };
 
-/// Where frames come from: a video file, a folder of images, a bag of ROS, a camera.
+/// A source of frames: a video file, a folder of images, a ROS bag, or a camera.
 class FrameSource {
  public:
-  /// `word`: a video file, a picture, a folder of images or of chapters (in the order of their
-  /// names), a bag (`run.bag`, `run.mcap:/topic`), `camera:0` or another word that OpenCV opens
-  /// (`rtsp://...`). E_VIDEO_UNREADABLE with the decoder's own words.
+  /// Opens `word`: a video file, a picture, a folder of images or of chapters (in the order of
+  /// their names), a bag (`run.bag`, `run.mcap:/topic`), `camera:0`, or a text that OpenCV can open
+  /// (`rtsp://...`). E_VIDEO_UNREADABLE with the decoder's message.
   static Expected<std::unique_ptr<FrameSource>> open(const std::string& word);
   virtual ~FrameSource() = default;
 
   virtual const SourceInfo& info() const = 0;
-  /// Goes on to the next frame; false at the end. A frame that cannot be decoded is left out and
-  /// counted, a frame of another size is an error.
+  /// Reads the next frame; false at the end. A frame that cannot be decoded is left out and
+  /// counted; a frame of another size is an error.
   virtual Expected<bool> next() = 0;
   virtual const Frame& frame() const = 0;
-  /// The present frame in colour.
+  /// The current frame in colour.
   virtual ColorImage color() = 0;
   virtual std::int64_t damaged_frames() const = 0;
 };
 
-/// The file or folder of a word: that of a bag without its topic. Other words as they are.
+/// The file or folder of a source; for a bag without the topic. Other texts are returned unchanged.
 std::string file_of_source(const std::string& word);
 
 }  // namespace swarmsmith

@@ -6,7 +6,7 @@
 namespace swarmsmith {
 namespace {
 
-/// An encoder takes one picture and is emptied.
+/// Encodes one picture and flushes the encoder.
 Expected<std::string> bytes_of(const ColorImage& image, const av::CodecChoice& choice,
                                int quality) {
   av::set_up();

@@ -28,11 +28,11 @@ struct FreeMuxer {
 
 struct VideoWriter::State {
   std::string path;
-  std::string open_path;  ///< where it stands until it is finished
+  std::string open_path;  ///< name of the file until it is finished
   VideoOptions options;
   ImageSize size;
   AVRational grain{1, 1000};
-  bool counts = false;  ///< the container has no times, only a rate
+  bool counts = false;  ///< the container has a rate, but no times
   av::Codec encoder;
   std::unique_ptr<AVFormatContext, FreeMuxer> muxer;
   std::optional<av::ByteStream> file;
@@ -57,7 +57,7 @@ struct VideoWriter::State {
   Expected<void> open_encoder(const av::VideoChoice& choice);
   Expected<void> open_muxer(const av::Container& container);
   Expected<std::int64_t> pts_of(double time_s) const;
-  /// Empties the encoder's queue into the file.
+  /// Writes the encoder's queue to the file.
   Expected<void> store();
   Expected<void> encode(std::int64_t pts);
   Expected<void> failed(int code, std::string_view what) const;
@@ -99,7 +99,7 @@ Expected<void> VideoWriter::State::open_muxer(const av::Container& container) {
   muxer.reset(made);
   made->pb = file->io();
   made->flags |= AVFMT_FLAG_BITEXACT | AVFMT_FLAG_CUSTOM_IO;
-  // Times stay as they are: the encoder's delay must not shift them.
+  // Keep the times: the encoder's delay must not shift them.
   made->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
   return {};
 }
@@ -120,7 +120,7 @@ Expected<void> VideoWriter::State::open(const av::VideoChoice& choice) {
   AVDictionary* words = nullptr;
   if (choice.container->ending == ".mp4") {
     av_dict_set_int(&words, "video_track_timescale", grain.den, 0);
-    // Edit lists count in this; the default of 1 ms would round the start.
+    // The unit of edit lists; the default of 1 ms would round the start.
     av_dict_set_int(&words, "movie_timescale", grain.den, 0);
   }
   const int code = avformat_write_header(muxer.get(), &words);
@@ -145,7 +145,7 @@ Expected<std::int64_t> VideoWriter::State::pts_of(double time_s) const {
   const double exact = time_s / av_q2d(grain);
   const std::int64_t pts = std::llround(exact);
   if (counts) {
-    constexpr double kMostUneven = 0.05;  // of a frame
+    constexpr double kMostUneven = 0.05;  // share of a frame
     if (std::abs(exact - static_cast<double>(frames)) > kMostUneven) {
       return bad_input(
           fmt::format("frame {}: an .avi has no times, only {} frames a second from 0 s on, so {} "
@@ -171,13 +171,13 @@ Expected<void> VideoWriter::State::store() {
     av_packet_rescale_ts(packet.get(), grain, stream->time_base);
     packet->stream_index = 0;
     const std::int64_t pts = packet->pts;
-    // How long the last frame lasts is unknown, and players drop one that lasts no time.
+    // The duration of the last frame is unknown, and players drop a frame without a duration.
     packet->duration = std::max<std::int64_t>(
         1, std::llround(1 / (options.frame_rate * av_q2d(stream->time_base))));
     const int written = av_write_frame(muxer.get(), packet.get());
     av_packet_unref(packet.get());
     if (written < 0) return failed(written, "a frame cannot be written");
-    // Matroska gathers frames to a cluster in memory; half a second of them is what a cut may cost.
+    // Matroska collects frames in clusters in memory; at most half a second of frames may be lost.
     const std::int64_t half_second = stream->time_base.den / (2 * stream->time_base.num);
     if (options.live && pts - flushed_pts >= half_second) {
       flushed_pts = pts;

@@ -4,8 +4,8 @@
 #include <opencv2/core/version.hpp>
 #include <vector>
 
-/// OpenCV's ChArUco boards. Version 4.7 gave them getters in place of members, and made a
-/// dictionary a value.
+/// OpenCV's ChArUco boards. Version 4.7 replaced their members by getters, and made a dictionary a
+/// value.
 namespace swarmsmith::charuco {
 
 using Board = cv::Ptr<cv::aruco::CharucoBoard>;
@@ -25,7 +25,7 @@ inline cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
 inline const std::vector<int>& ids_of(const Board& board) {
   return board->ids;
 }
-/// The four corners of each marker, the upper left one first, in the unit of the board.
+/// The four corners of each marker, the upper left one first, in the units of the board.
 inline const std::vector<std::vector<cv::Point3f>>& markers_of(const Board& board) {
   return board->objPoints;
 }
@@ -35,7 +35,7 @@ inline std::vector<cv::Point3f> inner_corners_of(const Board& board) {
 inline void draw(const Board& board, cv::Size size, cv::Mat& image) {
   board->draw(size, image, 0, 1);
 }
-/// `side`: in pixels.
+/// `side` is in pixels.
 inline void draw_marker(const Board& board, int id, int side, cv::Mat& image) {
   cv::aruco::drawMarker(board->dictionary, id, side, image);
 }
@@ -55,7 +55,7 @@ inline cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
 inline const std::vector<int>& ids_of(const Board& board) {
   return board->getIds();
 }
-/// The four corners of each marker, the upper left one first, in the unit of the board.
+/// The four corners of each marker, the upper left one first, in the units of the board.
 inline const std::vector<std::vector<cv::Point3f>>& markers_of(const Board& board) {
   return board->getObjPoints();
 }
@@ -65,7 +65,7 @@ inline std::vector<cv::Point3f> inner_corners_of(const Board& board) {
 inline void draw(const Board& board, cv::Size size, cv::Mat& image) {
   board->generateImage(size, image, 0, 1);
 }
-/// `side`: in pixels.
+/// `side` is in pixels.
 inline void draw_marker(const Board& board, int id, int side, cv::Mat& image) {
   cv::aruco::generateImageMarker(board->getDictionary(), id, side, image);
 }

@@ -8,9 +8,9 @@
 
 namespace swarmsmith {
 
-/// OpenCV's number of a dictionary's name; nothing for an unknown one.
+/// OpenCV's number for the name of a dictionary; nothing for an unknown name.
 std::optional<int> dictionary_number(std::string_view name);
-/// The board, which must be a ChArUco one, as OpenCV has it.
+/// OpenCV's object for a board, which must be a ChArUco board.
 charuco::Board marker_board(const Board& board);
 
 }  // namespace swarmsmith

@@ -24,8 +24,8 @@ double duration_of(const TrackOptions& options) {
 
 /// One camera's frames on the clock of the run.
 struct FramesOfRun {
-  std::vector<double> times;      ///< of all but repeats
-  std::vector<double> intervals;  ///< between those within the run
+  std::vector<double> times;      ///< times of all frames that are not repeats
+  std::vector<double> intervals;  ///< between these frames, during the run
   std::int64_t within = 0;
   double usual_s = 0;  ///< median of the intervals; 0 without one
 };
@@ -50,7 +50,7 @@ FramesOfRun frames_of(const CameraRecord& record, const Repeats& repeats, double
   return frames;
 }
 
-/// Frames that are missing between others, by the usual interval.
+/// Number of missing frames, estimated with the usual interval.
 std::int64_t dropped_in(const FramesOfRun& frames) {
   std::int64_t dropped = 0;
   for (const double interval : frames.intervals) {
@@ -65,7 +65,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
                 const TrackLimits& limits, FrameReport& report) {
   std::vector<Issue>& issues = report.issues;
   const std::size_t first = issues.size();
-  // Clocks round to milliseconds: 10 frames a second may look like 9.99.
+  // Clocks round to milliseconds, so 10 frames/s may appear as 9.99.
   constexpr double kRounding = 0.99;
   if (frames.usual_s > 0 && 1 / frames.usual_s < kRounding * limits.least_frame_rate) {
     issues.push_back({IssueCode::FrameRate,
@@ -92,7 +92,7 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
   }
 }
 
-/// Why it covers less than the run.
+/// Why the film covers less than the run.
 std::string short_of(const Observations& observations, std::span<const Repeats> repeats) {
   for (std::size_t c = 0; c < repeats.size(); ++c) {
     const std::vector<double>& times = observations.cameras[c].frame_times;
@@ -125,7 +125,7 @@ void check_coverage(FrameReport& report, double slack_s, const std::string& why,
                            report.to_s});
 }
 
-/// From first to last frame of each camera, put together.
+/// The union of the cameras' periods, each from the first to the last frame.
 void measure_coverage(FrameReport& report, std::vector<std::pair<double, double>> spans,
                       double duration_s) {
   std::ranges::sort(spans);

@@ -29,7 +29,8 @@ constexpr Question kMoved{"camera stayed where it was", "px", "a camera that was
 constexpr Question kWatched{"floor tags seen until the end", "s",
                             "a push that came after the last look at them"};
 
-/// A camera that was pushed stays where it is, so that a later look tells of earlier ones.
+/// A camera that was pushed stays where it is, so a later look at the floor tags also reveals an
+/// earlier push.
 constexpr double kTail_s = 10;
 
 double shift_of(const TagCorners& a, const TagCorners& b) {
@@ -39,7 +40,7 @@ double shift_of(const TagCorners& a, const TagCorners& b) {
   return sum / static_cast<double>(a.size());
 }
 
-/// Where the floor tags were when the camera's place was found.
+/// The corners of the floor tags when the camera's place was calibrated.
 std::map<int, TagCorners> calibrated_corners(const Rig& rig, const std::string& camera) {
   std::map<int, TagCorners> corners;
   for (const CameraSetup& setup : rig.cameras) {
@@ -58,19 +59,19 @@ TagCorners turned_by_half(TagCorners corners, ImageSize size) {
   return corners;
 }
 
-/// How far the floor tags stand from where they were, by the spans of looks.
+/// The shift of the floor tags from their earlier positions, in one look at them.
 struct Span {
-  double time_s = 0;  ///< of the run, the span's middle
-  int tags = 0;  ///< seen, that were somewhere before; 0 when half of them contradict the others
+  double time_s = 0;  ///< middle of the look, time of the run
+  int tags = 0;       ///< tags with a known earlier position; 0 if they contradict each other
   double shift_px = 0;
-  double turned_px = 0;  ///< the same, if the picture is turned by half
+  double turned_px = 0;  ///< the same, for a picture that is turned by 180 degrees
 };
 
 std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& camera, const Rig& rig,
                            double duration_s, double limit_px) {
   std::map<int, TagCorners> was = calibrated_corners(rig, camera.name);
   std::map<double, std::vector<double>> shifts;
-  std::map<double, double> turned;  // the largest
+  std::map<double, double> turned;  // the largest shifts
   std::vector<ReferenceLook> looks = record.references;
   std::ranges::sort(looks, [](const ReferenceLook& a, const ReferenceLook& b) {
     return std::pair(a.time_s, a.tag) < std::pair(b.time_s, b.tag);
@@ -90,8 +91,8 @@ std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& came
     std::ranges::sort(of_tags);
     const std::size_t tags = of_tags.size();
     const double lower = of_tags[(tags - 1) / 2];
-    // Half of them moved, and half did not: a robot stands on some, or they were kicked. It cannot
-    // tell which, so that none of them is a witness.
+    // One half of the tags moved and the other half did not: robots stand on some, or some were
+    // kicked. It is unknown which half is right, so none of them counts.
     const bool is_even = lower <= limit_px && of_tags[tags / 2] > limit_px;
     spans.push_back({time, is_even ? 0 : static_cast<int>(tags), lower, turned[clock]});
   }
@@ -100,7 +101,8 @@ std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& came
 
 std::optional<Issue> moved(const std::vector<Span>& spans, const std::string& camera,
                            double limit_px) {
-  // A tag alone may be half covered; that the camera stands right later on says that it was.
+  // A single tag may be half covered; this is the case if a later look shows the camera in its
+  // place.
   const auto is_refuted = [&](const Span& span) {
     return span.tags < 2 && std::ranges::any_of(spans, [&](const Span& later) {
              return later.time_s > span.time_s && later.tags >= 2 && later.shift_px <= limit_px;
@@ -149,7 +151,8 @@ std::optional<Issue> unchecked(const std::vector<Span>& spans, const std::string
                {}};
 }
 
-/// Files that break these limits are refused before: here is how far from them they are.
+/// Files beyond these limits were refused earlier; the checks show how close to the limits they
+/// are.
 void check_calibrations(const Rig& rig, const CameraSetup& setup, std::vector<Check>& checks) {
   const CameraLimits lens;
   const PlaceLimits limits;

@@ -6,11 +6,11 @@
 
 namespace swarmsmith {
 
-/// What the floor tags tell of one camera. E_CAMERA_MOVED: from when on they stand, by the median,
-/// elsewhere than when the place was found; tags that the calibration does not know, than when
-/// first seen. W_CAMERA_UNCHECKED: fewer than two were seen, all the time
-/// or at the end; one may have been kicked. And what makes its place doubtful. Adds what is wrong,
-/// and what was asked.
+/// Checks with the floor tags whether a camera moved. E_CAMERA_MOVED: from some time on, the median
+/// shift of the tags against the calibration of the camera's place is too large; a tag that is not
+/// in the calibration is compared with its first sighting. W_CAMERA_UNCHECKED: during the run or at
+/// its end, fewer than two tags were seen; a single one may have been kicked. Also adds doubts
+/// about the camera's place (doubts_of_place). Adds issues and checks.
 void check_camera(const CameraRecord& record, const TrackedCamera& camera, const Rig& rig,
                   const TrackOptions& options, std::vector<Issue>& issues,
                   std::vector<Check>& checks);

@@ -27,10 +27,10 @@ double mean_interval_s(const std::vector<double>& times) {
                           : (times.back() - times.front()) / static_cast<double>(times.size() - 1);
 }
 
-/// In how coarse steps a container writes times.
+/// The resolution of the times in a container.
 double grain_s(const std::vector<double>& times) {
   constexpr double kMillisecond = 1e-3;
-  constexpr double kFiner = 1.2e-5;  // of 1/90000 s
+  constexpr double kFiner = 1.2e-5;  // a little more than 1/90000 s
   constexpr double kExact = 1e-6;
   const bool are_milliseconds = std::ranges::all_of(times, [](double time) {
     return std::fabs(time - std::round(time / kMillisecond) * kMillisecond) < kExact;
@@ -88,7 +88,7 @@ void check_repeats(const FilmedCamera& film, Findings& findings) {
   findings.add(std::move(check), std::move(issue));
 }
 
-/// Whether the length was asked, and agrees.
+/// Whether a length is given and agrees with the film.
 bool check_length(const FilmedCamera& film, Findings& findings) {
   const std::vector<double>& times = film.record.frame_times;
   Check check{.name = "length of the film",
@@ -203,7 +203,8 @@ void check_steps(const FilmedCamera& film, Findings& findings) {
                         worst.at_s, worst.at_s));
 }
 
-/// The speed that a robot has for a tenth of the time it moves, and the turn for a fiftieth.
+/// The speed that a robot exceeds in a tenth of its samples, and the turning speed that it exceeds
+/// in a fiftieth.
 struct Fastest {
   double speed_m_s = 0;
   double turn_rad_s = 0;
@@ -231,7 +232,7 @@ Fastest fastest_of(const TrackedRobot& robot, double duration_s) {
   }
   std::size_t way = 0;
   std::size_t turn = 0;
-  double turned = 0;  // since `turn`
+  double turned = 0;  // turned since `turn`
   for (std::size_t i = 1; i < used.size(); ++i) {
     turned += wrap_angle(used[i]->pose.theta - used[i - 1]->pose.theta);
     const double now = used[i]->time_s;
@@ -273,7 +274,7 @@ std::optional<double> counted_period_s(const std::vector<double>& times) {
   const double grain = grain_s(times);
   double period = upper_median(std::move(intervals));
   if (!(period > 2 * grain)) return std::nullopt;
-  // The period is better known with each frame.
+  // Each further frame makes the period more precise.
   double turns = 0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double since = times[i] - times[i - 1];
@@ -292,7 +293,8 @@ std::optional<double> counted_period_s(const std::vector<double>& times) {
     least = std::min(least, off);
     most = std::max(most, off);
   }
-  // Rounding puts each time half a grain off at most; the first and the last one tilt the grid.
+  // Rounding shifts each time by at most half the resolution; the first and the last time tilt the
+  // grid.
   return most - least <= 2 * grain + 1e-6 ? std::optional(period) : std::nullopt;
 }
 

@@ -9,36 +9,37 @@
 
 namespace swarmsmith {
 
-/// Issues and checks of one question after the other.
+/// The issues and checks of several questions.
 struct Findings {
   std::vector<Issue> issues;
   std::vector<Check> checks;
 
-  /// With no issue the check has passed.
+  /// Without an issue the check has passed, unless its outcome says otherwise.
   void add(Check check, std::optional<Issue> issue = std::nullopt);
 };
 
-/// One camera whose times are in question.
+/// A camera whose frame times are checked.
 struct FilmedCamera {
   const CameraRecord& record;
   const TrackedCamera& camera;
   const Repeats& repeats;
   std::vector<TagWay> tags;
-  std::optional<double> length_s;  ///< by another clock
-  double duration_s = 0;           ///< of the run
+  std::optional<double> length_s;  ///< measured with another clock
+  double duration_s = 0;           ///< length of the run
 };
 
-/// The period, when frame times are multiples of one as exactly as their container writes times:
-/// a recorder may have counted frames, and no clock has said when they were taken. None of a clock
-/// that runs since 1970, nor of fewer than 20 frames.
+/// The period of frame times that are multiples of one period, within the precision of the
+/// container. In this case the recorder may have counted frames without reading a clock. None for
+/// times that count from 1970, and for fewer than 20 frames.
 std::optional<double> counted_period_s(const std::vector<double>& times);
 
-/// Repeated pictures, the film's length, a counted clock, and a clock that steps within the run:
-/// then all robots that move are elsewhere at once, or hardly farther after a long interval.
+/// Checks repeated pictures, the film's length, whether the times were counted, and whether the
+/// clock steps during the run. When the clock steps, all moving robots are suddenly elsewhere, or
+/// have hardly moved after a long interval.
 void check_clock(const FilmedCamera& film, Findings& findings);
 
-/// Robots that drive or turn faster than they can are in a film that plays too fast. The second
-/// fastest is asked, since one may be carried.
+/// If robots drive or turn faster than they can, the film plays too fast. The second fastest robot
+/// decides, because one robot may have been carried.
 void check_speeds(const std::vector<TrackedRobot>& robots, const TrackLimits& limits,
                   double duration_s, Findings& findings);
 

@@ -16,12 +16,12 @@ namespace {
 using Corners = Eigen::Matrix<double, 8, 1>;
 
 constexpr double kWindow_s = 0.3;
-/// Of its velocity, that a robot may change around a step.
+/// Relative change of speed that a robot may have around a step.
 constexpr double kSteady = 0.3;
-/// The same with its direction: a robot in a tight bend.
+/// Relative change of velocity, including its direction: a robot in a tight bend.
 constexpr double kBend = 0.6;
 constexpr double kLeastStep_px = 1;
-/// Two robots cannot be nearer, whichever way their tags are turned.
+/// Two robots cannot be closer than this, whatever the direction of their tags.
 constexpr double kSamePlace_m = 0.15;
 
 Corners corners_of(const Sighting& seen) {
@@ -50,8 +50,8 @@ class Film {
   double time(std::size_t i) const { return film_.record.frame_times[frames_[i]]; }
   double usual_s() const { return usual_s_; }
 
-  /// By how much the time between a picture and the one before is longer than the clock says, in
-  /// the eyes of one robot; nothing when it does not move steadily.
+  /// By how much the time between a picture and the previous one exceeds the clock's time,
+  /// according to the motion of one robot; nothing if the robot does not move steadily.
   std::optional<double> lost_s(const TagWay& tag, std::size_t i) const {
     SWARMSMITH_ASSERT(0 < i && i < size(), "a picture with one before");
     const auto before = velocity(tag, i - 1, -1);
@@ -59,11 +59,11 @@ class Film {
     if (!before || !after || !seen(tag, i) || !seen(tag, i - 1)) return std::nullopt;
     const double interval = time(i) - time(i - 1);
     const Corners moved = corners_of(*seen(tag, i)) - corners_of(*seen(tag, i - 1));
-    // Root mean squares of a corner's two coordinates together.
+    // Root mean square over the corners, with both coordinates of a corner together.
     const double faster = std::max(before->norm(), after->norm()) / 2;
     const double slower = std::min(before->norm(), after->norm()) / 2;
     const double speed = (faster + slower) / 2;
-    // Far away at once it may have turned, too.
+    // A robot that is suddenly far away may also have turned.
     if (beats_top_speed(tag, i) && faster - slower <= kSteady * speed &&
         speed * usual_s_ >= kLeastStep_px) {
       return moved.norm() / 2 / speed - interval;
@@ -72,15 +72,15 @@ class Film {
     if (mean.norm() / 2 * usual_s_ < kLeastStep_px ||
         (*after - *before).norm() > kBend * mean.norm())
       return std::nullopt;
-    // How long the way takes at the velocity of before and after; the rest is beside it.
+    // The time needed for the distance at the mean of both velocities; the rest is sideways.
     const double time_s = moved.dot(mean) / mean.squaredNorm();
     const double aside = (moved - time_s * mean).norm() / 2;
     if (aside > kLeastStep_px + kSteady * std::fabs(time_s) * mean.norm() / 2) return std::nullopt;
     return time_s - interval;
   }
 
-  /// Of a corner, pixels a second: what it has for a tenth of the film, and no robot's less than
-  /// half of its fastest.
+  /// The speed of a corner, in pixels per second, that is exceeded in a tenth of the film; limited
+  /// to between a half and all of the fastest driving speed.
   double usual_speed(const TagWay& tag) const {
     std::vector<double> speeds;
     for (std::size_t i = 0; i < size(); ++i) {
@@ -94,8 +94,8 @@ class Film {
     return std::clamp(*high, least, 2 * least);
   }
 
-  /// How long robots drove between a picture and the one before when at least two of them are
-  /// farther than any robot drives.
+  /// How long robots drove between a picture and the previous one, if at least two of them are
+  /// farther away than a robot can drive.
   std::optional<double> leap_s(const std::vector<TagWay>& tags, std::size_t i) const {
     std::vector<const TagWay*> far;
     double longest = 0;
@@ -111,7 +111,7 @@ class Film {
                                       usual_speed(tag));
     }
     if (far.size() < 2) return std::nullopt;
-    // Exchanged tags are not a clock.
+    // Robots whose tags were exchanged show nothing about the clock.
     for (const TagWay* const one : far) {
       for (const TagWay* const other : far) {
         const double apart = corners_moved(seen(*other, i - 1)->corners, seen(*one, i)->corners);
@@ -121,8 +121,8 @@ class Film {
     return longest;
   }
 
-  /// How long robots drove between two pictures that are far apart by the clock, when all that move
-  /// before and after, two at least, went no farther than in a few intervals. They may turn.
+  /// How long robots drove between two pictures that are far apart by the clock, if all robots that
+  /// move before and after (at least two) went only as far as in a few intervals. They may turn.
   std::optional<double> stall_s(const std::vector<TagWay>& tags, std::size_t i) const {
     if (time(i) - time(i - 1) < 3 * usual_s_) return std::nullopt;
     int moving = 0;
@@ -150,7 +150,8 @@ class Film {
  private:
   const Sighting* seen(const TagWay& tag, std::size_t i) const { return tag.seen[frames_[i]]; }
 
-  /// Of all corners, pixels a second, over at least two intervals on one side: one alone is noise.
+  /// Velocities of all corners, in pixels per second, over at least two intervals on one side,
+  /// because a single interval is noisy.
   std::optional<Corners> velocity(const TagWay& tag, std::size_t i, int side) const {
     std::size_t far = i;
     while (std::fabs(time(far) - time(i)) < kWindow_s) {
@@ -169,10 +170,10 @@ class Film {
   double usual_s_ = 0;
 };
 
-/// What the robots that move agree on.
+/// The result on which the moving robots agree.
 struct Said {
   double lost_s = 0;
-  /// Farther than any robot drives, or hardly anywhere: how long it took is about known.
+  /// The robots are farther away than they can drive, or hardly moved: the time is approximate.
   bool is_leap = false;
 };
 
@@ -199,7 +200,7 @@ std::optional<Said> said_of(const Film& film, const std::vector<TagWay>& tags, s
   return Said{mean, leap.has_value()};
 }
 
-/// How much stamps jitter, by the median of what is lost.
+/// The jitter of the time stamps, from the median of the lost times.
 double jitter_of(const std::map<std::size_t, Said>& lost) {
   std::vector<double> sizes;
   for (const auto& [i, said] : lost) {
@@ -234,9 +235,9 @@ ClockSteps clock_steps(const FilmedCamera& film) {
   const auto at = [&](std::size_t i) { return lost.contains(i) ? lost.at(i).lost_s : 0; };
   for (const auto& [i, said] : lost) {
     const double lost_s = said.lost_s;
-    // A stamp that is late alone makes an interval too long and the next one too short.
+    // If only one stamp is late, one interval is too long and the next one too short.
     const double with_next = lost_s + (at(i - 1) + at(i + 1)) / 2;
-    // Stamps come one after the other: none is late by more than an interval or two.
+    // Stamps are in order, so no stamp is late by more than an interval or two.
     if (std::fabs(lost_s) < (said.is_leap ? std::min(least, 2 * pictures.usual_s()) : least))
       continue;
     if (!said.is_leap && (std::fabs(with_next) < least || lost_s * with_next < 0)) continue;

@@ -13,7 +13,7 @@ double square(double value) {
   return value * value;
 }
 
-/// One sigma of a robot's place, squared, without noise.
+/// The variance of a robot's place without noise.
 double variance_of(const TaggedRobot& robot, const TagEvidence& evidence,
                    const TrackedCamera& camera, const Rig& rig, const Point& at, double speed_m_s) {
   const Point3 centre = camera.view.place.centre();
@@ -42,9 +42,10 @@ void add_known_errors(const std::vector<TrackedTag>& tags, const std::vector<Tag
       const Point before =
           (cycle == 0 ? run.starts[i] : run.trajectory.at(cycle - 1)[i]).position();
       const double speed = hypot(at.x - before.x, at.y - before.y) / kControlPeriod_s;
-      // Which camera saw it best is not worth asking: they differ little.
+      // The cameras differ little, so the largest variance counts, whichever camera saw the robot
+      // best.
       double variance = 0;
-      // Of several tags the worst counts, as if it were alone.
+      // For a robot with several tags, the worst tag counts as if it were the only one.
       for (std::size_t t = 0; t < tags.size(); ++t) {
         if (tags[t].robot != i) continue;
         for (const TrackedCamera& camera : cameras) {

@@ -7,9 +7,10 @@
 
 namespace swarmsmith {
 
-/// Adds to the sigmas of a run, which know the noise of what was seen, all else that a robot's
-/// place may be off by: survey, lens, time (by the camera), height and tilt (by the robot); as the
-/// arena file says them, or as the pictures show them where that is more (docs/tracking.md).
+/// The sigmas of a run contain only the noise of the sightings. This adds the other errors of a
+/// robot's place: survey, lens and time (of the camera), height and tilt (of the robot). Each is
+/// the value from the arena file, or the value that the pictures show if that is larger
+/// (docs/tracking.md).
 void add_known_errors(const std::vector<TrackedTag>& tags, const std::vector<TagEvidence>& evidence,
                       std::span<const TrackedCamera> cameras, const Rig& rig, TrackedRun& run);
 

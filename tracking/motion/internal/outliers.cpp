@@ -11,22 +11,23 @@
 namespace swarmsmith {
 namespace {
 
-/// A chain this long is a track of its own and no stray.
+/// A chain of this length is a track and not a stray detection.
 constexpr std::size_t kEstablished = 5;
-/// Samples further apart say nothing of each other's jump.
+/// Samples farther apart in time are not used to detect jumps.
 constexpr double kWindow_s = 0.5;
 
-/// Numbers of samples, by time.
+/// Indices of samples, in order of time.
 using Chain = std::vector<std::size_t>;
 
-/// Whether a chain is all that was seen since another one ended. With time everything comes within
-/// reach of where that was, also a tag that was put on another robot.
+/// Whether a chain has all samples since another chain ended. As time passes, every place comes
+/// within reach of the other chain's end, even the place of a tag that was moved to another robot.
 bool has_taken_over(const Chain& chain, const Chain& from) {
   constexpr std::size_t kNoStray = 3;
   return chain.size() >= kNoStray && chain.front() > from.back();
 }
 
-/// Whether a chain is the better one for the next sample: established, then seen last.
+/// Whether a chain is the better one for the next sample: established chains first, then the chain
+/// that was seen last.
 bool is_better(const Chain& a, const Chain& b) {
   SWARMSMITH_ASSERT(!a.empty() && !b.empty(), "a chain begins with a sample");
   if (has_taken_over(a, b)) return true;
@@ -50,9 +51,9 @@ std::vector<Chain> chains_of(const std::vector<TimedPose>& track, const TrackLim
   return chains;
 }
 
-/// Whether a chain can stand beside one that is kept. Those that overlap in time cannot both be the
-/// robot; one that cannot be reached from the other stays only when it is a track of its own (the
-/// robot was carried, or is another one), and then the break between them is a gap.
+/// Whether a chain is compatible with one that is kept. Two chains that overlap in time cannot both
+/// be the robot. If one cannot be reached from the other, it stays only if it is an established
+/// track (the robot was carried, or is another one); then the break between them is a gap.
 bool agrees(const Chain& chain, const Chain& kept, const std::vector<TimedPose>& track,
             const TrackLimits& limits) {
   SWARMSMITH_ASSERT(chain.size() <= kept.size(), "the longest come first");
@@ -63,7 +64,7 @@ bool agrees(const Chain& chain, const Chain& kept, const std::vector<TimedPose>&
                   : is_reachable(track[kept.back()], track[chain.front()], limits);
 }
 
-/// The samples of the chains that agree, longest first.
+/// The samples of the compatible chains, chosen in order of length.
 Chain longest_chains(const std::vector<TimedPose>& track, const TrackLimits& limits) {
   std::vector<Chain> chains = chains_of(track, limits);
   std::ranges::stable_sort(chains, std::ranges::greater{}, &Chain::size);
@@ -89,8 +90,8 @@ double median(std::array<double, 5>& values, std::size_t count) {
   return *middle;
 }
 
-/// How many samples on each side of the `at`th are near enough in time: at most two, as many on the
-/// one side as on the other, since a lopsided median lags behind a moving robot.
+/// Number of samples on each side of the `at`th that are near enough in time: at most two, and
+/// equal on both sides, because a one-sided median lags behind a moving robot.
 std::size_t half_window(const std::vector<TimedPose>& track, const Chain& samples, std::size_t at) {
   const auto time = [&](std::size_t i) { return track[samples[i]].time_s; };
   std::size_t half = 0;

@@ -10,18 +10,18 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kLeastTurn_rad = 0.1;
-/// Of a single point, from the noise of the poses.
+/// Largest error of a single point from the noise of the poses.
 constexpr double kTold_m = 0.003;
-/// What the end of a skid moves a point by.
+/// How far the end of a skid moves a point.
 constexpr double kSkid_m = 0.005;
-/// Nearer to the side than a tread: about that one robots turn, too. No tread's middle is farther
-/// ahead or behind.
+/// A point that is nearer to the side than a tread: robots also turn about a tread. No midpoint of
+/// a tread is farther ahead or behind than `kNoTread_m`.
 constexpr double kMostAside_m = 0.06;
 constexpr double kNoTread_m = 0.03;
 constexpr std::size_t kLeastPoints = 5;
 constexpr int kLeastEachWay = 2;
 
-/// Where the measured point was from the one that rested.
+/// The position of the measured point relative to the point that did not move in a step.
 struct Resting {
   double ahead_m = 0;
   double aside_m = 0;
@@ -40,7 +40,7 @@ std::vector<Resting> resting_of(std::span<const TravelStep> steps) {
   return points;
 }
 
-/// The mean of the points around one of them.
+/// The mean of the points near one of them.
 struct Heap {
   std::size_t count = 0;
   double ahead_m = 0;

@@ -7,19 +7,21 @@
 
 namespace swarmsmith {
 
-/// Where a robot turns about when it turns on the spot: the point that its spin calibrated as its
-/// centre. As the place of the measured point from there, in the axes of the measured pose.
+/// The point about which a robot turns when it turns on the spot; the spin calibrated this point as
+/// the robot's centre. Given as the position of the measured point relative to it, in the axes of
+/// the measured pose.
 struct Pivot {
   double ahead_m = 0;
   double aside_m = 0;  ///< to the left
   double sigma_m = 0;
 };
 
-/// From single steps with a turn: each has a point that rests. In bends that point lies to the
-/// side, and a body that skids out of its old direction, as all do that turn while they drive,
-/// moves it, too. But in turns on the spot it is one and the same, to the left and to the right. So
-/// it is the point where most of these points lie, if turns both ways have it, or if it is the
-/// measured point's own side. Nothing where the robot hardly turned on the spot.
+/// Each single step with a turn has a point that does not move. In bends this point is to the side
+/// of the robot, and skidding moves it, too: every body that turns while it drives skids in its old
+/// direction. In turns on the spot it is always the same point, for turns to the left and to the
+/// right. So the pivot is the position where most of these points are, if turns in both directions
+/// have it, or if it is not to the side of the measured point. Nothing if the robot hardly turned
+/// on the spot.
 std::optional<Pivot> pivot_of(std::span<const TravelStep> steps);
 
 }  // namespace swarmsmith

@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t kHalf = 2;
 constexpr std::size_t kLeastResiduals = 10;
-/// Five samples that take longer are not a short motion.
+/// Five samples that span a longer time are not used.
 constexpr double kWindow_s = 0.6;
-/// Median of the absolute value of a normal variable of sigma 1.
+/// Median of the absolute value of a standard normal variable.
 constexpr double kMedianOfNormal = 0.6744897501960817;
 
 using Five = Eigen::Matrix<double, 5, 1>;
 
-/// Weights with which five values make the parabola's value at the middle one, for times counted
-/// from there: the row of the least squares' hat matrix. Nothing when times coincide.
+/// The weights of five values in the parabola's value at the middle one: a row of the hat matrix of
+/// least squares. `times` count from the middle one. Nothing if times coincide.
 std::optional<Five> weights_at_middle(const Five& times) {
   Eigen::Matrix<double, 5, 3> powers;
   powers << Five::Ones(), times, times.cwiseAbs2();
@@ -31,10 +31,10 @@ std::optional<Five> weights_at_middle(const Five& times) {
   return powers * normal.inverse().col(0);
 }
 
-/// The middle value minus the parabola there, scaled to the sigma of one value.
+/// The middle value minus the parabola there, scaled to the standard deviation of one value.
 double residual_at_middle(const Five& weights, const Five& values) {
   SWARMSMITH_ASSERT(weights(kHalf) < 1, "a fit that goes through the middle says nothing of it");
-  // A hat matrix projects: its row's squares add up to its middle entry.
+  // A hat matrix is a projection: the squares of its row add up to its middle entry.
   return (values(kHalf) - weights.dot(values)) / std::sqrt(1 - weights(kHalf));
 }
 
@@ -63,7 +63,8 @@ Scatter scatter_of(const std::vector<TimedPose>& track) {
     }
     const std::optional<Five> weights = weights_at_middle(times);
     if (!weights) continue;
-    // With too uneven times the fit goes through the middle, which then says nothing.
+    // If the times are too uneven, the parabola passes through the middle value and leaves no
+    // residual.
     if ((*weights)(kHalf) > 0.9) continue;
     of_place.push_back(std::fabs(residual_at_middle(*weights, xs)));
     of_place.push_back(std::fabs(residual_at_middle(*weights, ys)));

@@ -6,13 +6,14 @@
 
 namespace swarmsmith {
 
-/// How much samples scatter. From what the middle of five samples in a row differs from the
-/// parabola through them by least squares in time; symmetric, so that steady motion leaves nothing.
-/// Medians of the absolute residuals, so that turns and bumps do not count as noise. At least
-/// `kLeastSigma`; that alone when there are too few samples.
+/// The scatter of samples. A parabola in time is fitted by least squares through five consecutive
+/// samples, and the middle sample is compared with it; the fit is symmetric, so steady motion
+/// leaves no residual. The scatter comes from the median of the absolute residuals, so that turns
+/// and bumps do not count as noise. It is at least `kLeastSigma`, and exactly that if there are too
+/// few samples.
 Scatter scatter_of(const std::vector<TimedPose>& track);
 
-/// The localisation floor of section 6 times ten, as was measured there.
+/// Ten times the localisation floor that was measured in section 6 of the tracking facts.
 inline constexpr Scatter kLeastSigma{1e-4, 5e-4};
 
 }  // namespace swarmsmith

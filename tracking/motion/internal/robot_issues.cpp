@@ -24,7 +24,7 @@ constexpr Question kCameras{"cameras agree", "mm",
                             "a clock or a place of one camera that is wrong"};
 constexpr Question kByHand{"points by hand", "", "a person's word in place of the film"};
 
-/// A stretch of the run in which a robot was not seen.
+/// A period of the run in which a robot was not seen.
 struct Gap {
   double from_s = 0;
   double to_s = 0;
@@ -32,7 +32,8 @@ struct Gap {
   double length_s() const { return to_s - from_s; }
 };
 
-/// Between samples, and from what the video covers to the first and last of them.
+/// The gaps between samples, and those between the limits of the video and the first and last
+/// sample.
 std::vector<Gap> gaps_of(const std::vector<TimedPose>& track, const FrameReport& frames) {
   std::vector<Gap> gaps;
   if (track.front().time_s > frames.from_s) gaps.push_back({frames.from_s, track.front().time_s});
@@ -61,7 +62,8 @@ class Complaints {
   std::vector<Issue>& issues_;
 };
 
-/// Whether the clock stepped at the end of a stretch: then that is the cause, and is said.
+/// Whether the clock stepped at the end of a period; then the step is the cause, which has its own
+/// issue.
 bool is_step(const FrameReport& frames, double from_s, double to_s) {
   return std::ranges::any_of(frames.issues, [&](const Issue& issue) {
     return issue.code == IssueCode::ClockStep && issue.from.value_or(-1) > from_s &&
@@ -82,7 +84,7 @@ void check_gaps(const std::vector<Gap>& gaps, const FrameReport& frames, const T
   }
 }
 
-/// How many.
+/// Returns the number of breaks.
 int check_breaks(const RobotTrack& track, const FrameReport& frames, const TrackOptions& options,
                  Complaints& complaints) {
   const TrackLimits& limits = options.limits;
@@ -106,8 +108,9 @@ int check_breaks(const RobotTrack& track, const FrameReport& frames, const Track
   return breaks;
 }
 
-/// A score of the last instant needs it measured: interpolated across little, never extrapolated.
-/// The gap around it; none when the film does not cover it, or no sample follows.
+/// A score of the last instant needs a measured pose: a short interpolation is allowed, but never
+/// extrapolation. Returns the gap around the last instant; none if the film does not cover it, or
+/// no sample follows.
 std::optional<double> check_end(const RobotTrack& track, const FrameReport& frames,
                                 const TrackOptions& options, Complaints& complaints) {
   if (!options.scored_at_the_end || !frames.covers_the_end) return std::nullopt;
@@ -135,9 +138,9 @@ std::optional<double> check_end(const RobotTrack& track, const FrameReport& fram
   return gap_s;
 }
 
-/// Cycles whose pose is a guess: across a long gap, or held where no sample is near. That a
-/// video ends a frame before the run's last instant is not a guess worth a word, and that it covers
-/// less than the run is said elsewhere.
+/// Number of cycles with a guessed pose: across a long gap, or held without a near sample. A video
+/// that ends a frame before the run's last instant does not count, and a video that covers less
+/// than the run is reported elsewhere.
 std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
                             const TrackLimits& limits) {
   std::int64_t guessed = 0;
@@ -149,7 +152,7 @@ std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
     const auto next = std::ranges::lower_bound(track.merged, time, {}, &TimedPose::time_s);
     const double to = next == track.merged.end() ? frames.to_s : next->time_s;
     const double from = next == track.merged.begin() ? frames.from_s : std::prev(next)->time_s;
-    // Longer gaps are errors, and said as such.
+    // Longer gaps are reported as errors.
     if (to - from > limits.degraded_gap_s + kSameInstant_s) continue;
     const bool is_near = (next != track.merged.end() && to - time <= limits.measured_gap_s) ||
                          (next != track.merged.begin() && time - from <= limits.measured_gap_s);
@@ -158,7 +161,7 @@ std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
   return guessed;
 }
 
-/// Cycles that were bridged, and those of them across which no camera took a frame.
+/// Number of cycles that were bridged, and of those in which no camera took a frame.
 struct Bridged {
   std::int64_t cycles = 0;
   std::int64_t without_frames = 0;
@@ -212,7 +215,7 @@ void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const 
                  longest->from_s, longest->to_s);
 }
 
-/// A misread tag comes and goes; a second tag of the same number stays.
+/// A misread tag appears for a moment; a second tag of the same number stays.
 std::size_t twins_allowed(const RobotSamples& samples) {
   constexpr std::size_t kPersistent = 10;
   const std::size_t share = (samples.samples.size() + 99) / 100;
@@ -229,10 +232,10 @@ void check_twins(const RobotSamples& samples, Complaints& complaints) {
                              samples.twice_unresolved));
 }
 
-/// A robot beyond the walls, and not a misread tag: so many times in a row.
+/// So many samples in a row beyond the walls are a robot, and not a misread tag.
 constexpr int kInARow = 3;
 
-/// The most samples in a row that were outside.
+/// Returns the largest number of consecutive samples outside.
 int check_outside(const std::vector<Sample>& samples, const TrackOptions& options,
                   Complaints& complaints) {
   const double end = instant_s(options.span.cycles);
@@ -260,7 +263,7 @@ int check_outside(const std::vector<Sample>& samples, const TrackOptions& option
   return most_in_a_row;
 }
 
-/// How many samples were dropped.
+/// Returns the number of dropped samples.
 std::int64_t check_outliers(const TrackedRobot& robot, Complaints& complaints) {
   const auto bad_fits = std::ranges::count(robot.samples, Sample::Use::BadFit, &Sample::use);
   if (robot.outliers + bad_fits == 0) return 0;
@@ -308,7 +311,7 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
   made.sigma = track.sigma;
   Complaints complaints(robot, issues);
   std::size_t first = issues.size();
-  /// What came of a question since the last one.
+  /// Adds a check; its outcome follows from the issues since the last one.
   const auto note = [&](const Question& question, std::optional<double> value,
                         std::optional<double> limit, std::optional<IssueCode> code = {}) {
     checks.push_back(

@@ -14,7 +14,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Corners as stores keep them, so that a stored run scores again to the same bits.
+/// Rounds corners as stores do, so that a stored run gives exactly the same score again.
 TagCorners as_stored(TagCorners corners) {
   for (ImagePoint& corner : corners) {
     corner.u = std::round(corner.u * 1000) / 1000;
@@ -44,9 +44,9 @@ Sample sample_of(const Sighting& seen, const TaggedRobot& robot, const TrackedCa
   return sample;
 }
 
-/// Like the tag's residual, but about the best similarity: a wrong edge or height is another matter
-/// than a bad fit, and must not drop all samples. Squares of a rigid fit are those of the
-/// similarity plus those of its scale.
+/// Like the tag's residual, but against the best similarity: a wrong edge or height is not a bad
+/// fit, and must not drop all samples. The squares of a rigid fit are the squares of the similarity
+/// fit plus the squares due to its scale.
 double residual_of_shape(const Sample& sample, double edge_m) {
   const double of_scale = 0.5 * edge_m * edge_m * (1 - sample.scale) * (1 - sample.scale);
   return std::sqrt(std::max(0.0, sample.residual_m * sample.residual_m - of_scale));
@@ -60,7 +60,7 @@ double median_scale(const std::vector<Sample>& samples) {
   return scales.empty() ? 1 : upper_median(std::move(scales));
 }
 
-/// Drops single bad fits; returns the mean scale of the others.
+/// Drops single bad fits; returns the mean scale of the other samples.
 double drop_bad_fits(std::vector<Sample>& samples, double edge_m, const TrackLimits& limits) {
   const double usual = median_scale(samples);
   double sum = 0;
@@ -82,7 +82,7 @@ TimedPose timed(const Sample& sample) {
   return {sample.time_s, sample.pose};
 }
 
-/// Samples of one frame that are still in question.
+/// The samples of one frame that were not dropped yet.
 struct FrameGroup {
   std::vector<Sample*> samples;
 };
@@ -101,8 +101,8 @@ std::vector<FrameGroup> frames_of(std::vector<Sample>& samples, int camera) {
   return frames;
 }
 
-/// Frames with the tag at two places, whatever became of the sightings: a twin that lies on the
-/// floor is a bad fit, and in everybody's way all the same.
+/// Frames with the tag at two places, even if a sighting was dropped: a duplicate tag on the floor
+/// is a bad fit, but it still disturbs.
 std::vector<std::int64_t> frames_with_twins(const std::vector<Sample>& samples) {
   std::vector<std::int64_t> frames;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -115,7 +115,7 @@ std::vector<std::int64_t> frames_with_twins(const std::vector<Sample>& samples) 
   return frames;
 }
 
-/// The one of a frame's samples that fits to the track, or none.
+/// The sample of a frame that fits the track, or none.
 Sample* consistent_one(const FrameGroup& frame, const Sample* before, const Sample* after,
                        const TrackLimits& limits) {
   if (before == nullptr && after == nullptr) return nullptr;
@@ -172,7 +172,7 @@ void drop_outliers(std::vector<Sample>& samples, int camera, const TrackLimits& 
   }
 }
 
-/// An order of sightings that does not depend on how they came.
+/// An order of sightings that does not depend on the order in which they arrived.
 bool comes_first(const Sighting& a, const Sighting& b) {
   const auto key = [](const Sighting& s) {
     return std::tuple(s.camera, s.frame, s.time_s, s.corners[0].u, s.corners[0].v, s.corners[2].u,
@@ -213,7 +213,7 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
     resolve_duplicates(made, camera, limits);
     drop_outliers(made.samples, camera, limits);
   }
-  // Within a camera they are in order already, so that this keeps frames whole.
+  // The samples of each camera are already in order, so this keeps frames together.
   std::ranges::stable_sort(made.samples, {}, &Sample::time_s);
   return made;
 }

@@ -14,7 +14,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kDegree = kPi / 180;
-/// A robot that leans so far that its tag is 10 mm off (as much as an offset may be).
+/// Limits of the lean: the tag of the robot is 10 mm off (as much as an offset may be).
 constexpr double kLean_m = 0.010;
 constexpr double kLeastTilt_rad = 2.5 * kDegree;
 constexpr double kMostTilt_rad = 8 * kDegree;
@@ -23,11 +23,11 @@ double tilt_limit(const RobotSetup& robot) {
   return std::clamp(std::atan2(kLean_m, robot.height_m), kLeastTilt_rad, kMostTilt_rad);
 }
 
-/// A sighting's shear, and where it was seen.
+/// The shear of a sighting, and its position.
 struct Shear {
   std::complex<double> place;   ///< from the point below the camera, over its height above the tag
-  std::complex<double> strain;  ///< of the square, in the world's axes
-  double heading = 0;           ///< of the tag
+  std::complex<double> strain;  ///< strain of the square, in the world's axes
+  double heading = 0;           ///< heading of the tag
 };
 
 std::optional<Shear> shear_of(const View& view, const TagCorners& corners, double edge_m,
@@ -51,7 +51,7 @@ std::optional<Shear> shear_of(const View& view, const TagCorners& corners, doubl
   }
   Shear shear;
   shear.heading = std::atan2(yx - xy, xx + yy);
-  // Turned back by its heading, the rest is symmetric.
+  // After the rotation by the heading is removed, the matrix is symmetric.
   const double c = std::cos(shear.heading);
   const double s = std::sin(shear.heading);
   const double left = (xx * c - xy * s) - (yx * s + yy * c);
@@ -65,7 +65,8 @@ std::optional<Shear> shear_of(const View& view, const TagCorners& corners, doubl
   return shear;
 }
 
-/// Scale of the floor tags in the run, which light and print change alike; 1 without two of them.
+/// The scale of the floor tags in the run; light and print change the scale of all tags alike. 1 if
+/// fewer than two were seen.
 double floor_scale(const Observations& observations, std::span<const TrackedCamera> cameras,
                    const Rig& rig) {
   constexpr double kPlausible = 0.03;
@@ -86,8 +87,9 @@ double floor_scale(const Observations& observations, std::span<const TrackedCame
   return std::fabs(scale - 1) < kPlausible ? scale : 1;
 }
 
-/// How much two cameras that see a robot at one time differ along the line between the points below
-/// them, over that line: 1 - scale for a wrong height, 0 for a wrong edge.
+/// Two cameras see a robot at the same time. Returns the difference of their positions along the
+/// line between the points below the cameras, divided by the length of this line: 1 - scale if the
+/// height is wrong, 0 if the edge is wrong.
 std::optional<double> stretch_between(std::span<const Sample> samples, const Point& foot_a,
                                       const Point& foot_b, int a, int b) {
   constexpr double kNear_s = 0.15;
@@ -120,7 +122,7 @@ std::optional<double> stretch_between(std::span<const Sample> samples, const Poi
 
 enum class Cause { Open, Height, Edge };
 
-/// Which of the two it is, where two cameras see the robot from places far enough apart.
+/// Whether height or edge is wrong, if two cameras see the robot from places far enough apart.
 Cause cause_of(std::span<const Sample> samples, double scale,
                std::span<const TrackedCamera> cameras) {
   constexpr double kTold_m = 0.010;
@@ -137,14 +139,14 @@ Cause cause_of(std::span<const Sample> samples, double scale,
   return Cause::Open;
 }
 
-/// The robot whose tag is asked about, with what its samples say.
+/// The robot whose tag is checked, and the results from its samples.
 struct Look {
   const TaggedRobot& robot;
   const TrackedTag& seen;
-  double scale = 1;     ///< against the floor tags
-  double sigma = 0;     ///< of the scale's mean
-  double height_m = 0;  ///< of the camera
-  double reach_m = 0;   ///< how far it went from the point below the camera
+  double scale = 1;     ///< relative to the floor tags
+  double sigma = 0;     ///< standard error of the mean scale
+  double height_m = 0;  ///< height of the camera
+  double reach_m = 0;   ///< its largest distance from the point below the camera
 };
 
 Look look_at(const TrackedTag& seen, double floor, std::span<const TrackedCamera> cameras) {
@@ -167,7 +169,7 @@ Look look_at(const TrackedTag& seen, double floor, std::span<const TrackedCamera
 std::string size_text(const Look& look, double floor, double limit, Cause cause, bool all_alike) {
   const RobotSetup& setup = look.robot.setup;
   const double off = look.scale - 1;
-  // The plane in which a tag of the declared edge would look like this one.
+  // The height at which a tag with the declared edge would look like this one.
   const double height = look.height_m - (look.height_m - setup.height_m) / look.scale;
   const std::string is_height = fmt::format(
       "its `height` is {:.3f} m and not {:.3f} m, which puts "
@@ -187,7 +189,7 @@ std::string size_text(const Look& look, double floor, double limit, Cause cause,
                            : "measure both on this robot");
 }
 
-/// Whether all robots measure alike: then it is a rule for all that is wrong.
+/// Whether all robots have about the same scale; then the error is in a common measure.
 bool are_alike(const std::vector<Look>& looks) {
   constexpr double kAlike = 0.005;
   const auto [least, most] = std::ranges::minmax_element(looks, {}, &Look::scale);
@@ -207,7 +209,7 @@ double judge_size(const Look& look, double floor, bool all_alike,
               .unit = "%",
               .catches = "a wrong height, or another tag"};
   const Cause cause = off > warn ? cause_of(look.seen.samples, look.scale, cameras) : Cause::Open;
-  // An edge moves no place, only what is known of the height.
+  // A wrong edge does not move the robot; it only affects the estimate of the height.
   const bool fails = off > limits.scale_tolerance && cause != Cause::Edge;
   if (fails) check.outcome = Check::Outcome::Failed;
   if (!fails && off > warn) {
@@ -265,10 +267,10 @@ double TagTilt::angle_rad() const {
 std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> samples,
                                const std::vector<Sighting>& sightings,
                                std::span<const TrackedCamera> cameras) {
-  // Nearer to the point below the camera a tilt shows only in its square.
+  // Closer to the point below the camera, the effect of a tilt is only of second order.
   constexpr double kLeastPlace = 0.08;
   constexpr std::size_t kLeast = 20;
-  constexpr double kDegreesOfFreedom = 10;  // errors of the lens stay while a robot stays
+  constexpr double kDegreesOfFreedom = 10;  // lens errors are constant while a robot stands
   std::vector<Shear> shears;
   for (const Sample& sample : samples) {
     if (sample.use != Sample::Use::Used && sample.use != Sample::Use::BadFit) continue;
@@ -281,7 +283,7 @@ std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> 
   std::complex<double> tilt = 0;
   double weights = 0;
   double squares = 0;
-  // Newton's steps: the shear is linear in the tilt, but for the shortening that it brings.
+  // Newton's method: the shear is linear in the tilt, except for the shortening by the tilt.
   for (int round = 0; round < 8; ++round) {
     std::complex<double> sum = 0;
     double slopes = 0;

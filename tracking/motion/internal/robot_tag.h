@@ -10,45 +10,45 @@
 
 namespace swarmsmith {
 
-/// How a tag leans out of the plane that its robot's file gives it: the upward slope of its plane,
-/// in the axes of the measured tag.
+/// How much a tag leans against the plane that its robot's file gives: the upward slope of the
+/// tag's plane, in the axes of the measured tag.
 struct TagTilt {
-  double along = 0;  ///< its x axis
-  double aside = 0;  ///< its y axis
-  double sigma = 0;  ///< of each
+  double along = 0;  ///< slope along its x axis
+  double aside = 0;  ///< slope along its y axis
+  double sigma = 0;  ///< one sigma of each
 
   double angle_rad() const;
 };
 
-/// From the shapes of a tag at several places: a plane that leans shears the picture of the tag,
-/// the more, the further it is from the point below the camera. Nothing
-/// when they are all near that point.
+/// Computes the tilt from the shape of a tag at several places: the picture of a tag that leans is
+/// sheared, and more so the farther the tag is from the point below the camera. Nothing if all
+/// places are near that point.
 std::optional<TagTilt> tilt_of(const RobotSetup& robot, std::span<const Sample> samples,
                                const std::vector<Sighting>& sightings,
                                std::span<const TrackedCamera> cameras);
 
-/// What its pictures say of a robot's tag, where that is more than is known of it beforehand.
+/// Errors of a robot's tag that the pictures show, if they exceed the errors that are assumed.
 struct TagEvidence {
-  double height_off_m = 0;  ///< that its height may be wrong by
-  double tilt_rad = 0;      ///< that it leans
+  double height_off_m = 0;  ///< possible error of its height
+  double tilt_rad = 0;      ///< angle by which it leans
 };
 
-/// One tag of one robot, and what was seen of it.
+/// One tag of a robot, and its sightings.
 struct TrackedTag {
   const TaggedRobot* tag = nullptr;
-  std::size_t robot = 0;  ///< its number in the run
+  std::size_t robot = 0;  ///< its index in the run
   std::span<const Sample> samples;
   double mean_scale = 1;
 };
 
-/// Asks of each tag whether it has the size that its height makes of it (E_TAG_SIZE,
-/// W_TAG_SIZE) and lies level (W_TILTED).
+/// Checks for each tag whether its size agrees with its height (E_TAG_SIZE, W_TAG_SIZE) and whether
+/// it is level (W_TILTED).
 std::vector<TagEvidence> judge_tags(const std::vector<TrackedTag>& tags,
                                     const Observations& observations,
                                     std::span<const TrackedCamera> cameras, const Rig& rig,
                                     const TrackLimits& limits, TrackedRun& run);
 
-/// The same for a robot that cannot be tracked: a clause for its error, or nothing.
+/// The same for a robot that cannot be tracked: text to add to its error, or nothing.
 std::string tilt_clause(const RobotSetup& robot, std::span<const Sample> samples,
                         const std::vector<Sighting>& sightings,
                         std::span<const TrackedCamera> cameras);

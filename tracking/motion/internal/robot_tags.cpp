@@ -19,17 +19,17 @@ namespace {
 constexpr Question kAgreement{"tags of one robot agree", "mm",
                               "a tag that came loose, or was mounted anew"};
 
-/// Errors that stay within one second are not drawn anew in each picture: beyond four sigmas of one
-/// picture it is not chance.
+/// Some errors stay the same within a second and are not independent in each picture, so the limit
+/// is four sigmas of one picture.
 constexpr double kSigmas = 4;
-/// What no score suffers from (robot_travel.cpp).
+/// An error that affects no score (robot_travel.cpp).
 constexpr double kHarmless_m = 0.005;
 constexpr double kDegree = kPi / 180;
-/// As much as a heading may be off (robot_travel.cpp).
+/// The largest error of a heading (robot_travel.cpp).
 constexpr double kHeading_rad = 5 * kDegree;
-/// That a robot goes between the rows of a rolling shutter in which its tags are.
+/// Speed at which a robot moves while a rolling shutter reads the rows between its tags.
 constexpr double kDriving_m_s = 0.35;
-/// Pictures that make one stretch, and the fewest that tell anything.
+/// Number of pictures in a stretch, and the smallest number that is enough for a result.
 constexpr std::size_t kStretch = 15;
 constexpr std::size_t kLeast = 5;
 
@@ -37,7 +37,7 @@ double square(double value) {
   return value * value;
 }
 
-/// Noise of each tag's samples, by camera.
+/// Noise of each tag's samples, per camera.
 using Noise = std::vector<Scatter>;
 
 Noise noise_of(const RobotSamples& samples, std::size_t cameras) {
@@ -59,21 +59,21 @@ std::vector<Noise> noise_of(std::span<const OneOfTags> tags, std::size_t cameras
   return noise;
 }
 
-/// What the place of a robot by this tag is off by beside noise, and by another of its tags is not:
-/// its offset and its height. One sigma of a coordinate, squared.
+/// The error of a robot's place that is specific to this tag (offset and height) and not shared
+/// with the robot's other tags, without noise. Variance of one coordinate.
 double own_variance(const TaggedRobot& tag, const TrackedCamera& camera, const Point& at) {
   const Point3 centre = camera.view.place.centre();
   const double reach = hypot(at.x - centre.x, at.y - centre.y) / (centre.z - tag.setup.height_m);
   return square(tag.offset_sigma_m) + square(reach * tag.setup.height_error_m);
 }
 
-/// A sample that fits, and which tag's it is.
+/// A sample that fits, and the index of its tag.
 struct Part {
   std::size_t tag = 0;
   const Sample* sample = nullptr;
 };
 
-/// All that fit, by camera and frame.
+/// All samples that fit, by camera and frame.
 using Pictures = std::map<std::pair<int, std::int64_t>, std::vector<Part>>;
 
 Pictures pictures_of(std::span<const OneOfTags> tags) {
@@ -106,7 +106,7 @@ Sample fused(std::span<const OneOfTags> tags, const std::vector<Part>& parts,
     const TaggedRobot& tag = tags[part.tag].tag;
     const Scatter& scatter = noise[part.tag][number];
     const Pose& pose = part.sample->pose;
-    // A lean moves what is higher more.
+    // A lean of the robot moves a higher tag more.
     const double weight =
         1 / (square(scatter.sigma_m) + own_variance(tag, cameras[number], pose.position()) +
              square(tag.setup.height_m * std::sin(rig.tilt_error_rad)));
@@ -120,19 +120,19 @@ Sample fused(std::span<const OneOfTags> tags, const std::vector<Part>& parts,
     if (part.sample != parts.front().sample) made.more_sightings.push_back(part.sample->sighting);
   }
   made.pose = {x / weights, y / weights, wrap_angle(first_theta + turn / turn_weights)};
-  // A rolling shutter sees the one after the other.
+  // A rolling shutter sees the tags at different times.
   made.time_s = first_s + later_s / weights;
   return made;
 }
 
-/// By how much two tags of a robot differ in one picture.
+/// The difference between the poses from two tags of a robot in one picture.
 struct Difference {
   double time_s = 0;
   double x = 0;
   double y = 0;
   double turn = 0;
-  double variance = 0;       ///< of one coordinate, as far as it is known
-  double turn_variance = 0;  ///< of noise
+  double variance = 0;       ///< known variance of one coordinate
+  double turn_variance = 0;  ///< variance due to noise
 };
 
 std::vector<Difference> differences_of(const OneOfTags& a, const OneOfTags& b, const Noise& noise_a,
@@ -157,7 +157,7 @@ std::vector<Difference> differences_of(const OneOfTags& a, const OneOfTags& b, c
     made.x = other.pose.x - one.pose.x;
     made.y = other.pose.y - one.pose.y;
     made.turn = wrap_angle(other.pose.theta - one.pose.theta);
-    // The survey, and the camera's place and clock, move both alike.
+    // Errors of the survey, and of the camera's place and clock, move both tags alike.
     made.variance = own_variance(a.tag, camera, at) + own_variance(b.tag, camera, at) +
                     2 * square(camera.lens_error_rad * above_m) +
                     square((of_both.first - of_both.second) * std::sin(rig.tilt_error_rad)) +
@@ -169,7 +169,7 @@ std::vector<Difference> differences_of(const OneOfTags& a, const OneOfTags& b, c
   return differences;
 }
 
-/// What some pictures in a row say of two tags.
+/// The mean difference of two tags over several consecutive pictures.
 struct Stretch {
   double from_s = 0;
   double to_s = 0;
@@ -178,7 +178,7 @@ struct Stretch {
   double turn_rad = 0;
   double turn_limit_rad = 0;
 
-  /// Beyond 1 they disagree.
+  /// The difference as a share of its limit; above 1 the tags disagree.
   double part() const { return std::max(off_m / limit_m, std::fabs(turn_rad) / turn_limit_rad); }
 };
 
@@ -203,7 +203,7 @@ Stretch stretch_of(std::span<const Difference> differences) {
   return made;
 }
 
-/// Each half a stretch, the last one to the end.
+/// Stretches that overlap by half; the last one reaches to the end.
 std::vector<Stretch> stretches_of(const std::vector<Difference>& differences) {
   std::vector<Stretch> stretches;
   if (differences.size() < kLeast) return stretches;
@@ -216,7 +216,7 @@ std::vector<Stretch> stretches_of(const std::vector<Difference>& differences) {
   }
 }
 
-/// The stretch that is worst, with the whole time in which they disagree.
+/// The worst stretch, and the whole period in which the tags disagree.
 struct Disagreement {
   Stretch worst;
   double from_s = 0;
@@ -264,7 +264,7 @@ class Agreement {
         found.from_s, found.to_s);
   }
 
-  /// What could not be asked, and the check.
+  /// Reports tags that could not be compared, and adds the check.
   void finish() {
     bool is_open = false;
     for (std::size_t i = 0; i < tags_.size(); ++i) {

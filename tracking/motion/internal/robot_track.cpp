@@ -9,10 +9,10 @@
 namespace swarmsmith {
 namespace {
 
-/// What one camera saw of a robot.
+/// The poses of a robot from one camera.
 struct CameraTrack {
-  std::vector<TimedPose> poses;  ///< with the sigma of their noise
-  Scatter sigma;                 ///< of one of them, systematic parts included
+  std::vector<TimedPose> poses;  ///< with the standard deviations of their noise
+  Scatter sigma;                 ///< of one pose, with systematic errors
   double systematic_m = 0;
 };
 
@@ -36,7 +36,8 @@ std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamp
   return tracks;
 }
 
-/// The heading between the neighbours of an instant; the nearest one's beyond them.
+/// The heading interpolated between the neighbours of an instant; outside of the track, the nearest
+/// heading.
 double heading_between(const std::vector<TimedPose>& track, double time_s) {
   SWARMSMITH_ASSERT(!track.empty(), "a person adds to what cameras saw");
   const auto next = std::ranges::lower_bound(track, time_s, {}, &TimedPose::time_s);
@@ -48,7 +49,8 @@ double heading_between(const std::vector<TimedPose>& track, double time_s) {
   return wrap_angle(before.pose.theta + share * turn);
 }
 
-/// What people pointed at, on the plane of the robot's tag. A person hits a few pixels.
+/// The points that people marked, on the plane of the robot's tag. A person is precise to a few
+/// pixels.
 std::vector<TimedPose> by_hand(const TaggedRobot& robot, const std::vector<TimedPose>& track,
                                std::span<const TrackedCamera> cameras,
                                const std::vector<HandPoint>& points) {
@@ -80,7 +82,7 @@ struct Estimate {
   Scatter sigma;
 };
 
-/// One estimate keeps its bits.
+/// The weighted mean of several estimates; a single one is returned unchanged.
 Estimate fused(const std::vector<Estimate>& estimates) {
   SWARMSMITH_ASSERT(!estimates.empty(), "there is a measurement to fuse");
   if (estimates.size() == 1) return estimates.front();
@@ -163,7 +165,7 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     }
     if (measured.empty()) {
       const PoseAt found = together.at(time);
-      // What a person said bridges a gap, and measures nothing.
+      // A point that a person marked bridges a gap, but does not count as measured.
       const bool is_by_hand = std::ranges::any_of(made.by_hand_s, [&](double point_s) {
         return std::fabs(point_s - time) <= std::max(found.gap_s, options.limits.measured_gap_s);
       });

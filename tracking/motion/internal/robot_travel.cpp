@@ -14,16 +14,18 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kDegree = kPi / 180;
-/// A straight run gives a heading to better than that.
+/// The heading from a straight run is more precise than this.
 constexpr double kHeading_rad = 5 * kDegree;
-/// Of a place on the floor: an offset that is wrong by it moves the grid exploration score by less
-/// than a percent (tracking facts, section 5).
+/// Error of a place on the floor: an offset with this error changes the grid exploration score by
+/// less than a percent (tracking facts, section 5).
 constexpr double kPlace_m = 0.010;
-/// What moves no place by more than a calibration may is harmless (PlaceLimits::left_out_m).
+/// An error is harmless if it moves no place by more than a calibration may
+/// (PlaceLimits::left_out_m).
 constexpr double kHarmless_m = 0.005;
-/// Walls give, and survey and height are off by that much.
+/// Walls give way, and survey and height have errors, by about this distance.
 constexpr double kTouch_m = 0.03;
-/// A robot that drives so much backwards may drive ahead, with its tag turned round.
+/// A robot that drives backwards for this share of its distance may really drive ahead, with its
+/// tag turned by 180 degrees.
 constexpr double kMostlyBackwards = 0.9;
 
 /// The radius of the circle around a body.
@@ -40,7 +42,7 @@ double reach_of(const Outline& outline) {
       outline);
 }
 
-/// The poses of all robots at an instant, 0 the start.
+/// The poses of all robots at the end of a cycle; 0 is the start.
 std::span<const Pose> poses_at(const TrackedRun& run, int cycle) {
   return cycle == 0 ? std::span<const Pose>(run.starts) : run.trajectory.at(cycle - 1);
 }
@@ -62,7 +64,7 @@ bool touches(const std::span<const Pose> poses, std::size_t robot, const Arena& 
   return false;
 }
 
-/// Where a robot gains or loses speed it goes on in its old direction for a moment.
+/// A robot that gains or loses speed continues in its old direction for a moment.
 void mark_unsteady(std::vector<TravelStep>& steps, double sigma_m) {
   constexpr double kSteady_m = 0.0015;
   constexpr double kSigmas = 4;
@@ -78,7 +80,7 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
                                  const Arena& arena, double reach_m) {
   std::vector<TravelStep> steps;
   const int cycles = run.trajectory.instants();
-  // A body that was pushed slides on until the floor has stopped it.
+  // A body that was pushed slides until friction has stopped it.
   constexpr int kSlides = 10;
   int touched = touches(poses_at(run, 0), robot, arena, reach_m) ? 0 : -kSlides - 1;
   for (int cycle = 1; cycle <= cycles; ++cycle) {
@@ -86,7 +88,7 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
     if (touches(poses_at(run, cycle), robot, arena, reach_m)) touched = cycle;
     const auto i = static_cast<std::size_t>(cycle);
     const CycleKind kind = std::max(track.kinds[i - 1], track.kinds[i]);
-    // Across longer gaps it may have turned there and back.
+    // In a longer gap the robot may have turned away and back.
     if (kind > CycleKind::Interpolated) continue;
     const Pose& from = poses_at(run, cycle - 1)[robot];
     const Pose& to = poses_at(run, cycle)[robot];
@@ -111,15 +113,15 @@ std::vector<TravelStep> steps_of(const TrackedRun& run, const RobotTrack& track,
   return steps;
 }
 
-/// What would be measured of a robot whose tag sits otherwise than calibrated.
+/// The measured error of a robot whose tag is not where it was calibrated.
 struct Misplaced {
   double turned_rad = 0;
-  double ahead_m = 0;  ///< of the measured point, before the true middle
-  double aside_m = 0;  ///< to its left
-  double off_m = 0;    ///< its distance from it
+  double ahead_m = 0;  ///< of the measured point, ahead of the true centre
+  double aside_m = 0;  ///< to the left of the centre
+  double off_m = 0;    ///< distance from the centre
 };
 
-/// Its own tag, put back turned at the same place.
+/// The robot's own tag was put back at the same place, but turned.
 Misplaced if_turned(const TagOffset& own, double turned_rad) {
   const SinCos turn = sin_cos(turned_rad);
   const SinCos yaw = sin_cos(own.yaw_rad);
@@ -128,7 +130,7 @@ Misplaced if_turned(const TagOffset& own, double turned_rad) {
   return {turned_rad, yaw.cos * x - yaw.sin * y, yaw.sin * x + yaw.cos * y, hypot(x, y)};
 }
 
-/// Its tag rides where that of another robot should.
+/// The robot's tag is on another robot, at the place of that robot's tag.
 Misplaced if_exchanged(const TagOffset& own, const TagOffset& others) {
   const SinCos yaw = sin_cos(others.yaw_rad);
   const double x = others.x_m - own.x_m;
@@ -137,7 +139,7 @@ Misplaced if_exchanged(const TagOffset& own, const TagOffset& others) {
           yaw.sin * x + yaw.cos * y, hypot(x, y)};
 }
 
-/// Of a place on the floor, with what is known of it.
+/// Limit of the error of a place on the floor, including its uncertainty.
 double place_limit(const TravelFit& fit) {
   return kPlace_m + 3 * fit.place_sigma_m;
 }
@@ -152,7 +154,7 @@ std::string degrees(double radians) {
   return fmt::format("{:.0f} degrees", radians / kDegree);
 }
 
-/// One robot before the court.
+/// Judges the tag and the travel of one robot.
 class Case {
  public:
   Case(const std::vector<TaggedRobot>& robots, const std::vector<TravelFit>& fits,
@@ -188,7 +190,7 @@ class Case {
     }
   }
 
-  /// The measured point against where the robot turns about, as in its spin.
+  /// Compares the measured point with the point about which the robot turns, as in its spin.
   void judge_place() {
     Check check{.name = "tag against the treads",
                 .subject = robot_.setup.name,
@@ -206,7 +208,8 @@ class Case {
       if (is_off) check.outcome = Check::Outcome::Failed;
       return run_.checks.push_back(std::move(check));
     }
-    // No proof: a tread that slips, or is dead, turns a robot about another point, too.
+    // This is no proof: a robot with a tread that slips or does not move turns about another point,
+    // too.
     check.outcome = Check::Outcome::Warned;
     run_.checks.push_back(std::move(check));
     add(IssueCode::TagPlaceDoubtful,
@@ -263,12 +266,12 @@ class Case {
                            robot_.setup.name, from, to});
   }
 
-  /// It drives backwards, or ahead with its tag turned round. Where it turns about tells, unless
-  /// the tag sits over the treads' middle.
+  /// The robot drives backwards, or ahead with its tag turned by 180 degrees. The point about which
+  /// it turns shows which, unless the tag is over the midpoint of the treads.
   void judge_backwards(Check check) {
     const Misplaced turned = if_turned(robot_.offset, kPi);
     const bool is_told = fit_.knows_place && turned.off_m > place_limit(fit_);
-    // Measured in the axes of a robot that drives ahead.
+    // `fit_` has the axes of a robot that drives ahead.
     const bool is_turned =
         is_told && hypot(fit_.ahead_m - turned.ahead_m, fit_.aside_m - turned.aside_m) <
                        hypot(fit_.ahead_m, fit_.aside_m);
@@ -328,8 +331,8 @@ class Case {
   bool is_accused_ = false;
 };
 
-/// Bodies skid after they turned, in their old direction; before they turn only in a film that runs
-/// backwards.
+/// Bodies skid in their old direction after they turn; they skid before they turn only if the film
+/// runs backwards.
 void judge_direction(const std::vector<TravelFit>& fits, TrackedRun& run) {
   constexpr double kSigmas = 5;
   constexpr double kLeastSkid = 0.1;

@@ -8,10 +8,10 @@
 
 namespace swarmsmith {
 
-/// Asks of each robot whether it moves as robots do: whether its tag sits as it was calibrated
-/// (E_TAG_TURNED; W_HEADING_OFF where no position is moved by it), and whether something but its
-/// treads moved it (E_PUSHED). `robots` and `tracks` are those of the run, whose trajectory and
-/// issues are complete but for these.
+/// Checks for each robot whether it moves as robots can: whether its tag is where it was calibrated
+/// (E_TAG_TURNED; W_HEADING_OFF if positions are not affected), and whether something other than
+/// its treads moved it (E_PUSHED). `robots` and `tracks` belong to the run; the run's trajectory
+/// and its other issues must be complete.
 void judge_travel(const std::vector<TaggedRobot>& robots, const std::vector<RobotTrack>& tracks,
                   const Arena& arena, const TrackOptions& options, TrackedRun& run);
 

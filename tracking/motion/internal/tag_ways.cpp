@@ -30,8 +30,8 @@ void measure_scale(TagWay& tag, double edge_m) {
   tag.pixels_per_m = upper_median(std::move(edges)) / edge_m;
 }
 
-/// Sums of steps. None is longer than the fastest robot goes since the tag moved last: a tag that
-/// was misread, or carried, shows no speed.
+/// Sums the steps of a tag. A step is limited to the distance that the fastest robot can go since
+/// the tag last moved, so that a tag that was misread or carried shows no speed.
 void measure_way(TagWay& tag, const std::vector<double>& times) {
   constexpr double kStandingTag_px = 0.5;
   const Sighting* before = nullptr;
@@ -52,7 +52,7 @@ void measure_way(TagWay& tag, const std::vector<double>& times) {
   }
 }
 
-/// The robots as if each carried one tag alone: the one that the camera saw most.
+/// The robots with only one tag each: the tag that the camera saw most often.
 std::vector<RobotSetup> with_one_tag(const Observations& observations, int camera,
                                      std::span<const RobotSetup> robots) {
   std::vector<RobotSetup> made;
@@ -93,7 +93,7 @@ std::vector<TagWay> tag_ways(const Observations& observations, int camera,
     tag.way.assign(frames, 0);
   }
   for (const Sighting& seen : observations.sightings) {
-    // A damaged store may name a frame that is lost.
+    // A damaged store may name a frame that does not exist.
     if (seen.camera != camera || seen.frame < 0 || static_cast<std::size_t>(seen.frame) >= frames) {
       continue;
     }

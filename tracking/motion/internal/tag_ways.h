@@ -9,32 +9,34 @@
 
 namespace swarmsmith {
 
-/// Root mean square of how far the corners moved, pixels, to the thousandth that stores keep.
+/// Root mean square of the movement of the corners, in pixels, rounded to 1/1000 as in stores.
 double corners_moved(const TagCorners& from, const TagCorners& to);
 
-/// Faster than any corner of a tag: treads do 0.35 m/s, and as much again while the robot turns.
+/// No corner of a tag is faster: treads reach 0.35 m/s, and turning adds as much again.
 inline constexpr double kCornerSpeed_m_s = 0.7;
 
-/// A robot's tag in one camera's frames.
+/// The motion of a robot's tag in the frames of one camera.
 struct TagWay {
-  std::vector<const Sighting*> seen;  ///< one a frame; null where it was not seen, or twice
-  std::vector<double> way;  ///< pixels that its corners went until a frame, as far as robots can
+  std::vector<const Sighting*> seen;  ///< per frame; null if not seen, or seen twice
+  std::vector<double> way;  ///< pixels its corners moved until each frame, limited to robots' speed
   double pixels_per_m = 0;  ///< median over the frames
 
   bool is_seen(std::size_t frame) const { return seen[frame] != nullptr; }
 };
 
-/// Of all robots that the camera saw; of several tags of one robot, the one that it saw most.
+/// The motion of all robots that the camera saw; for a robot with several tags, of the tag that was
+/// seen most often.
 std::vector<TagWay> tag_ways(const Observations& observations, int camera,
                              std::span<const RobotSetup> robots);
 
-/// Pixels a second along the way; 0 where the frames are at one instant.
+/// Mean speed between two frames in pixels per second; 0 if both have the same time.
 inline double way_speed(const TagWay& tag, const std::vector<double>& times, std::size_t from,
                         std::size_t to) {
   return times[to] > times[from] ? (tag.way[to] - tag.way[from]) / (times[to] - times[from]) : 0;
 }
 
-/// The first frame that is not more than `span_s` before, the last not more than that after one.
+/// The first frame that is at most `span_s` before a frame, and the last frame that is at most
+/// `span_s` after it.
 std::size_t frame_before(const std::vector<double>& times, std::size_t frame, double span_s);
 std::size_t frame_after(const std::vector<double>& times, std::size_t frame, double span_s);
 

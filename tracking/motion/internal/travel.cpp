@@ -14,16 +14,17 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kMedianOfNormal = 0.6744897501960817;
-/// Rounding of the centre's path; below it a residual is none.
+/// Rounding error of the centre's path; smaller residuals do not count.
 constexpr double kLeastStepSigma_m = 5e-5;
-/// A heading is known within less than this: a third of what a straight run may spread by.
+/// A heading counts as known if its sigma is smaller than this: a third of the scatter that a
+/// straight run may have.
 constexpr double kHeadingTold_rad = 1.5 * kPi / 180;
 constexpr double kByTurnTold_m = 0.003;
-/// The way must stand out of the noise, and the turns too.
+/// The distance must exceed the noise by this factor, and the turns too.
 constexpr double kOverNoise = 10;
 constexpr double kLeastWay_m = 0.25;
 
-/// Steps put together, so that slow robots stand out of the noise, too.
+/// Joins `stride` steps each, so that the motion of slow robots exceeds the noise, too.
 std::vector<TravelStep> free_steps(std::span<const TravelStep> steps, int stride) {
   std::vector<TravelStep> made;
   int in_a_row = 0;
@@ -31,7 +32,7 @@ std::vector<TravelStep> free_steps(std::span<const TravelStep> steps, int stride
     const bool goes_on = !made.empty() && in_a_row > 0 && in_a_row < stride &&
                          std::fabs(made.back().to_s - step.from_s) < kSameInstant_s;
     if (step.touches || !step.is_steady) {
-      // Half a long step is as good as none.
+      // Drop an incomplete long step.
       if (in_a_row > 0 && in_a_row < stride) made.pop_back();
       in_a_row = 0;
       continue;
@@ -63,10 +64,10 @@ struct Sums {
 };
 
 struct Line {
-  Eigen::Vector2d normal{1, 0};  ///< of the ways (aside, ahead) that treads can go
+  Eigen::Vector2d normal{1, 0};  ///< perpendicular to the motion (aside, ahead) of the treads
   double ahead_m = 0;
-  double most = 0;     ///< eigenvalue along the ways
-  double by_turn = 0;  ///< way that goes with the turns, metres a radian
+  double most = 0;     ///< eigenvalue along these directions
+  double by_turn = 0;  ///< distance that is proportional to the turn, metres per radian
 };
 
 double residual(const TravelStep& step, const Line& line) {
@@ -95,7 +96,8 @@ Line fit_line(const std::vector<TravelStep>& steps, const std::vector<double>& w
   return line;
 }
 
-/// Least absolute residuals, by weights: a minority that was pushed does not turn the line.
+/// Least absolute residuals by reweighting, so that a minority of pushed steps does not turn the
+/// line.
 Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& sigma_m) {
   constexpr int kRounds = 20;
   std::vector<double> weights(steps.size(), 1);
@@ -109,7 +111,8 @@ Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& 
       weights[i] = 1 / std::max(off[i], 2 * sigma_m);
     line = fit_line(steps, weights, with_place);
   }
-  // From those that fit, with equal weights, so that the errors of the result are known.
+  // Fit the steps that agree once more with equal weights, so that the error of the result is
+  // known.
   double squares = 0;
   double count = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -123,7 +126,7 @@ Line robust_line(const std::vector<TravelStep>& steps, bool with_place, double& 
   return fit_line(steps, weights, with_place);
 }
 
-/// Both unknowns, or the heading alone.
+/// Fits both unknowns, or only the heading.
 TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
   TravelFit fit;
   double sigma_m = 0;
@@ -142,12 +145,12 @@ TravelFit fit_of(const std::vector<TravelStep>& steps, bool with_place) {
     fit.way_m += std::fabs(along);
     if (step.ahead_m < 0) backward += std::fabs(along);
   }
-  // The true heading is the sense in which it goes more.
+  // The true heading is the direction in which it drives more.
   fit.turned_rad = forward < 0 ? wrap_angle(turned + kPi) : turned;
   fit.by_turn_m = forward < 0 ? -line.ahead_m : line.ahead_m;
   fit.backward_share = fit.way_m > 0 ? backward / fit.way_m : 0;
   fit.turned_sigma_rad = sigma_m / std::sqrt(std::max(line.most, 1e-12));
-  // Noise of the turns looks like a way where way and turn always go together.
+  // If distance and turn are always proportional, noise of the turns looks like a distance.
   const double noise_m = hypot(sigma_m, line.by_turn * steps.front().turn_sigma_rad);
   fit.knows_heading = line.most > kOverNoise * count * noise_m * noise_m &&
                       fit.turned_sigma_rad < kHeadingTold_rad && fit.way_m >= kLeastWay_m;
@@ -173,7 +176,7 @@ TravelFit fit_way(std::span<const TravelStep> all) {
   return fit;
 }
 
-/// The same by the measured heading and by one that is turned by 180 degrees.
+/// Measures the skid; a heading that is wrong by 180 degrees gives the same result.
 void measure_skid(std::span<const TravelStep> steps, const Pivot& pivot, TravelFit& fit) {
   double products = 0;
   double squares = 0;
@@ -212,23 +215,26 @@ TravelFit fit_travel(std::span<const TravelStep> steps) {
 
 namespace {
 
-/// Of a step of the point that the robot turns about, in the axes of its true heading.
+/// The part of a step that treads and skids do not explain, for the point about which the robot
+/// turns, in the axes of its true heading.
 struct Unexplained {
   double aside_m = 0;
   double way_m = 0;
 };
 
-/// Friction of treads brakes a body sideways and never drives it. So what goes to the side is at
-/// most what the body had in that direction the step before, until it is used up. A push makes the
-/// rest. After a touch, or a gap, all may be the body's own.
+/// The friction of treads slows a body's sideways motion and never drives it. So the sideways
+/// motion in a step is at most the motion that the body already had in this direction in the step
+/// before, until it has stopped; the rest is a push. After a contact or a gap, all of it may be the
+/// body's own motion.
 std::vector<Unexplained> unexplained(std::span<const TravelStep> steps, const TravelFit& fit) {
   const double turned = fit.knows_heading ? fit.turned_rad : 0;
   const Eigen::Rotation2Dd to_true(turned);
-  // Where nothing tells the point it turns about, what goes with turns may be skids or a place.
+  // If the point about which it turns is unknown, sideways motion in proportion to turns may be due
+  // to skids or to the position of the measured point.
   const double by_turn_m = !fit.knows_place && fit.knows_by_turn ? fit.by_turn_m : 0;
   std::vector<Unexplained> all;
   const TravelStep* before = nullptr;
-  Eigen::Vector2d had(0, 0);  // ahead and to the left, in the axes of the step before
+  Eigen::Vector2d had(0, 0);  // ahead and left, in the axes of the previous step
   for (const TravelStep& step : steps) {
     Eigen::Vector2d way = to_true * Eigen::Vector2d(step.ahead_m, step.aside_m);
     if (fit.knows_place) way += step.turn_rad * Eigen::Vector2d(fit.aside_m, -fit.ahead_m);
@@ -252,7 +258,7 @@ std::vector<Unexplained> unexplained(std::span<const TravelStep> steps, const Tr
 }  // namespace
 
 std::optional<Slide> worst_slide(std::span<const TravelStep> steps, const TravelFit& fit) {
-  /// What slip and single bumps may add: a length, and a share of the way.
+  /// Tolerance for slip and single bumps: a length, plus a share of the distance.
   struct Window {
     double length_s;
     double slip_m;

@@ -11,7 +11,7 @@ constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kFontSize = 0.7;
 constexpr double kNoteSize = 0.42;
 constexpr double kPiece_m = 0.05;
-/// Fractions of pixels in OpenCV's drawing: 1/16.
+/// Number of fractional bits for pixels in OpenCV's drawing functions: steps of 1/16.
 constexpr int kShift = 4;
 const cv::Scalar kRim(25, 25, 25);
 
@@ -20,7 +20,7 @@ cv::Scalar scalar_of(Rgb color) {
 }
 
 cv::Point fine(cv::Point2d point) {
-  // Far outside of the picture OpenCV's fixed point would overflow.
+  // Far outside the picture, OpenCV's fixed-point numbers would overflow.
   const auto clamped = [](double x) { return std::clamp(x, -10'000.0, 20'000.0); };
   return {cvRound(clamped(point.x) * (1 << kShift)), cvRound(clamped(point.y) * (1 << kShift))};
 }

@@ -5,7 +5,8 @@
 
 namespace swarmsmith {
 
-/// What logs and film tell of the robots' world; without rows where no robot has a log.
+/// A table of the robots' behaviour according to their logs and the film; without rows if no robot
+/// has a log.
 HtmlTable reality_table(const RunFindings& run);
 
 }  // namespace swarmsmith

@@ -7,7 +7,7 @@ namespace swarmsmith {
 std::vector<Error> config_errors(std::vector<Error> errors) {
   for (Error& error : errors) {
     if (issue_code_from_name(error.message.substr(0, error.message.find(':')))) continue;
-    // A file that is not there keeps its kind: its text is not at fault.
+    // A missing file keeps its kind of error, since its contents are not wrong.
     const ErrorKind kind = error.kind;
     error = error_of(IssueCode::Config, std::move(error.message), std::move(error.where));
     if (kind == ErrorKind::NotFound) error.kind = kind;

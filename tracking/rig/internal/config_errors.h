@@ -8,11 +8,11 @@
 
 namespace swarmsmith {
 
-/// What is wrong with a file of settings, as E_CONFIG; messages that begin with a code of their own
-/// keep it.
+/// Turns the errors of a settings file into E_CONFIG; an error whose message begins with another
+/// code keeps it.
 std::vector<Error> config_errors(std::vector<Error> errors);
 
-/// A text that must be there; empty after a complaint. `example` shows one.
+/// Reads a required text. If it is missing, adds an error that shows `example`, and returns "".
 std::string need_text(TableReader& table, std::string_view key, std::string_view example);
 
 }  // namespace swarmsmith

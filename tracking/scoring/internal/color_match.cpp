@@ -12,12 +12,13 @@ namespace {
 
 using Channels = std::array<double, 3>;
 
-/// Differences of the channels from their mean that are certainly a hue, over the floor's 1.
+/// Length of the channels' differences from their mean (with the floor at 1) from which a colour
+/// certainly has a hue.
 constexpr double kHue = 0.35;
 
-/// A colour as a point: its hue on the unit circle of the plane r + g + b = 0 (nearer to the origin
-/// for less than `kHue`), and its lightness against the floor's, which counts the less the more hue
-/// there is.
+/// A colour as a point: its hue on the unit circle in the plane r + g + b = 0 (nearer to the origin
+/// below `kHue`), and its lightness relative to the floor, which counts less the stronger the hue
+/// is.
 struct Place {
   Channels hue{};
   double lightness = 0;

@@ -7,17 +7,18 @@
 
 namespace swarmsmith {
 
-/// Which of some colours a measured one is.
+/// The colour, out of a given set, that a measured colour matches best.
 struct ColorMatch {
   Rgb best;
   Rgb second;
-  double distance = 0;    ///< to the best; neighbours among the labeler's colours are 1 apart
-  double confidence = 0;  ///< 1 - distance / distance to the second
+  double distance = 0;    ///< to the best colour; neighbouring colours of the labeler are 1 apart
+  double confidence = 0;  ///< 1 - distance / distance to the second best
 };
 
-/// `ratio`: red, green and blue over those of the floor, which is of the colour `floor`. Colours
-/// are compared by hue: paints and prints are less saturated and darker than the colours of a
-/// mission. Where there is no hue, by lightness. `colors`: two or more.
+/// `ratio` is red, green and blue divided by the values of the floor, whose colour is `floor`.
+/// Colours are compared by hue, because paints and prints are less saturated and darker than the
+/// colours of a mission; colours without a hue are compared by lightness. `colors` has at least two
+/// entries.
 ColorMatch nearest_color(const std::array<double, 3>& ratio, std::span<const Rgb> colors,
                          Rgb floor);
 

@@ -14,22 +14,24 @@ namespace {
 using Channels = std::array<double, 3>;
 
 constexpr double kGrid_m = 0.025;
-/// Blur, survey and calibration blur a patch's border by this much.
+/// The borders of patches are uncertain by this distance, due to errors of image, survey and
+/// calibration.
 constexpr double kBorder_m = 0.03;
-/// Walls stand between the camera and the floor behind them, and throw shadows.
+/// Walls hide the floor behind them from the camera, and cast shadows.
 constexpr double kWall_m = 0.08;
-/// Around a robot's centre, with its tag's plate; and how high that is.
+/// Radius around a robot's centre, including its tag's plate; and the height of the robot.
 constexpr double kRobot_m = 0.155;
 constexpr double kRobotHeight_m = 0.25;
-/// Spots of floor that a patch is compared with: those nearest to it.
+/// Number of floor spots, the nearest ones, with which a patch is compared.
 constexpr std::size_t kSpots = 60;
 constexpr std::size_t kLeastSpots = 15;
-/// Within a place, along each side, from so far within its border on.
+/// Number of samples along each side of a place, and their distance from its border.
 constexpr int kSamples = 15;
 constexpr double kWithin_m = 0.02;
-/// Of those, as many must be seen: robots that stop on a patch leave a corner of it.
+/// Smallest share of these samples that must be visible: robots that stop on a patch leave a corner
+/// of it visible.
 constexpr double kLeastShare = 0.05;
-/// Grey levels that still tell colours.
+/// Range of grey levels in which colours can be measured.
 constexpr double kDarkest = 6;
 constexpr double kBrightest = 252;
 
@@ -38,7 +40,7 @@ bool is_near(const Rectangle& place, Point point) {
          std::fabs(point.y - place.centre.y) <= 0.5 * place.height_m + kBorder_m;
 }
 
-/// Whether there is nothing but floor at a point and around it.
+/// Whether there is only bare floor at a point and around it.
 bool is_bare(const Mission& mission, Point point) {
   for (const Rectangle& place : mission.shuffled.places) {
     if (is_near(place, point)) return false;
@@ -128,8 +130,9 @@ std::optional<std::array<double, 3>> FloorLight::ratio_of(const Rectangle& place
   return ratio;
 }
 
-/// Within a robot, or behind it: what is `height` above the floor is seen at a place that is
-/// further from the camera's foot by the share height / (camera's height - height).
+/// Whether a point is under a robot or hidden behind it. A point at `height` above the floor hides
+/// a floor point that is farther from the point below the camera, by the share height / (camera's
+/// height - height).
 bool FloorLight::is_hidden(Point point) const {
   const double share = kRobotHeight_m / (camera_.z - kRobotHeight_m);
   for (const Point& robot : picture_.robots) {

@@ -9,18 +9,19 @@
 
 namespace swarmsmith {
 
-/// How bright the bare floor is in a picture, and its patches against it.
+/// Measures the brightness of the bare floor in a picture, and the colours of patches relative to
+/// it.
 class FloorLight {
  public:
-  /// Looks at the floor in a grid, beside the mission's places and patches, the walls and the
-  /// robots. `picture` and `mission` must live as long as the light.
+  /// Samples the floor in a grid, except near the mission's places and patches, the walls and the
+  /// robots. `picture` and `mission` must outlive this object.
   FloorLight(const FloorPicture& picture, const Mission& mission);
 
-  /// Why the picture says nothing of colours, if so.
+  /// The reason why the picture cannot be used for colours, if there is one.
   std::optional<std::string> fault() const;
 
-  /// Medians within the place over those of the floor around it; nothing when it is out of the
-  /// picture or nearly all hidden.
+  /// Median colour within the place divided by the median colour of the floor around it; nothing if
+  /// the place is outside the picture or almost completely hidden.
   std::optional<std::array<double, 3>> ratio_of(const Rectangle& place) const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 thread_local std::string last_message;
 
-/// Printable ASCII only: the library quotes damaged files in its messages.
+/// Keeps only printable ASCII, because the library's messages quote damaged files.
 std::string on_one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
@@ -35,7 +35,7 @@ void keep_message(void* /*context*/, int level, const char* format, va_list argu
 }  // namespace
 
 void set_up() {
-  // A table of a damaged file may claim gigabytes; a picture of kMostPixels needs 300 MB at most.
+  // A table in a damaged file may claim gigabytes; a picture of kMostPixels needs at most 300 MB.
   constexpr std::size_t kMostBytesAtATime = std::size_t{512} << 20;
   av_max_alloc(kMostBytesAtATime);
   av_log_set_callback(keep_message);

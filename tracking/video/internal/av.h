@@ -13,20 +13,20 @@ extern "C" {
 
 namespace swarmsmith::av {
 
-/// Pictures beyond these are refused: no camera makes them, damaged files ask for them.
+/// Larger pictures are refused: no camera makes them, but damaged files may claim them.
 inline constexpr int kMostSide = 16384;
 inline constexpr std::int64_t kMostPixels = 100'000'000;
-/// Of codecs that keep up to 16 pictures to build others on: 8192 x 4320 and some more.
+/// The limit for codecs that keep up to 16 reference pictures: a little more than 8192 x 4320.
 inline constexpr std::int64_t kMostBuiltOnPixels = 36'000'000;
 
-/// What a stream gets to write; FFmpeg 7 made it constant.
+/// The type of the bytes that a stream writes; constant since FFmpeg 7.
 #if LIBAVFORMAT_VERSION_MAJOR >= 61
 using WrittenBytes = const std::uint8_t*;
 #else
 using WrittenBytes = std::uint8_t*;
 #endif
 
-/// Whether the picture is built on no other. FFmpeg 6.1 has a flag where older versions have a
+/// Whether the picture needs no other picture. FFmpeg 6.1 has a flag for this, older versions a
 /// member.
 inline bool is_key_frame(const AVFrame& picture) {
 #ifdef AV_FRAME_FLAG_KEY
@@ -53,14 +53,15 @@ using FramePtr = std::unique_ptr<AVFrame, FreeFrame>;
 using PacketPtr = std::unique_ptr<AVPacket, FreePacket>;
 using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
 
-/// Keeps the library's messages from the error stream, and bounds what it may allocate at a time.
-/// To be called before anything else of it; more than once does no harm.
+/// Keeps the library's messages from standard error, and limits the size of its allocations. Must
+/// be called before any other function of the library; may be called repeatedly.
 void set_up();
 
-/// The last complaint of the library in this thread, on one line, and forgets it; empty: none.
+/// Returns the library's last message in this thread as one line, and clears it; empty if there is
+/// none.
 std::string take_message();
 
-/// What a return code means, with the last complaint: "Invalid data found (moov atom not found)".
+/// The meaning of a return code, with the last message: "Invalid data found (moov atom not found)".
 std::string reason(int code);
 
 }  // namespace swarmsmith::av

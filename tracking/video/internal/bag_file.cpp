@@ -19,11 +19,11 @@
 namespace swarmsmith {
 namespace {
 
-/// Sums of the definitions of `sensor_msgs` that are read.
+/// MD5 sums of the definitions of `sensor_msgs` that can be read.
 constexpr std::string_view kImage = "060021388200f6f0f447d0fcd9c64743";
 constexpr std::string_view kPackedImage = "8f7a12909da2c9d3332d540a0977563f";
 
-/// The messages of a topic in the order of their recording. One that is damaged has no bytes.
+/// Reads the messages of a topic in the order of recording. A damaged message has no bytes.
 class BagMessages final : public MessageReader {
  public:
   BagMessages(std::int64_t size, bag::Read read, std::vector<bag::Entry> entries)
@@ -34,7 +34,7 @@ class BagMessages final : public MessageReader {
     const bag::Entry& entry = entries_[next_++];
     const std::string data = bytes_of(entry).value_or("");
     bytes_.assign(data.begin(), data.end());
-    // Decoders and scalers read a little beyond the end.
+    // Decoders and scalers read slightly beyond the end.
     bytes_.resize(data.size() + AV_INPUT_BUFFER_PADDING_SIZE);
     return std::optional(RecordedMessage{entry.recorded_ns, bytes_.data(), data.size()});
   }
@@ -64,8 +64,8 @@ class BagMessages final : public MessageReader {
   bag::Read read_;
   std::vector<bag::Entry> entries_;
   std::size_t next_ = 0;
-  std::int64_t chunk_ = -1;             ///< the one that is unpacked
-  std::optional<std::string> records_;  ///< nothing: it cannot be
+  std::int64_t chunk_ = -1;             ///< the chunk that is unpacked
+  std::optional<std::string> records_;  ///< its records; nothing if unpacking failed
   std::vector<std::uint8_t> bytes_;
 };
 

@@ -7,11 +7,12 @@
 
 namespace swarmsmith {
 
-/// The images of a topic of a bag (ROS 1, format 2.0): sensor_msgs/Image and, as PNG or JPEG,
-/// sensor_msgs/CompressedImage, in the order in which they were recorded. One chunk of the bag is
-/// in memory at a time. Times are those of the messages' headers, seconds since 1970; of a bag
-/// whose first image has none, when each was recorded. An image that cannot be read is damaged.
-/// E_CONFIG for a topic that is not there, and for none among several.
+/// Opens the images of a topic in a bag (ROS 1, format 2.0): sensor_msgs/Image, and
+/// sensor_msgs/CompressedImage as PNG or JPEG, in the order in which they were recorded. Only one
+/// chunk of the bag is in memory at a time. Times are those in the messages' headers, in seconds
+/// since 1970; if the first image has no time, they are the times of recording. An image that
+/// cannot be read counts as damaged. E_CONFIG if the topic does not exist, or if none is given and
+/// there are several.
 Expected<std::unique_ptr<FrameSource>> open_bag(const BagWord& word);
 
 }  // namespace swarmsmith

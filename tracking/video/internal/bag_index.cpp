@@ -42,7 +42,7 @@ class Reading {
       if (!found || !take(at, *found)) return damaged(at);
       at = found->end;
     }
-    // That of an empty bag leads to its end.
+    // In an empty bag the index is at the end of the file.
     leads_to_a_record = leads_to_a_record || static_cast<std::uint64_t>(at) == *index;
     const bool is_counted =
         number_in<std::uint32_t>(head->fields, "chunk_count") == chunks_.size() &&
@@ -65,7 +65,7 @@ class Reading {
         name_);
   }
 
-  /// Whether a record is right beside those before it.
+  /// Takes a record; returns whether it is valid after the records before it.
   bool take(std::int64_t at, const Record& found) {
     switch (found.op) {
       case Op::Chunk:
@@ -97,7 +97,7 @@ class Reading {
     return packing->second != "none" || chunk.size() == *size;
   }
 
-  /// Of the chunk before it: a time (8 bytes) and the place of each message.
+  /// Reads an index of the previous chunk: a time (8 bytes) and the position of each message.
   bool take_index(const Record& index) {
     constexpr std::size_t kEntry = 12;
     constexpr std::int64_t kNanoseconds = 1'000'000'000;
@@ -136,8 +136,8 @@ class Reading {
   const Read& read_;
   std::string name_;
   Index index_;
-  std::set<std::int64_t> chunks_;    ///< where they begin
-  std::set<std::uint32_t> indexed_;  ///< connections that have messages
+  std::set<std::int64_t> chunks_;    ///< where the chunks begin
+  std::set<std::uint32_t> indexed_;  ///< connections with messages
 };
 
 }  // namespace

@@ -12,32 +12,32 @@
 
 namespace swarmsmith::bag {
 
-/// A publisher's topic.
+/// A topic of one publisher.
 struct Connection {
   std::string topic;
   std::string type;
-  std::string md5;  ///< of the type's definition
+  std::string md5;  ///< checksum of the type's definition
 };
 
-/// Where a message lies.
+/// The location of a message.
 struct Entry {
   std::int64_t recorded_ns = 0;  ///< since 1970
-  std::int64_t chunk = 0;        ///< where its record begins
-  std::uint32_t place = 0;       ///< in the chunk, of the message or of its connection before it
+  std::int64_t chunk = 0;        ///< where the chunk's record begins
+  std::uint32_t place = 0;       ///< offset in the chunk, of the message or its connection
   std::uint32_t connection = 0;
 };
 
 struct Index {
-  std::map<std::uint32_t, Connection> connections;  ///< those with messages
-  std::vector<Entry> entries;                       ///< as they lie
+  std::map<std::uint32_t, Connection> connections;  ///< connections with messages
+  std::vector<Entry> entries;                       ///< in the order of the file
 };
 
-/// Reads from a file; its stream is shared by all copies.
+/// Reads from a file; all copies share its stream.
 Read reading_of(std::shared_ptr<av::ByteStream> bytes);
 
-/// Reads a bag's index, and looks whether the bag is whole: records within their bounds, and
-/// connections that are there. Reads headers alone: whether an entry leads to its message, its
-/// reader sees. E_VIDEO_UNREADABLE, with the place in the file, and what to do.
+/// Reads a bag's index and checks that the bag is complete: that records are within their bounds,
+/// and that all connections exist. Reads only headers; whether an entry points to its message is
+/// checked when the message is read. E_VIDEO_UNREADABLE, with the position in the file, and advice.
 Expected<Index> read_index(std::int64_t size, const Read& read, const std::string& name);
 
 }  // namespace swarmsmith::bag

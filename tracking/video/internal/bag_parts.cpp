@@ -30,7 +30,7 @@ Expected<void> check_packed(const fs::path& file) {
                              name));
 }
 
-/// The names under `relative_file_paths`, one a line.
+/// The names under `relative_file_paths`, one per line.
 std::vector<std::string> names_in(const fs::path& metadata) {
   constexpr int kMostLines = 100'000;
   std::ifstream file(metadata);
@@ -59,7 +59,7 @@ Expected<void> check_bag_parts(const std::string& word) {
   if (!fs::is_directory(word, error)) {
     return fs::is_regular_file(word, error) ? check_packed(word) : Expected<void>();
   }
-  // Early versions wrote the folder's name before it.
+  // Early versions wrote the folder's name before the file name.
   for (const std::string& name : names_in(fs::path(word) / "metadata.yaml")) {
     const fs::path part = fs::path(word) / fs::path(name).filename();
     if (fs::exists(part, error)) continue;

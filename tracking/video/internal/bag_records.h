@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-/// Records of a bag of ROS 1: http://wiki.ros.org/Bags/Format/2.0.
+/// Records of a ROS 1 bag: http://wiki.ros.org/Bags/Format/2.0.
 namespace swarmsmith::bag {
 
 inline constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
@@ -26,7 +26,7 @@ enum class Op : std::uint8_t {
 
 using Fields = std::map<std::string, std::string, std::less<>>;
 
-/// The bits of a number, which lie as this machine has them; nothing where there are too few.
+/// Reads a number in the byte order of this machine; nothing if there are too few bytes.
 template <class Number>
 std::optional<Number> number_at(std::string_view bytes, std::size_t at) {
   Number number{};
@@ -42,30 +42,30 @@ std::optional<Number> number_in(const Fields& fields, std::string_view name) {
   return number_at<Number>(found->second, 0);
 }
 
-/// A text; empty where there is none.
+/// A text field; empty if it is missing.
 std::string text_in(const Fields& fields, std::string_view name);
 
-/// `length name=value`, again and again; nothing for bytes that are none.
+/// Parses a sequence of `length name=value`; nothing if the bytes have another form.
 std::optional<Fields> fields_of(std::string_view bytes);
 
-/// So many bytes from a place on; nothing beyond the end.
+/// Reads `count` bytes from a position; nothing beyond the end.
 using Read = std::function<std::optional<std::string>(std::int64_t at, std::int64_t count)>;
 Read reading_of(const std::string& bytes);
 
 struct Record {
   Op op{};
   Fields fields;
-  std::int64_t data = 0;  ///< where it begins
+  std::int64_t data = 0;  ///< where its data begin
   std::int64_t end = 0;
 
   std::int64_t size() const { return end - data; }
 };
 
-/// The record that begins there and ends before `limit`.
+/// The record that begins at a position and ends before `limit`.
 std::optional<Record> record_at(std::int64_t at, std::int64_t limit, const Read& read);
 
-/// The records of a chunk (`none`, `bz2`, `lz4`), whose header says how large they are. Nothing
-/// when it is damaged, or packed in another way.
+/// The records of a chunk (`none`, `bz2`, `lz4`), whose header gives their size. Nothing if the
+/// chunk is damaged or uses another compression.
 std::optional<std::string> unpacked(const Record& chunk, const Read& read);
 
 }  // namespace swarmsmith::bag

@@ -19,7 +19,7 @@ constexpr std::array kForms = {Form{BagWord::Kind::Ros1, ".bag", "#ROSBAG"},
                                Form{BagWord::Kind::Sqlite, ".db3", "SQLite format 3"}};
 
 std::optional<BagWord::Kind> kind_of(const std::string& file) {
-  // Of a pipe nothing must be taken.
+  // Only regular files are read here, because reading would consume data of a pipe.
   std::error_code ignored;
   const bool is_there = std::filesystem::is_regular_file(file, ignored);
   std::array<char, 16> begin{};
@@ -38,7 +38,7 @@ std::optional<BagWord::Kind> kind_of(const std::string& file) {
 std::optional<BagWord> bag_word(const std::string& word) {
   std::error_code ignored;
   if (const auto kind = kind_of(word)) return BagWord{word, {}, *kind};
-  // Names of topics have no colon.
+  // Names of topics contain no colon.
   const std::size_t colon = word.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(word, ignored)) return std::nullopt;
   const std::string file = word.substr(0, colon);

@@ -5,17 +5,17 @@
 
 namespace swarmsmith {
 
-/// A bag, and which of its topics: `run.bag`, `run.mcap:/camera/image_raw`.
+/// A bag and one of its topics: `run.bag`, `run.mcap:/camera/image_raw`.
 struct BagWord {
   enum class Kind { Ros1, Mcap, Sqlite };
   std::string file;
-  std::string topic;  ///< empty: the only one with images
+  std::string topic;  ///< empty: the only topic with images
   Kind kind = Kind::Ros1;
 };
 
-/// What a word says of a bag; nothing when it means no bag. A bag begins as its format says
-/// (`#ROSBAG`, MCAP's magic bytes, SQLite's), or is named .bag, .mcap or .db3. A file that is there
-/// wins over a topic, so that names may have colons.
+/// Parses the text that names a bag; nothing if it does not. A file is a bag if it begins with the
+/// mark of its format (`#ROSBAG`, MCAP's magic bytes, SQLite's), or if its name ends in .bag, .mcap
+/// or .db3. An existing file takes precedence over a topic, so that file names may contain colons.
 std::optional<BagWord> bag_word(const std::string& word);
 
 }  // namespace swarmsmith

@@ -20,8 +20,8 @@ namespace swarmsmith::av {
 
 struct ByteStream::State {
   AVIOContext* io = nullptr;
-  int file = -1;           ///< or
-  std::string_view bytes;  ///< when there is no file
+  int file = -1;           ///< file descriptor, or -1
+  std::string_view bytes;  ///< if there is no file
   std::int64_t position = 0;
   std::int64_t size = 0;
   int error = 0;
@@ -79,7 +79,7 @@ struct ByteStream::State {
     const std::int64_t base = whence == SEEK_CUR   ? state.position
                               : whence == SEEK_END ? state.size
                                                    : 0;
-    // Offsets come out of damaged files, too.
+    // Offsets may come from damaged files.
     if (offset > INT64_MAX / 2 || base + offset < 0) return AVERROR(EINVAL);
     state.position = base + offset;
     return state.position;

@@ -9,15 +9,16 @@
 
 namespace swarmsmith::av {
 
-/// Bytes under libavformat: a file that is open, or a text in memory. Not by its own protocols, so
-/// that a path is never taken for an address, and the system's errors can be told in its own words.
+/// Gives libavformat its bytes, from an open file or from memory. The library's own protocols are
+/// not used, so that a path is never taken for a URL, and error messages of the system can be
+/// shown.
 class ByteStream {
  public:
-  /// E_VIDEO_UNREADABLE when it cannot be read.
+  /// E_VIDEO_UNREADABLE if the file cannot be read.
   static Expected<ByteStream> reading(const std::string& path);
   /// The bytes must outlive the stream.
   static ByteStream over(std::string_view bytes);
-  /// Made anew, or emptied. Unavailable when that is not possible.
+  /// Creates or truncates the file. Unavailable if this fails.
   static Expected<ByteStream> writing(const std::string& path);
 
   ByteStream(ByteStream&&) noexcept;
@@ -26,9 +27,9 @@ class ByteStream {
 
   AVIOContext* io() const;
   std::int64_t size() const;
-  /// The system's first error of writing, as `errno` has it; 0: none so far.
+  /// The first error of writing as an `errno` value; 0 if there was none.
   int failed_with() const;
-  /// Hands all to the disk and closes; what the system says then.
+  /// Writes everything to the disk and closes the file; returns the `errno` value of an error.
   int close_after_writing();
 
  private:

@@ -22,8 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The library is loaded when a camera is opened (cmake/LateLibraries.cmake), and an archive of
-/// packaging/bundle has it not.
+/// The library is loaded when a camera is opened (cmake/LateLibraries.cmake); an archive made by
+/// packaging/bundle does not contain it.
 bool has_videoio() {
   const std::string name =
       fmt::format("libopencv_videoio.so.{}{:02}", CV_VERSION_MAJOR, CV_VERSION_MINOR);
@@ -49,7 +49,7 @@ class Reading {
   }
 
  private:
-  /// Why it ended; empty: no more pictures.
+  /// Returns the reason why the camera ended; empty if there are no more pictures.
   std::string read_all() {
     if (!has_videoio()) {
       return "live cameras are read by OpenCV's library videoio, which is not here: the archive of "
@@ -76,8 +76,8 @@ class Reading {
     }
   }
 
-  /// Each backend is named: without that OpenCV asks all of them in turn, also those of photo and
-  /// FireWire cameras, which look through all USB devices.
+  /// Each backend is named; otherwise OpenCV tries all of them in turn, including those for photo
+  /// and FireWire cameras, which search all USB devices.
   bool open() {
     if (!word_.index) {
       return std::ranges::any_of(
@@ -86,7 +86,7 @@ class Reading {
     }
     if (!camera_->open(*word_.index, cv::CAP_V4L2)) return false;
     if (word_.size.width > 0) {
-      // Raw pictures of this size seldom fit through USB.
+      // Raw pictures of this size usually exceed the bandwidth of USB.
       camera_->set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
       camera_->set(cv::CAP_PROP_FRAME_WIDTH, word_.size.width);
       camera_->set(cv::CAP_PROP_FRAME_HEIGHT, word_.size.height);
@@ -111,7 +111,7 @@ class Reading {
     return rate_ > 0 ? now - 0.5 / rate_ : now;
   }
 
-  /// False when no more is wanted.
+  /// False if the reader must stop.
   bool hand_over(Arrived arrived) {
     constexpr std::size_t kMostWaiting = 16;
     const std::scoped_lock lock(shared_->mutex);
@@ -131,13 +131,13 @@ class Reading {
   }
 
   CameraWord word_;
-  std::shared_ptr<CameraQueue> shared_;     // shared, since this thread may outlive who started it
-  std::optional<cv::VideoCapture> camera_;  // none before the library is known to be there
+  std::shared_ptr<CameraQueue> shared_;     // shared, since this thread may outlive its creator
+  std::optional<cv::VideoCapture> camera_;  // none until the library is known to exist
   bool has_driver_times_ = false;
   double rate_ = 0;
 };
 
-/// From now on: what is registered last at the process's end runs first.
+/// Registers the handler now, so that it runs before all handlers registered earlier.
 void end_without_destructors() {
   on_exit(
       [](int status, void*) {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kCamera = "camera:";
 constexpr std::string_view kOpenCv = "opencv:";
 
-/// Takes a number off the front.
+/// Reads a number from the front of a text.
 template <class Number>
 bool take(std::string_view& text, Number& value) {
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);

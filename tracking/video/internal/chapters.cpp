@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 9> kEndings = {".mp4", ".mkv", ".mov",  ".avi", ".webm",
                                                       ".ts",  ".bag", ".mcap", ".db3"};
 
-/// A clock that begins anew begins about there.
+/// A chapter whose first time is below this has a clock that starts anew.
 constexpr double kNear_s = 1;
 
 class Chapters final : public FrameSource {
@@ -58,7 +58,7 @@ class Chapters final : public FrameSource {
     if (!part.time_s) return true;
     if (is_first_) {
       is_first_ = false;
-      // The last interval is the best guess of the one between two chapters.
+      // The last interval is the best estimate of the interval between two chapters.
       offset_s_ = last_s_ && *part.time_s < kNear_s ? *last_s_ + interval_s_ - *part.time_s : 0;
     }
     const double time = *part.time_s + offset_s_;
@@ -69,7 +69,7 @@ class Chapters final : public FrameSource {
   }
 
   Expected<void> go_on() {
-    // Frames that were damaged have their numbers, too.
+    // Damaged frames also have numbers.
     first_number_ += shown_ + source_->damaged_frames();
     damaged_ += source_->damaged_frames();
     shown_ = 0;
@@ -95,9 +95,9 @@ class Chapters final : public FrameSource {
   std::size_t at_ = 0;
   std::unique_ptr<FrameSource> source_;
   Frame frame_{.number = -1, .time_s = {}, .gray = {}, .file = {}};
-  std::int64_t first_number_ = 0;  ///< of the present chapter
-  std::int64_t damaged_ = 0;       ///< in the chapters before
-  std::int64_t shown_ = 0;         ///< in the present chapter
+  std::int64_t first_number_ = 0;  ///< of the current chapter
+  std::int64_t damaged_ = 0;       ///< in the previous chapters
+  std::int64_t shown_ = 0;         ///< in the current chapter
   bool is_first_ = true;
   std::optional<double> last_s_;
   double interval_s_ = 0;

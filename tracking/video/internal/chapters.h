@@ -9,13 +9,14 @@
 
 namespace swarmsmith {
 
-/// The recordings in a folder that are chapters of one film: videos, or parts of a bag, in the
-/// order of their names. Nothing when the folder has images, or none of these.
+/// The recordings in a folder that are the chapters of one film: videos, or parts of a bag, in the
+/// order of their names. Nothing if the folder contains images, or no recordings.
 std::optional<std::vector<std::string>> chapters_in(const std::string& folder);
 
-/// Their frames one after the other. A chapter whose clock begins anew goes on an interval after
-/// the one before; chapters whose clock goes on keep their times, and one that begins before
-/// the last one ended is E_TIMESTAMPS. All have one size. `word`: as the folder was named.
+/// Reads the frames of all chapters in sequence. If a chapter's clock starts anew, the chapter
+/// follows the previous one after one interval; if the clock continues, the times are kept, and a
+/// chapter that begins before the end of the previous one is an E_TIMESTAMPS. All chapters have the
+/// same size. `word` is the folder as the user named it.
 Expected<std::unique_ptr<FrameSource>> open_chapters(const std::string& word,
                                                      const std::vector<std::string>& files,
                                                      const std::string& topic);

@@ -24,9 +24,9 @@ bool is_taken(std::string_view decoder) {
   }
 }
 
-/// Whether any error is to cost the whole picture. Not where cameras write odd but harmless side
-/// data that the library calls an error (H.264 and H.265, whose decoders flag damaged pictures),
-/// nor for TIFF, where a tag that it does not know is one.
+/// Whether any error discards the whole picture. Not for H.264 and H.265, where the library treats
+/// odd but harmless side data of cameras as an error, and whose decoders flag damaged pictures; and
+/// not for TIFF, where an unknown tag is an error.
 bool refuses_whole_pictures(AVCodecID codec) {
   return codec != AV_CODEC_ID_H264 && codec != AV_CODEC_ID_HEVC && codec != AV_CODEC_ID_TIFF;
 }
@@ -46,7 +46,7 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
   Codec codec(avcodec_alloc_context3(found));
   int code = avcodec_parameters_to_context(codec.get(), &about);
   codec->thread_count = 1;
-  // Else what a film crops on its left is rounded to what is quick to read.
+  // Without this flag, the left crop of a film is rounded to an alignment that is fast to read.
   codec->flags |= AV_CODEC_FLAG_UNALIGNED;
   codec->pkt_timebase = time_base;
   codec->max_pixels = most_pixels(about.codec_id);
@@ -67,7 +67,7 @@ std::int64_t most_pixels(AVCodecID codec) {
 
 bool is_intra_only(AVCodecID codec) {
   const AVCodecDescriptor* const about = avcodec_descriptor_get(codec);
-  // FFV1 may carry its model from picture to picture; the library counts it as intra-only.
+  // FFV1 pictures may depend on previous ones, although the library lists FFV1 as intra-only.
   return about != nullptr && (about->props & AV_CODEC_PROP_INTRA_ONLY) != 0 &&
          codec != AV_CODEC_ID_FFV1;
 }

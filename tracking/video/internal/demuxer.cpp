@@ -19,7 +19,7 @@ namespace swarmsmith::av {
 namespace {
 
 constexpr const char* kContainers = "matroska,mov,avi,mpegts,mjpeg";
-/// An .avi says in its first bytes how long it is.
+/// An .avi gives its length in its first bytes.
 bool is_cut_avi(const ByteStream& bytes) {
   std::array<unsigned char, 12> head{};
   const int count = avio_read(bytes.io(), head.data(), static_cast<int>(head.size()));
@@ -35,7 +35,7 @@ bool is_cut_avi(const ByteStream& bytes) {
   return bytes.size() < length + kFirstBytes;
 }
 
-/// Asks the library what the streams are; it may decode a little for that.
+/// Lets the library find the streams; it may decode a little for this.
 int find_streams(AVFormatContext* format) {
   std::vector<AVDictionary*> options(format->nb_streams, nullptr);
   for (std::size_t i = 0; i < options.size(); ++i) {
@@ -49,7 +49,7 @@ int find_streams(AVFormatContext* format) {
   return code;
 }
 
-/// Frames that are decoded but never shown have packets of their own in VP8.
+/// In VP8, frames that are decoded but never shown have their own packets.
 bool is_shown(const AVStream& stream, const AVPacket& packet) {
   if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;
   constexpr int kShowFrame = 0x10;  // RFC 6386, section 9.1
@@ -57,7 +57,7 @@ bool is_shown(const AVStream& stream, const AVPacket& packet) {
          (packet.data[0] & kShowFrame) != 0;
 }
 
-/// Whether the header's duration goes on after the last frame, by more than a frame.
+/// Whether the header's duration exceeds the time of the last frame by more than a second.
 bool ends_early(const Demuxer& demuxer, const PacketTable& table) {
   const AVFormatContext& format = demuxer.format();
   if (format.duration <= 0 || format.duration_estimation_method != AVFMT_DURATION_FROM_STREAM ||
@@ -92,11 +92,11 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
   opened->codec_whitelist = av_strdup(kTakenDecoders);
   constexpr int kMostStreams = 64;
   opened->max_streams = kMostStreams;
-  // On failure the library frees the context.
+  // If this fails, the library frees the context.
   const int code = avformat_open_input(&opened, nullptr, nullptr, nullptr);
   if (code < 0) {
     const std::string words = reason(code);
-    // Of .mp4 and .mov: written last, when the recording is ended.
+    // In .mp4 and .mov files the index is written last, when the recording ends.
     if (words.find("moov atom not found") != std::string::npos) {
       return unreadable(
           "its index is missing (moov): the recording was not ended properly, or the file is not "
@@ -111,7 +111,7 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
   if (found < 0) return unreadable("its streams cannot be read: " + reason(found), name);
   const int stream = av_find_best_stream(format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (stream < 0) return unreadable("it has no video, only other streams", name);
-  take_message();  // complaints of the search for streams are not errors
+  take_message();  // discard messages from the search for streams
   Demuxer demuxer(std::move(bytes), std::move(format), stream);
   demuxer.broke_off_ = cut;
   return demuxer;
@@ -143,7 +143,7 @@ int Demuxer::number_of_video() const {
 }
 
 AVPacket* Demuxer::next() {
-  constexpr int kMostErrors = 1000;  // one after the other
+  constexpr int kMostErrors = 1000;  // consecutive errors
   for (int errors = 0; errors < kMostErrors;) {
     av_packet_unref(packet_.get());
     const int code = av_read_frame(format_.get(), packet_.get());
@@ -156,7 +156,7 @@ AVPacket* Demuxer::next() {
 }
 
 Expected<PacketTable> packets_of(Demuxer& demuxer, const std::string& name) {
-  constexpr std::size_t kMostFrames = 4'000'000;  // 37 hours at 30 a second
+  constexpr std::size_t kMostFrames = 4'000'000;  // 37 hours at 30 frames/s
   PacketTable table;
   bool all_timed = true;
   while (const AVPacket* const packet = demuxer.next()) {
@@ -176,15 +176,15 @@ Expected<PacketTable> packets_of(Demuxer& demuxer, const std::string& name) {
   std::sort(table.times.begin(), table.times.end());
   if (demuxer.is_avi() && table.times.front() >= 0 &&
       table.times.back() < static_cast<std::int64_t>(kMostFrames)) {
-    // An .avi stands for a frame that the recorder dropped with an empty chunk, which the library
-    // leaves out, but counts.
+    // If the recorder dropped a frame, an .avi has an empty chunk for it, which the library skips
+    // but counts.
     const auto places = static_cast<std::size_t>(table.times.back()) + 1;
     table.times.resize(places);
     std::iota(table.times.begin(), table.times.end(), std::int64_t{0});
   }
   const bool distinct =
       std::adjacent_find(table.times.begin(), table.times.end()) == table.times.end();
-  // Elementary streams have no times; the library makes some up.
+  // Elementary streams have no times; the library invents some.
   const bool is_bare = std::string_view(demuxer.format().iformat->name) == "mjpeg";
   table.has_times = all_timed && distinct && !demuxer.is_avi() && !is_bare;
   const auto frames = static_cast<std::int64_t>(table.times.size());

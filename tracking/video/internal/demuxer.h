@@ -10,25 +10,26 @@
 
 namespace swarmsmith::av {
 
-/// The video packets of a file, in the order in which they are stored.
+/// Reads the video packets of a file, in the order in which they are stored.
 class Demuxer {
  public:
-  /// E_VIDEO_UNREADABLE for what is not a video of a known kind. Only kinds and codecs that cameras
-  /// and recorders write are tried; the library's others are many, and less looked after.
+  /// E_VIDEO_UNREADABLE if it is not a video of a known kind. Only formats and codecs that cameras
+  /// and recorders write are tried, because the library has many others that are less well
+  /// maintained.
   static Expected<Demuxer> open(ByteStream bytes, const std::string& name);
 
   /// Null at the end.
   AVPacket* next();
-  /// Whether the end came where the file says that more follows.
+  /// Whether the file ended although its header announces more.
   bool broke_off() const { return broke_off_; }
 
   const AVFormatContext& format() const { return *format_; }
   const AVStream& stream() const { return *format_->streams[stream_]; }
-  /// Video tracks that are not read, pictures of a cover left aside; and the number of the one that
-  /// is, among all of them.
+  /// The number of video tracks that are not read, without cover pictures; and the number of the
+  /// track that is read, among all video tracks.
   int other_videos() const;
   int number_of_video() const;
-  /// Audio Video Interleave: constant rate, no times.
+  /// Audio Video Interleave: has a constant rate and no times.
   bool is_avi() const { return std::string_view(format_->iformat->name) == "avi"; }
 
  private:
@@ -38,23 +39,23 @@ class Demuxer {
   using Format = std::unique_ptr<AVFormatContext, Close>;
   Demuxer(ByteStream bytes, Format format, int stream);
 
-  ByteStream bytes_;  // outlives format_, which reads from it
+  ByteStream bytes_;  // must outlive format_, which reads from it
   Format format_;
   PacketPtr packet_{av_packet_alloc()};
   int stream_ = -1;
   bool broke_off_ = false;
 };
 
-/// What a file's packets say about its frames.
+/// Information on the frames of a file, from its packets.
 struct PacketTable {
-  /// Of the frames in the order of display, in the stream's time base; for an .avi their places.
+  /// Times of the frames in display order, in the stream's time base; for an .avi their indices.
   std::vector<std::int64_t> times;
-  bool has_times = false;     ///< each frame has one of its own
-  bool has_count = false;     ///< a constant rate, and as many frames as the header says
-  bool is_truncated = false;  ///< it ends before its header says
+  bool has_times = false;     ///< each frame has its own time
+  bool has_count = false;     ///< constant rate, and the number of frames agrees with the header
+  bool is_truncated = false;  ///< it ends earlier than its header says
 };
 
-/// Reads all packets. Fails when there are none, or more than a recording of days could have.
+/// Reads all packets. Fails if there are none, or more than in a recording of several days.
 Expected<PacketTable> packets_of(Demuxer& demuxer, const std::string& name);
 
 }  // namespace swarmsmith::av

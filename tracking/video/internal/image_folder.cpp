@@ -33,7 +33,7 @@ bool is_image_name(const fs::path& path) {
          std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-/// A whole file as a packet.
+/// Reads a whole file into a packet.
 Expected<av::PacketPtr> packet_of(const std::string& path) {
   constexpr std::int64_t kMostBytes = std::int64_t{400} << 20;
   auto bytes = av::ByteStream::reading(path);
@@ -108,13 +108,13 @@ Expected<std::unique_ptr<FrameSource>> open_files(const std::string& path,
   SourceInfo info;
   info.name = path;
   info.expected_frames = static_cast<std::int64_t>(files.size());
-  // A date that all of them have is none of theirs.
+  // If all names have the same date, it is not the time of a picture.
   std::vector<std::optional<double>> times;
   for (const std::string& file : files)
     times.push_back(time_in_name(file));
   info.has_times = std::ranges::all_of(times, [](const auto& time) { return time.has_value(); }) &&
                    std::ranges::adjacent_find(times) == times.end();
-  // The first one that can be read says how large they are.
+  // The first readable picture gives the size.
   std::optional<Error> first_error;
   for (const std::string& file : files) {
     const auto picture = picture_of(file);
@@ -137,7 +137,7 @@ std::optional<double> time_in_name(const std::string& file) {
     const std::size_t end = std::min(stem.find_first_not_of(kDigits, begin), stem.size());
     const std::string number = stem.substr(begin, end - begin);
     begin = stem.find_first_of(kDigits, end);
-    // Since 2001; a counter has zeros before it.
+    // Times since 2001 do not begin with 0; counters may.
     if (number.front() == '0') continue;
     if (number.size() == 13) return std::stod(number) * 1e-3;
     if (number.size() == 16) return std::stod(number) * 1e-6;

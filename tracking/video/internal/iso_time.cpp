@@ -10,7 +10,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Takes a text apart from its front.
+/// Parses a text from its front.
 class Reader {
  public:
   explicit Reader(std::string_view text) : rest_(text) {}
@@ -30,7 +30,8 @@ class Reader {
     rest_.remove_prefix(1);
     return true;
   }
-  /// Digits after a point; after another sign they may be a counter, but not three, six or nine.
+  /// Reads a fraction: digits after a point. After another separator, only three, six or nine
+  /// digits are a fraction; others may be a counter.
   double fraction() {
     const std::string_view before = rest_;
     const bool is_point = one_of(".,");
@@ -51,7 +52,7 @@ class Reader {
     }
     return value;
   }
-  /// Seconds that the zone is ahead of UTC.
+  /// Offset of the zone from UTC, in seconds.
   std::optional<int> zone() {
     if (one_of("Zz")) return 0;
     const bool behind = !rest_.empty() && rest_.front() == '-';
@@ -68,7 +69,7 @@ class Reader {
   std::string_view rest_;
 };
 
-/// `whole`: nothing may follow.
+/// With `whole`, nothing may follow the date.
 std::optional<double> read(std::string_view text, bool whole) {
   using namespace std::chrono;
   Reader reader(text);

@@ -78,7 +78,8 @@ class LiveCamera final : public FrameSource {
 
  private:
   SourceInfo info_;
-  std::shared_ptr<CameraQueue> shared_;  // with the thread that reads, which may outlive this
+  std::shared_ptr<CameraQueue> shared_;  // shared with the reading thread, which may outlive this
+                                         // object
   std::unique_ptr<CameraReader> reader_;
   std::chrono::milliseconds patience_;
   Arrived arrived_;

@@ -23,19 +23,19 @@ using mcap::Record;
 struct Channel {
   std::string topic;
   std::string type;
-  std::string encoding;  ///< of messages: "cdr", "ros1"
+  std::string encoding;  ///< encoding of the messages: "cdr", "ros1"
   std::int64_t messages = 0;
 };
 
-/// As ROS 2 allows for topics (DDS).
+/// The limit for topics in ROS 2 (DDS).
 constexpr std::size_t kLongestName = 255;
 
-/// What a file has: its channels by number.
+/// The contents of a file: its channels and schemas by id.
 struct Contents {
   std::map<std::uint16_t, Channel> channels;
   std::map<std::uint16_t, std::string> schemas;
 
-  /// False for a record that cannot be.
+  /// False for an invalid record.
   bool take(const Record& record) {
     mcap::Fields fields(record.content);
     if (record.opcode == Opcode::Schema) {
@@ -52,7 +52,7 @@ struct Contents {
       if (fields.has_ended() || channel.topic.size() > kLongestName ||
           channel.encoding.size() > kLongestName)
         return false;
-      // A channel is said again in the summary.
+      // The summary repeats the channels.
       channels.try_emplace(id, std::move(channel));
     } else if (record.opcode == Opcode::Message) {
       const auto found = channels.find(static_cast<std::uint16_t>(fields.number(2)));
@@ -82,13 +82,13 @@ class McapMessages final : public MessageReader {
       mcap::Fields fields((*record)->content);
       const auto channel = static_cast<std::uint16_t>(fields.number(2));
       if (std::ranges::find(channels_, channel) == channels_.end()) continue;
-      fields.number(4);  // counts messages
+      fields.number(4);  // sequence number of the message
       const std::uint64_t time = fields.number(8);
-      fields.number(8);  // when it was published
+      fields.number(8);  // time of publication
       const std::string_view data = fields.rest();
       if (fields.has_ended()) return records_.damaged("a message that is too short");
       bytes_.assign(data.begin(), data.end());
-      // Decoders and scalers read a little beyond the end.
+      // Decoders and scalers read slightly beyond the end.
       bytes_.resize(data.size() + AV_INPUT_BUFFER_PADDING_SIZE);
       return std::optional(
           RecordedMessage{static_cast<std::int64_t>(std::min<std::uint64_t>(time, INT64_MAX)),
@@ -129,7 +129,7 @@ Expected<std::unique_ptr<FrameSource>> open_mcap(const BagWord& word) {
   for (const auto& [id, channel] : contents.channels) {
     if (channel.messages > 0) types[channel.topic] = channel.type;
   }
-  // What can be read up to there is read again, and then the damage is named with its place.
+  // The readable part is read again later, and then the damage is reported with its position.
   if (damage &&
       std::ranges::none_of(types, has_ros_images, [](const auto& topic) { return topic.second; }))
     return Unexpected(*damage);

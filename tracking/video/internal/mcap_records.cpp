@@ -20,8 +20,9 @@ namespace {
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 constexpr std::int64_t kHead = 9;  // opcode and length
 constexpr std::uint64_t kMostBytes = std::uint64_t{512} << 20;
-/// What a few bytes may expand to, and beyond it what each packed byte may: even pictures of one
-/// colour stay below, in chunks as recorders close them.
+/// Limits of decompression: `kMostOfFew` bytes from few compressed bytes, otherwise `kMostOfEach`
+/// bytes per compressed byte. Even pictures of one colour, in chunks of the size that recorders
+/// use, stay below.
 constexpr std::uint64_t kMostOfFew = std::uint64_t{64} << 20;
 constexpr std::uint64_t kMostOfEach = 50;
 
@@ -50,7 +51,7 @@ bool unpack_zstd(std::string_view packed, std::string& into) {
 }
 
 std::uint32_t crc_of(std::string_view bytes) {
-  // In parts, since the library counts in `size_t` but older ones in `int`.
+  // Older versions of the library take the size as `int`, newer ones as `size_t`.
   const auto* const table = av_crc_get_table(AV_CRC_32_IEEE_LE);
   return av_crc(table, UINT32_MAX, reinterpret_cast<const std::uint8_t*>(bytes.data()),
                 bytes.size()) ^
@@ -110,7 +111,7 @@ Expected<std::optional<Record>> Records::next() {
     record.content = fields.bytes(fields.number(8));
     if (fields.has_ended()) return damaged("a record goes on beyond its chunk");
     inside_ = fields.rest();
-    // None within another.
+    // A chunk may not contain another chunk.
     if (record.opcode != Opcode::Chunk) return std::optional(record);
   }
 }
@@ -129,7 +130,7 @@ Expected<std::optional<Record>> Records::next_outside() {
     at_ = static_cast<std::int64_t>(kMagic.size());
   }
   if (is_over_) return std::optional<Record>();
-  // A recording that was cut off ends anywhere.
+  // A truncated recording may end anywhere.
   if (bytes_.size() - at_ < kHead) {
     is_over_ = is_cut_ = true;
     return std::optional<Record>();
@@ -158,8 +159,8 @@ Expected<std::optional<Record>> Records::next_outside() {
 
 Expected<void> Records::unpack(const Record& chunk) {
   Fields fields(chunk.content);
-  fields.number(8);  // from when
-  fields.number(8);  // to when
+  fields.number(8);  // start time
+  fields.number(8);  // end time
   const std::uint64_t size = fields.number(8);
   const auto crc = static_cast<std::uint32_t>(fields.number(4));
   const std::string packing = fields.text();

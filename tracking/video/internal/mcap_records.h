@@ -9,15 +9,15 @@
 
 namespace swarmsmith::mcap {
 
-/// Those that are read; others are passed over.
+/// The records that are read; others are skipped.
 enum class Opcode : std::uint8_t { Schema = 3, Channel = 4, Message = 5, Chunk = 6, DataEnd = 15 };
 
 struct Record {
   Opcode opcode{};
-  std::string_view content;  ///< lives until the next record is asked for
+  std::string_view content;  ///< valid until the next record is read
 };
 
-/// Takes little-endian fields off the front of a record. Once it has ended, all is 0.
+/// Reads little-endian fields from the front of a record. After the end, all values are 0.
 class Fields {
  public:
   explicit Fields(std::string_view bytes) : rest_(bytes) {}
@@ -33,20 +33,20 @@ class Fields {
   bool has_ended_ = false;
 };
 
-/// The records of a file's data section, those in chunks among them, from front to back. No length
-/// that a file names is believed beyond its own bytes, or 512 MB at a time, and none that a few
-/// packed bytes cannot have.
+/// The records of a file's data section, including the records in chunks, from front to back. A
+/// length in the file is not trusted if it exceeds the rest of the file or 512 MB, or if the
+/// compressed bytes are too few to expand to it.
 class Records {
  public:
   Records(av::ByteStream bytes, std::string name);
 
-  /// Nothing at the end, of a file that was cut off between two records, too. E_VIDEO_UNREADABLE
-  /// with the place where it is damaged.
+  /// Nothing at the end, even if the file was truncated between two records. E_VIDEO_UNREADABLE,
+  /// with the position of the damage.
   Expected<std::optional<Record>> next();
   void rewind();
-  /// Once the end was reached: it ended before the file said that it does.
+  /// After the end was reached: the file was truncated.
   bool is_cut() const { return is_cut_; }
-  /// An error with the place of the next record, or of the one after the last that was read.
+  /// An error with the position of the next record outside of chunks.
   Unexpected damaged(const std::string& what) const;
 
  private:
@@ -55,10 +55,10 @@ class Records {
 
   av::ByteStream bytes_;
   std::string name_;
-  std::int64_t at_ = 0;      ///< the next record outside of chunks
-  std::string record_;       ///< the last of those
-  std::string unpacked_;     ///< the chunk's records, where they were packed
-  std::string_view inside_;  ///< the rest of the chunk
+  std::int64_t at_ = 0;      ///< position of the next record outside of chunks
+  std::string record_;       ///< the last record outside of chunks
+  std::string unpacked_;     ///< the chunk's records, if they were compressed
+  std::string_view inside_;  ///< unread rest of the chunk
   bool is_over_ = false;
   bool is_cut_ = false;
 };

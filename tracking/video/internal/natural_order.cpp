@@ -9,7 +9,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Takes a run of digits off the front, without its leading zeros.
+/// Reads a number from the front of a text, without its leading zeros.
 std::string_view take_number(std::string_view& text) {
   std::size_t end = 0;
   while (end < text.size() && is_digit(text[end]))
@@ -40,7 +40,7 @@ bool comes_before(std::string_view a, std::string_view b) {
       y.remove_prefix(1);
     }
   }
-  // "7.png" and "07.png" differ in zeros alone.
+  // "7.png" and "07.png" differ only in zeros.
   if (x.empty() && y.empty()) return a < b;
   return x.empty();
 }

@@ -14,10 +14,10 @@ extern "C" {
 namespace swarmsmith::av {
 namespace {
 
-/// Exact steps: the same bytes on every processor.
+/// Exact arithmetic: the same bytes on every processor.
 constexpr int kExact = SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT | SWS_FULL_CHR_H_INT;
 
-/// A plane of 8 bits a pixel that holds the brightness is the first of Y'UV and of grey formats.
+/// In Y'UV and grey formats with 8 bits per sample, the first plane is the brightness.
 bool has_gray_plane(AVPixelFormat format) {
   const AVPixFmtDescriptor* about = av_pix_fmt_desc_get(format);
   constexpr std::uint64_t kOther = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL |
@@ -39,8 +39,8 @@ bool is_full_range(const AVFrame& frame) {
            (about->nb_components < 3 && frame.color_range == AVCOL_RANGE_UNSPECIFIED)));
 }
 
-/// Where nothing is said: still pictures and motion JPEG are BT.601, as are small videos; players
-/// take larger ones for BT.709.
+/// If the matrix is not specified: still pictures, motion JPEG and small videos use BT.601; players
+/// assume BT.709 for larger videos.
 int matrix_of(const AVFrame& frame) {
   constexpr int kHighDefinition = 720;
   switch (static_cast<int>(frame.colorspace)) {
@@ -57,7 +57,7 @@ int matrix_of(const AVFrame& frame) {
   }
 }
 
-/// The formats of the full range that swscale knows only by their range.
+/// Replaces full-range formats; swscale needs the normal format and a separate range.
 AVPixelFormat without_range(AVPixelFormat format) {
   switch (static_cast<int>(format)) {
     case AV_PIX_FMT_YUVJ420P:
@@ -78,7 +78,7 @@ SwsContext* scaler(Scaler& kept, const AVFrame& frame, AVPixelFormat to) {
   kept.reset(sws_getCachedContext(kept.release(), frame.width, frame.height, from, frame.width,
                                   frame.height, to, kExact, nullptr, nullptr, nullptr));
   if (kept == nullptr) return nullptr;
-  constexpr int kOne = 1 << 16;  // of contrast and saturation
+  constexpr int kOne = 1 << 16;  // unit of contrast and saturation
   // Fails for grey to grey, where there is nothing to set.
   sws_setColorspaceDetails(kept.get(), sws_getCoefficients(matrix_of(frame)),
                            is_full_range(frame) ? 1 : 0, sws_getCoefficients(SWS_CS_ITU601), 1, 0,
@@ -130,8 +130,8 @@ ColorImage Pictures::color(const AVFrame& frame) {
 
 void fill(AVFrame& frame, const ColorImage& image, Scaler& kept) {
   if (kept == nullptr) {
-    // Two pixels make one of colour; without the flag, a last one takes the next row's for its
-    // pair.
+    // Two pixels share one colour sample; without the flag, the last pixel of an odd row is paired
+    // with the first pixel of the next row.
     const int how = frame.width % 2 == 0 ? kExact : kExact | SWS_FULL_CHR_H_INP;
     kept.reset(sws_getContext(frame.width, frame.height, AV_PIX_FMT_BGR24, frame.width,
                               frame.height, without_range(static_cast<AVPixelFormat>(frame.format)),

@@ -14,8 +14,9 @@
 namespace swarmsmith {
 namespace {
 
-/// Takes fields off the front of a message: CDR (Common Data Representation, OMG DDS-XTypes 7.4,
-/// version 1), as ROS 2 writes it, or ROS 1's, which aligns nothing. Once it has ended, all is 0.
+/// Reads fields from the front of a message: CDR (Common Data Representation, OMG DDS-XTypes 7.4,
+/// version 1), as in ROS 2, or the form of ROS 1, which has no alignment. After the end, all values
+/// are 0.
 class Fields {
  public:
   Fields(std::uint8_t* bytes, std::size_t size, MessageForm form)
@@ -44,7 +45,7 @@ class Fields {
     const std::uint8_t* const from = take(1);
     return from == nullptr ? std::uint8_t{0} : *from;
   }
-  /// CDR counts the zero at the end.
+  /// In CDR the length of a text includes the zero at the end.
   std::string text() {
     const std::uint32_t length = number();
     const std::uint8_t* const from = take(length);
@@ -71,10 +72,10 @@ class Fields {
   bool is_cdr_;
   bool is_big_endian_ = false;
   bool has_ended_ = false;
-  bool is_other_ = false;  ///< it does not begin as such a message does
+  bool is_other_ = false;  ///< it does not begin like a message of this form
 };
 
-/// Bytes that do not begin as the form says.
+/// The error for bytes that do not begin as the form requires.
 std::string other_form(const std::uint8_t* begin) {
   const std::array<std::uint8_t, 4> zstd{0x28, 0xb5, 0x2f, 0xfd};
   if (std::equal(zstd.begin(), zstd.end(), begin)) {
@@ -86,18 +87,18 @@ std::string other_form(const std::uint8_t* begin) {
                      begin[0], begin[1]);
 }
 
-/// The definitions are those of `sensor_msgs`. An error says why it cannot be read.
+/// Reads an image as defined by `sensor_msgs`. The error gives the reason why it cannot be read.
 tl::expected<RosImage, std::string> image_of(const RecordedMessage& message, MessageForm form,
                                              bool is_packed) {
   Fields fields(message.bytes, message.size, form);
   RosImage image;
   image.is_packed = is_packed;
-  if (form == MessageForm::Ros1) fields.number();  // counts messages
+  if (form == MessageForm::Ros1) fields.number();  // sequence number
   image.stamp_s = fields.number();
   image.stamp_ns = fields.number();
-  fields.text();  // the frame of coordinates
+  fields.text();  // coordinate frame
   if (is_packed) {
-    fields.text();  // the format, which the bytes say better
+    fields.text();  // format, which the first bytes show more reliably
   } else {
     image.height = fields.number();
     image.width = fields.number();
@@ -121,8 +122,8 @@ class RecordedImages final : public FrameSource {
     info_.name = std::move(name);
     info_.expected_frames = messages_->count();
     info_.has_times = true;
-    // No fault of the run: a recorder that is killed writes no end, and runs that are not covered
-    // are refused.
+    // This is not an issue of the run: a recorder that is killed writes no end, and runs that the
+    // film does not cover are refused anyway.
     if (messages_->is_cut()) {
       info_.oddities.emplace_back(
           "it was cut off: the recording was not ended properly, or the file is not whole, and "
@@ -131,7 +132,8 @@ class RecordedImages final : public FrameSource {
     }
   }
 
-  /// Looks at the first image that can be read: how large they are, and whether they have stamps.
+  /// Reads the first readable image to find the size of the images, and whether they have time
+  /// stamps.
   Expected<void> look() {
     std::optional<Error> first_error;
     while (true) {
@@ -207,8 +209,8 @@ class RecordedImages final : public FrameSource {
   MessageForm form_;
   bool is_packed_;
   bool has_stamps_ = false;
-  std::int64_t number_ = 0;  ///< of the next one
-  RosImage image_;           ///< in the reader's bytes
+  std::int64_t number_ = 0;  ///< number of the next image
+  RosImage image_;           ///< points into the reader's bytes
   av::FramePtr picture_;
   av::Pictures pictures_;
   Frame frame_;

@@ -10,30 +10,30 @@
 
 namespace swarmsmith {
 
-/// How the fields of a message lie in its bytes.
+/// The encoding of a message's fields.
 enum class MessageForm { Cdr, Ros1 };
 
-/// A message's bytes.
+/// The bytes of a message.
 struct RecordedMessage {
   std::int64_t recorded_ns = 0;   ///< since 1970
-  std::uint8_t* bytes = nullptr;  ///< with AV_INPUT_BUFFER_PADDING_SIZE bytes after it
+  std::uint8_t* bytes = nullptr;  ///< followed by AV_INPUT_BUFFER_PADDING_SIZE more bytes
   std::size_t size = 0;
 };
 
-/// The messages of one topic, one after the other.
+/// Reads the messages of one topic in sequence.
 class MessageReader {
  public:
   virtual ~MessageReader() = default;
-  /// Nothing at the end. The bytes live until the next one is asked for.
+  /// Nothing at the end. The bytes are valid until the next message is read.
   virtual Expected<std::optional<RecordedMessage>> next() = 0;
   virtual void rewind() = 0;
   virtual std::int64_t count() const = 0;
-  /// The file ends before it says so.
+  /// Whether the file ends earlier than it says.
   virtual bool is_cut() const { return false; }
 };
 
-/// Their images. Times are those of the messages' headers; where the first image has none, when
-/// each was recorded.
+/// Opens the images in messages. Times are those in the messages' headers; if the first image has
+/// no time, they are the times of recording.
 Expected<std::unique_ptr<FrameSource>> open_recorded(std::string name,
                                                      std::unique_ptr<MessageReader> messages,
                                                      MessageForm form, bool is_packed);

@@ -19,8 +19,8 @@ extern "C" {
 namespace swarmsmith {
 namespace {
 
-/// What an encoding of sensor_msgs/image_encodings.h is called by libav, with its low byte first
-/// and last.
+/// An encoding of sensor_msgs/image_encodings.h, and libav's formats for it, little-endian and
+/// big-endian.
 struct Encoding {
   std::string_view name;
   AVPixelFormat format = AV_PIX_FMT_NONE;
@@ -47,7 +47,7 @@ constexpr std::array kEncodings = {
     Encoding{"yuv422_yuy2", AV_PIX_FMT_YUYV422},
 };
 
-/// The pixels where they lie in the message, which must outlive the picture.
+/// The pixels are not copied from the message, which must outlive the picture.
 Expected<av::FramePtr> raw_picture(const RosImage& message, const std::string& name) {
   const auto known = std::ranges::find(kEncodings, message.encoding, &Encoding::name);
   if (known == kEncodings.end()) {
@@ -63,7 +63,7 @@ Expected<av::FramePtr> raw_picture(const RosImage& message, const std::string& n
   const int row = av_image_get_linesize(format, width, 0);
   const std::uint64_t needed = std::uint64_t{message.step} * (message.height - 1) +
                                static_cast<std::uint64_t>(std::max(row, 0));
-  // The scaler steps through samples of two bytes.
+  // The scaler needs rows at even addresses if samples have two bytes.
   const bool is_even = message.step % 2 == 0 || row / width % 2 != 0;
   if (row <= 0 || message.step < static_cast<std::uint32_t>(row) || !is_even ||
       needed > message.size) {
@@ -88,7 +88,7 @@ Expected<av::FramePtr> packed_picture(const RosImage& message, const std::string
   return av::decode_still(*packet, name);
 }
 
-/// The first few.
+/// The first few names.
 std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   std::vector<std::string> first;

@@ -29,10 +29,10 @@ struct CloseQuery {
 using SqliteBase = std::unique_ptr<sqlite3, CloseBase>;
 using Query = std::unique_ptr<sqlite3_stmt, CloseQuery>;
 
-/// A file that may be anything.
+/// An SQLite file with untrusted contents.
 struct Base {
   SqliteBase sqlite;
-  /// What SQLite may still do. Damage can let it go round in circles, over more rows than there are
+  /// Limits the work of SQLite: a damaged file can make it loop over more rows than the file has
   /// bytes.
   std::unique_ptr<std::int64_t> steps_left = std::make_unique<std::int64_t>(0);
   std::int64_t most_steps = 0;
@@ -41,7 +41,7 @@ struct Base {
   void begin() const { *steps_left = most_steps; }
 };
 
-/// Opens it so that nothing in it is run, and no row is larger than the file, or than an image.
+/// Opens the file so that no code in it is run, and no row may be larger than the file or an image.
 Expected<Base> open_base(const std::string& file) {
   constexpr std::int64_t kMostBytes = 400 << 20;
   constexpr std::int64_t kLeastBytes = 1 << 20;
@@ -73,7 +73,7 @@ Expected<Base> open_base(const std::string& file) {
   return base;
 }
 
-/// What SQLite complains about.
+/// SQLite's error message.
 std::string complaint(sqlite3* base) {
   const std::string words = shortened(sqlite3_errmsg(base));
   switch (sqlite3_errcode(base)) {
@@ -95,7 +95,7 @@ Expected<Query> query_of(sqlite3* base, const char* text, const std::string& fil
   return Query(made);
 }
 
-/// Its tables are tables, whose columns are stored: nothing else is asked for.
+/// Checks that its tables are real tables with stored columns; nothing else is queried.
 Expected<void> check_tables(sqlite3* base, const std::string& file) {
   for (const char* table : {"topics", "messages"}) {
     const auto count = [&](const char* text) -> Expected<std::int64_t> {
@@ -166,7 +166,7 @@ class Rosbag2Messages final : public MessageReader {
     const auto* const data = static_cast<const std::uint8_t*>(sqlite3_column_blob(query_.get(), 1));
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(query_.get(), 1));
     bytes_.assign(data, data + (data == nullptr ? 0 : size));
-    // Decoders and scalers read a little beyond the end.
+    // Decoders and scalers read slightly beyond the end.
     bytes_.resize(bytes_.size() + AV_INPUT_BUFFER_PADDING_SIZE);
     return std::optional(RecordedMessage{sqlite3_column_int64(query_.get(), 0), bytes_.data(),
                                          data == nullptr ? 0 : size});

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The images of a topic of a bag of ROS 2 that is an SQLite file (`run_0.db3`), in the order in
+/// Opens the images of a topic of a ROS 2 bag that is an SQLite file (`run_0.db3`), in the order in
 /// which they were recorded.
 Expected<std::unique_ptr<FrameSource>> open_rosbag2(const BagWord& word);
 

@@ -11,7 +11,7 @@
 namespace swarmsmith::av {
 namespace {
 
-/// By the first bytes: names lie.
+/// Uses the first bytes, because file names may be wrong.
 AVCodecID codec_of(std::string_view bytes) {
   struct Mark {
     std::string_view begin;

@@ -7,8 +7,8 @@
 
 namespace swarmsmith::av {
 
-/// A picture of the bytes of a whole file: PNG, JPEG, BMP, TIFF, PGM or PPM, by what they begin
-/// with. E_VIDEO_UNREADABLE for others, and for damaged ones.
+/// Decodes the bytes of a whole picture file: PNG, JPEG, BMP, TIFF, PGM or PPM, recognised by its
+/// first bytes. E_VIDEO_UNREADABLE for other files and for damaged ones.
 Expected<FramePtr> decode_still(const AVPacket& bytes, const std::string& name);
 
 }  // namespace swarmsmith::av

@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// E_VIDEO_UNREADABLE: "NAME TEXT".
+/// An E_VIDEO_UNREADABLE with the message "NAME TEXT".
 inline Unexpected unreadable(const std::string& text, const std::string& name) {
   return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
 }

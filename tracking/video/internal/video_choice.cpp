@@ -79,20 +79,20 @@ Codec make_encoder(const AVCodec& encoder, const VideoChoice& choice, ImageSize 
   e.height = size.height;
   e.pix_fmt = choice.codec->format;
   e.framerate = av_d2q(options.frame_rate, 1'000'000);
-  // The whole range of 8 bits, and the matrix that OpenCV's grey comes from.
+  // Full range of 8 bits, and the same matrix as OpenCV's conversion to grey.
   e.color_range = AVCOL_RANGE_JPEG;
   e.colorspace = AVCOL_SPC_SMPTE170M;
-  // The same bytes whenever and wherever.
+  // Always write the same bytes.
   e.thread_count = 1;
   e.flags |= AV_CODEC_FLAG_BITEXACT;
   const double worse = (100 - options.quality) / 100.0;
   if (choice.codec->name == "h264") {
     constexpr double kWorstFactor = 51;
-    // A key frame a second, so that a damaged place costs a second at most.
+    // One key frame per second, so that damage affects at most one second.
     e.gop_size = std::max(1, static_cast<int>(std::lround(options.frame_rate)));
     e.max_b_frames = options.live ? 0 : options.b_frames;
-    // A fixed quantiser, fixed places of key frames and of B frames: what x264 would weigh for
-    // better ones reads a little beyond its own buffers, so that its choice may differ each time.
+    // A fixed quantiser, and fixed positions of key frames and B frames: the heuristics of x264 for
+    // better ones read slightly beyond their own buffers, so their result may vary.
     const double factor = std::max(1.0, kWorstFactor * worse);
     av_opt_set_int(e.priv_data, "qp", std::lround(factor), 0);
     av_opt_set_int(e.priv_data, "sc_threshold", 0, 0);

@@ -9,31 +9,31 @@
 
 namespace swarmsmith::av {
 
-/// A kind of file, by its ending.
+/// A container format, chosen by the file name's extension.
 struct Container {
   std::string_view ending;
   const char* muxer;
-  AVRational grain;  ///< of its times; 0: the rate's
+  AVRational grain;  ///< resolution of its times; 0: one frame
 };
 
-/// A codec, by the word of VideoOptions.
+/// A codec, with its name in VideoOptions.
 struct CodecChoice {
   std::string_view name;
   const char* encoder;
   AVPixelFormat format;
 };
 
-/// What a video is written with.
+/// The container and codec for writing a video.
 struct VideoChoice {
   const Container* container = nullptr;
   const CodecChoice* codec = nullptr;
 };
 
-/// E_CONFIG for what cannot be.
+/// E_CONFIG for an impossible choice.
 Expected<VideoChoice> video_choice(const std::string& path, ImageSize size,
                                    const VideoOptions& options);
 
-/// An encoder that gives the same bytes whenever and wherever, not opened yet.
+/// An encoder whose output is always the same bytes for the same input; not opened yet.
 Codec make_encoder(const AVCodec& encoder, const VideoChoice& choice, ImageSize size,
                    const VideoOptions& options);
 

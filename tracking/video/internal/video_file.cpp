@@ -52,7 +52,7 @@ class VideoFile final : public FrameSource {
     return false;
   }
 
-  /// From here on frames have no known number: the rest is as good as missing.
+  /// From here on the numbers of frames are unknown, so the rest counts as missing.
   bool lose_count() {
     avcodec_flush_buffers(decoder_.get());
     while (demuxer_.next() != nullptr) {
@@ -60,7 +60,7 @@ class VideoFile final : public FrameSource {
     return false;
   }
 
-  /// Gives the decoder the next packet, or tells it that there is none.
+  /// Gives the decoder the next packet, or the end of the stream.
   void feed() {
     const AVPacket* const packet = demuxer_.next();
     ++fed_;
@@ -68,7 +68,7 @@ class VideoFile final : public FrameSource {
     const bool cut = packet != nullptr && (packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
     av::take_message();
     if (cut || avcodec_send_packet(decoder_.get(), packet) < 0) is_damaged_ = true;
-    // This decoder alone tells of a wrong checksum by a message and nothing else.
+    // Only this decoder reports a wrong checksum by a message and in no other way.
     is_marked_ = decoder_->codec_id == AV_CODEC_ID_FFV1 && !av::take_message().empty();
   }
 
@@ -77,12 +77,12 @@ class VideoFile final : public FrameSource {
            (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0;
   }
 
-  /// The decoded picture as the frame; false when it is left out.
+  /// Takes the decoded picture as the frame; false if it is left out.
   Expected<bool> take() {
     if (is_flagged()) is_damaged_ = true;
-    // A decoder that names what it damaged goes on with the next picture as if nothing had been.
-    // Pictures built on a damaged one may show a tag where it was before: up to the
-    // next key frame all are left out.
+    // A decoder that flags damaged pictures continues normally with the next one. Pictures that
+    // depend on a damaged one may show a tag at an old place, so all pictures until the next key
+    // frame are left out.
     const bool stands_alone = is_intra_ || av::is_key_frame(*picture_);
     if (is_flagged() || (is_damaged_ && !stands_alone)) return false;
     if (is_damaged_ && !is_placed_) return lose_count();
@@ -102,11 +102,11 @@ class VideoFile final : public FrameSource {
     return true;
   }
 
-  /// Finds the picture's number and time; false when it comes too late or is not in the table.
+  /// Finds the picture's number and time; false if it comes too late or is not in the table.
   bool place() {
     std::int64_t number = frame_.number + 1;
     if (is_intra_ && !table_.has_times && !demuxer_.is_avi()) {
-      number = fed_ - 1;  // a bare stream: one picture a packet, at once
+      number = fed_ - 1;  // elementary stream: one picture per packet, without delay
     } else if (is_placed_) {
       const std::int64_t time =
           table_.has_times ? picture_->best_effort_timestamp : picture_->pkt_dts;
@@ -125,7 +125,7 @@ class VideoFile final : public FrameSource {
     return true;
   }
 
-  /// The clock of a transport stream began somewhere; its players count from the first frame.
+  /// The clock of a transport stream starts anywhere; players count from the first frame.
   bool has_own_zero() const {
     return std::string_view(demuxer_.format().iformat->name) == "mpegts";
   }
@@ -135,10 +135,10 @@ class VideoFile final : public FrameSource {
   av::Codec decoder_;
   av::PacketTable table_;
   bool is_intra_;
-  bool is_placed_;  ///< pictures know their place: by their time, or in an .avi by their packet
-  bool is_damaged_ = false;  ///< the decoder gave something up since the last whole picture
-  bool is_marked_ = false;   ///< the next picture is damaged, though the decoder does not flag it
-  std::int64_t fed_ = 0;     ///< packets
+  bool is_placed_;  ///< pictures have a number: by their time, or in an .avi by their packet
+  bool is_damaged_ = false;  ///< the decoder reported damage since the last complete picture
+  bool is_marked_ = false;   ///< the next picture is damaged, although the decoder does not flag it
+  std::int64_t fed_ = 0;     ///< number of packets
   av::FramePtr picture_{av_frame_alloc()};
   av::Pictures pictures_;
   Frame frame_{.number = -1, .time_s = {}, .gray = {}};

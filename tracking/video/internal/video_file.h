@@ -8,11 +8,11 @@
 
 namespace swarmsmith {
 
-/// A video file. Reads it twice: first its packets alone, for the number of frames, the time of
-/// each, and whether the end is missing; then the pictures.
+/// Opens a video file. The file is read twice: first only its packets, for the number of frames,
+/// their times, and whether the end is missing; then the pictures.
 Expected<std::unique_ptr<FrameSource>> open_video_file(const std::string& path);
 
-/// The same over bytes in memory, which must outlive it.
+/// The same for bytes in memory, which must outlive the source.
 Expected<std::unique_ptr<FrameSource>> open_video_bytes(std::string_view bytes,
                                                         const std::string& name);
 
