@@ -6,8 +6,9 @@
 
 namespace swarmsmith {
 
-/// The campaign of one design that an irace scenario asks for: mission `tuning`, method `irace`,
-/// the target evaluates. The seed is the setup's, or `seed` when it has none.
+/// The campaign with one design that corresponds to an irace scenario: mission `tuning`, method
+/// `irace`, evaluated by the target. The seed is that of the setup, or `seed` if the setup has
+/// none.
 Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed);
 
 }  // namespace swarmsmith

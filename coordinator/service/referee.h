@@ -33,14 +33,14 @@ struct RefereeOptions {
 
 /// A referee that is a child process: `swarmsmith-worker --referee` (worker/referee.h), connected
 /// only by a pipe. It is started with the first evaluation, and again after it has ended. A ruling
-/// is
+/// is one of these:
 ///
 /// - a score, or Rejected when the process reports that there is no score, or when the evaluation
-/// kills it twice by a signal that a fault of the program raises;
+///   kills it twice by a signal that a fault of the program raises;
 /// - TimedOut when the evaluation takes longer than its limit;
 /// - NoWord when the process cannot be started, is of another build, ends before the evaluation
-/// began, runs out of memory, or is killed by another process three times: then this host needs
-/// repair.
+///   began, runs out of memory, or is killed by another process three times: then this host needs
+///   repair.
 std::unique_ptr<Referee> make_process_referee(RefereeOptions options);
 
 }  // namespace swarmsmith
