@@ -25,10 +25,10 @@ constexpr int kFewLogins = 3;
 constexpr int kMostLogins = 9;
 /// Logins that take longer, such as those to a host that does not answer, no longer count.
 constexpr Duration kLoginTime = std::chrono::seconds(12);
-constexpr int kBuildRefused = 7;  // swarmsmith-worker: another build
-constexpr int kCannotRun = 126;   // the shell of that host
-constexpr int kNoProgram = 127;   // the same
-constexpr int kSshFailed = 255;   // ssh itself
+constexpr int kBuildRefused = 7;  // of swarmsmith-worker: it is another build
+constexpr int kCannotRun = 126;   // of the host's shell: the program cannot be executed
+constexpr int kNoProgram = 127;   // of the host's shell: there is no such program
+constexpr int kSshFailed = 255;   // of ssh itself
 
 bool is_sent_to(const SshWorkersOptions& options, const SshHost& host) {
   return !options.bundles.empty() && host.program.empty();

@@ -72,7 +72,7 @@ class SshWorkers final : public Launcher {
     Backoff backoff;
     int quick_ends = 0;      ///< ends without an error after a short life, in a row
     bool begun = false;      ///< whether the login has finished
-    bool connected = false;  ///< to the coordinator, as the worker says
+    bool connected = false;  ///< to the coordinator, as reported by the worker
     std::string said;        ///< the last line of its output that is meant for people
     bool refused = false;    ///< refused for good
     std::string trouble;     ///< why it does not run

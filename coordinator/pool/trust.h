@@ -24,16 +24,16 @@ namespace swarmsmith {
 /// principal is unknown, it does not become an outcome: it becomes a *case*, which the
 /// coordinator's own child process decides.
 ///
-/// A principal (principal.h)
+/// The states of a principal (principal.h); without a key, each of its processes has its own state:
 ///
 ///     stranger ──first outcome──► proven ──fails where others succeed, lies──► quarantined
 ///        ▲                                                                        │
 ///        └──────────────────────── a person forgives ─────────────────────────────┘
 ///
-/// (without a key, each of its processes separately) is a stranger until one of its results has
-/// become an outcome; with audits, its first results wait until the referee has evaluated them
-/// again. Strangers get few tasks, and deaths of their workers do not count against a task. With
-/// programs instead of the simulator there is no referee, and the holder of a lease is trusted.
+/// A principal is a stranger until one of its results has become an outcome; with audits, its first
+/// results wait until the referee has evaluated them again. Strangers get few tasks, and deaths of
+/// their workers do not count against a task. With programs instead of the simulator there is no
+/// referee, and the holder of a lease is trusted.
 class Trust {
  public:
   /// Both must outlive this object and keep their addresses.

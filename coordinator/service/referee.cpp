@@ -256,7 +256,7 @@ class ProcessReferee final : public Referee {
   }
 
   RefereeOptions options_;
-  std::mutex mutex_;  ///< guards the next ones, and the start and the end of the child
+  std::mutex mutex_;  ///< guards the members below, and the start and the end of the child
   std::condition_variable asked_;
   std::deque<AskReferee> asks_;
   std::vector<Ruling> rulings_;

@@ -1,4 +1,4 @@
-// The archives of packaging/bundle contain this small program in place of each real one: it starts
+// The archives of packaging/bundle contain this small program instead of the real ones: it starts
 // the program with its own name in lib/, with the loader and the libraries in that folder. It is
 // linked statically, so that it runs on hosts where nothing is installed, not even a libc.
 
