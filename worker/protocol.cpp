@@ -108,8 +108,7 @@ void WorkerProtocol::on_frame(std::string_view frame, TimePoint now) {
 }
 
 void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
-  // Messages for an earlier incarnation are ignored, except acknowledgements: acknowledged results
-  // stay on disk.
+  // Ignores messages for earlier incarnations, but not acknowledgements: those results are on disk.
   const bool current = message.incarnation() == incarnation_;
   if (current) last_heard_ = now;
   switch (message.body_case()) {
@@ -199,8 +198,7 @@ void WorkerProtocol::on_bad_scenario(const std::string& reason) {
   leave(WorkerExit::Refused, "this program cannot run the campaign: " + reason);
 }
 
-/// Called when connected and with a scenario: sends results that the coordinator may not have, and
-/// asks for work.
+/// Connected, with a scenario: sends results that the coordinator may not have, asks for work.
 void WorkerProtocol::be_ready(TimePoint now) {
   SWARMSMITH_ASSERT(state_ == State::Active && has_scenario_, "work follows welcome and scenario");
   for (auto& [key, finished] : finished_)
@@ -226,8 +224,7 @@ void WorkerProtocol::on_drain(TimePoint now) {
   flush(now);
 }
 
-/// Leaves when nothing is running and all results are on the coordinator's disk, or when the time
-/// is up.
+/// Leaves when nothing runs and all results are on the coordinator's disk, or the time is up.
 void WorkerProtocol::finish_draining(TimePoint now) {
   if (state_ != State::Active) return;
   SWARMSMITH_ASSERT(drain_until_, "only a worker that drains finishes draining");

@@ -37,8 +37,7 @@ struct WorkerIdentity {
   std::int64_t pid = 0;
   std::string job{};
   std::string cpu{};     ///< model of the processor
-  std::string secret{};  ///< given by the coordinator that started this worker; empty for other
-                         ///< workers
+  std::string secret{};  ///< from the coordinator that started it; empty for others
 };
 
 struct WorkerOptions {
@@ -47,8 +46,7 @@ struct WorkerOptions {
   Duration welcome_timeout = std::chrono::seconds(5);
   Duration give_up_after = std::chrono::minutes(10);
   std::size_t results_per_message = 64;
-  /// The end of a step is not delayed by this, since results are sent at once when slots run out of
-  /// work.
+  /// This does not delay the end of a step: results are sent at once when slots run out of work.
   Duration flush_after = std::chrono::milliseconds(5);
   Duration work_ahead = std::chrono::milliseconds(20);
   Duration grace = std::chrono::seconds(5);

@@ -74,8 +74,7 @@ void WorkerProtocol::on_evaluated(Result result, TimePoint now) {
   const PackedKey key = result.key;
   const auto held = held_.find(key);
   if (held == held_.end()) return;  // belongs to a campaign that is over
-  // A signal that ends this worker also ends its programs: such a failure is not the evaluation's
-  // fault.
+  // A signal that ends this worker also ends its programs: the evaluation did not fail.
   if (drain_until_ && !result.failure.empty()) return on_taken_back({&key, 1}, now);
   // The values of its latest lease: it may have been leased to this worker again in the meantime.
   result.attempt = held->second.attempt;
@@ -176,8 +175,7 @@ void WorkerProtocol::update_credit(TimePoint now) {
   send(message, now);
 }
 
-/// Counts only the part of an evaluation after the welcome: the coordinator counts slot time per
-/// connection.
+/// Counts the part of an evaluation after the welcome, because slot time is per connection.
 void WorkerProtocol::count_busy(const Held& held, std::int64_t wall_us, TimePoint now) {
   const Duration spent =
       wall_us > 0 ? Duration(std::chrono::microseconds(wall_us)) : now - held.started.value_or(now);

@@ -18,8 +18,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLinger{500};
 /// Time without a coordinator before a message reports it.
 constexpr std::chrono::seconds kLonely{3};
-/// While results keep coming, the loop looks for them this often, and the slots do not wake it for
-/// each one.
+/// While results keep coming, the loop polls this often, and the slots do not wake it for each.
 constexpr milliseconds kLookAgain{5};
 
 class Loop {

@@ -46,8 +46,7 @@ std::string job_of_this_process() {
   return job;
 }
 
-/// Scores must not depend on the processor, but if they do, people will want to know which one it
-/// was.
+/// Scores must not depend on the processor, but if they do, people will want to know its model.
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {

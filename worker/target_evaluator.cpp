@@ -67,8 +67,7 @@ class Programs {
                  .batch_poll = allowed.batch_poll},
                 *interrupt_) {}
 
-  /// Checks all programs first, so that a campaign that cannot run here is refused before anything
-  /// runs.
+  /// Refuses a campaign that cannot run here before any of its programs is run.
   Expected<void> check_all() const {
     for (const auto& [role, program] : {std::pair{"targetRunner", &target_.runner},
                                         {"targetRunnerLauncher", &target_.launcher},

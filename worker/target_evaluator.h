@@ -19,8 +19,7 @@ struct AllowedPrograms {
   std::chrono::milliseconds batch_poll = std::chrono::seconds(2);
 };
 
-/// The canonical path of a program that is to be allowed. Errors: NotFound if the program does not
-/// exist.
+/// The canonical path of a program to allow. Errors: NotFound if it does not exist.
 Expected<std::string> allowed_program(const std::string& path);
 
 /// An evaluator that runs the scenario's programs (docs/targets.md). Scores are the negated costs

@@ -29,8 +29,7 @@ constexpr std::array<LoopFunctions, 3> kLoopFunctions = {
 
 /// The controller reads a robot's number from the sixth character of its id.
 constexpr int kMostRobots = 9;
-/// The ids of the robots end with these numbers: first those of the thesis' robots, then arbitrary
-/// ones.
+/// The numbers at the end of robot ids: first those of the thesis' robots, then arbitrary ones.
 constexpr std::array<int, kMostRobots> kRobotLabels = {30, 40, 50, 51, 55, 56, 57, 58, 59};
 
 /// Centre of a wall in metres, and its rotation in degrees (rvr-automode facts, section 7).
@@ -71,8 +70,7 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
       "arena, floor, placement or score differ, and the original has no loop functions for it");
 }
 
-/// The settings of the files with which the thesis' machines were run: range 0.4 m, 30 cm/s, no
-/// noise.
+/// The settings with which the thesis' machines were run: range 0.4 m, 30 cm/s, no noise.
 std::string controllers_text(const std::string& machine) {
   return fmt::format(
       "  <controllers>\n"
@@ -98,8 +96,7 @@ std::string controllers_text(const std::string& machine) {
 std::string robots_text(int robots) {
   std::string text;
   for (int i = 1; i <= robots; ++i) {
-    // The loop functions move the robots; until then they stand at the positions of the original
-    // files.
+    // The loop functions move the robots; until then they are where the original puts them.
     text += fmt::format(
         "    <rvr id=\"rvr_{:02}_{:02}\">\n"
         "      <body position=\"{}\" orientation=\"0,0,0\"/>\n"

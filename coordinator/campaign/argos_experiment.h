@@ -32,13 +32,11 @@ struct ArgosExperiment {
 ///
 /// Errors: BadInput if the original software has no loop functions for the mission, or if its
 /// AutoMoDe lacks a module or the architecture. The mission may differ from the original in name,
-/// duration and number of robots (at most 9 RVRs), and for e-pucks also in the light and the
-/// radio's range.
+/// duration and number of robots (at most 9 RVRs), and for e-pucks in light and radio range.
 Expected<std::string> argos_experiment(const ArgosExperiment& experiment);
 
 /// Keys of a profile that an experiment file for e-pucks cannot express, such as "timing.delays".
-/// It can express the noise of wheels, proximity, light and ground sensors, and the share of lost
-/// packets.
+/// It can express the noise of wheels and of proximity, light and ground sensors, and packet loss.
 std::vector<std::string> left_out_of_argos(const Profile& profile);
 
 }  // namespace swarmsmith

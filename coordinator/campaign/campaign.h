@@ -46,21 +46,18 @@ struct Campaign;
 /// baseline with a given machine, since all repetitions would be the same.
 std::int64_t repetitions_of(const Campaign& campaign, const Method& method);
 
-/// A way to design: the modules of a flavour that may be used, and the largest size of machines.
+/// A way to design: the modules of a flavour that may be used, and the maximum size of machines.
 struct Method {
   std::string name;
   std::string flavour = "watermelon";
-  const Flavour* own_flavour = nullptr;      ///< a flavour read from a file, see kept_flavour;
-                                             ///< null: built in
+  const Flavour* own_flavour = nullptr;      ///< from a file, see kept_flavour; null: built in
   TurnClock turn_clock = TurnClock::Cycles;  ///< the flavour's own unless the file sets another
   std::int64_t max_states = 4;
   std::int64_t max_transitions = 4;
-  std::vector<std::string> behaviours;  ///< names; all of the flavour's behaviours if the file
-                                        ///< lists none
+  std::vector<std::string> behaviours;  ///< names; by default, all of the flavour's
   std::vector<std::string> conditions;
   std::vector<RangeOverride> ranges;
-  Architecture architecture = Architecture::Machine;  ///< the kind of control software that is
-                                                      ///< searched
+  Architecture architecture = Architecture::Machine;  ///< the kind of control software
   std::int64_t max_subtrees = kMaxSubtrees;           ///< for trees
   NetworkInputs inputs = NetworkInputs::Rvr;          ///< for networks
   double most_weight = kMostWeight;                   ///< for networks
@@ -76,13 +73,12 @@ struct Method {
   friend bool operator==(const Method&, const Method&) = default;
 };
 
-/// The method's flavour, but with the flavour's own turn clock. Fails if this program does not know
-/// the name.
+/// The method's flavour, with the flavour's own turn clock. Fails for an unknown name.
 inline Expected<const Flavour*> flavour_of(const Method& method) {
   return find_flavour(method.flavour, method.own_flavour);
 }
 
-/// The largest budget of a design; lists of pairs are as long as a part of it.
+/// The largest budget of a design; limited because lists of pairs grow with the budget.
 inline constexpr std::int64_t kLargestBudget = 100'000'000;
 
 /// The contents of a campaign file, checked and complete.
@@ -118,9 +114,8 @@ struct Campaign {
                                               ///< command's default
   double task_timeout_s = 30;
   std::int64_t retries = 2;
-  bool stop_on_failure = false;    ///< otherwise an evaluation that fails for good counts as a
-                                   ///< rejection
-  std::int64_t audit_every = 200;  ///< one in so many evaluations is repeated to check it; 0: none
+  bool stop_on_failure = false;    ///< otherwise a final failure is a rejection
+  std::int64_t audit_every = 200;  ///< one of this many evaluations is checked; 0: none
 };
 
 }  // namespace swarmsmith

@@ -22,8 +22,7 @@ namespace {
 
 constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
 
-/// The file's name without folder and extension; characters that are not allowed in names are
-/// replaced.
+/// The file's name without folder and extension; characters not allowed in names are replaced.
 std::string name_from(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   for (char& letter : name) {
@@ -131,8 +130,7 @@ void complete_target(Campaign& campaign) {
   campaign.target->min_measurable_time = campaign.race.min_measurable_time;
 }
 
-/// Adds a profile for the tests. The campaign's own profile may be named too: the tests always use
-/// it.
+/// Adds a profile for the tests. The campaign's own profile may be given too, and is used anyway.
 void add_test_profile(TableReader& tests, std::string_view key, Profile profile,
                       Campaign& campaign) {
   const bool is_own = profile.name == campaign.profile.name;

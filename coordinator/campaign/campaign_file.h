@@ -23,8 +23,8 @@ using CampaignOrErrors = tl::expected<Campaign, std::vector<Error>>;
 CampaignOrErrors read_campaign(const std::filesystem::path& file,
                                std::optional<std::int64_t> budget = std::nullopt);
 
-/// The same for a text; `file` is the name in error messages and gives the folder for paths; it is
-/// not opened.
+/// The same for a text; `file` is for error messages and gives the folder for paths; it is not
+/// opened.
 CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::path& file,
                                 std::optional<std::int64_t> budget = std::nullopt);
 

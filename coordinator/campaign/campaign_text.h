@@ -10,7 +10,7 @@ namespace swarmsmith {
 
 /// The campaign as a complete campaign file: it relies on no defaults or presets and always has the
 /// same order, so that reading it gives the same campaign again, even with the presets of a later
-/// version. The store keeps it. It does not contain where workers run and where the store is.
+/// version. The store keeps it. It omits where workers run and where the store is.
 std::string normalised_text(const Campaign& campaign);
 
 /// The version of the engine that simulates all of the campaign's missions: the highest version

@@ -52,8 +52,8 @@ Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed) {
   // Both are set for each design, from the mission and the campaign's seed.
   campaign.race.n_instances = Scenario{}.n_instances;
   campaign.race.seed = Scenario{}.seed;
-  // Only the first estimate of a run's time depends on it; without a time budget it must not
-  // prevent a resume.
+  // `parallel` only affects the first estimate of a run's time; without a time budget, a change
+  // must not prevent a resume.
   if (campaign.race.max_time == 0) campaign.race.parallel = Scenario{}.parallel;
   campaign.race.target_evaluator = Scenario{}.target_evaluator;
   campaign.race.one_task_at_a_time = Scenario{}.one_task_at_a_time;

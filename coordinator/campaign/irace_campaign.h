@@ -7,8 +7,7 @@
 namespace swarmsmith {
 
 /// The campaign with one design that corresponds to an irace scenario: mission `tuning`, method
-/// `irace`, evaluated by the target. The seed is that of the setup, or `seed` if the setup has
-/// none.
+/// `irace`, evaluated by the target. `seed` is used if the setup has no seed.
 Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed);
 
 }  // namespace swarmsmith

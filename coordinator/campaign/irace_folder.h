@@ -21,8 +21,7 @@ struct NamedText {
 
 struct IraceFolder {
   std::vector<NamedText> files;
-  std::vector<std::string> remarks;  ///< settings that this version of irace does not support, a
-                                     ///< sentence each
+  std::vector<std::string> remarks;  ///< a sentence for each unsupported setting
 };
 
 /// The irace setup of a design: options, instances and parameter space. For machines and trees the

@@ -148,8 +148,7 @@ Configuration MachineSpace::from_machine(const Machine& machine) const {
     for (std::size_t j = 0; j < state.transitions.size(); ++j) {
       const TransitionSlot& to = slot.transitions.at(j);
       const auto& [condition, target] = state.transitions[j];
-      // With two states, the target is always the other one, and there is no active parameter for
-      // it.
+      // With two states, the target is always the other one, without an active parameter.
       if (to.target != kNoParameter)
         configuration.set(to.target, target < static_cast<int>(i) ? target : target - 1);
       configuration.set(to.condition, static_cast<double>(
@@ -166,8 +165,7 @@ std::string parameters_json(const ParameterSpace& space, const Configuration& co
     if (!configuration.is_active(i)) continue;
     const Scalar value = space.scalar(i, configuration[i]);
     const bool is_text = value.type == Scalar::Type::Text;
-    // A program's values may contain any bytes, and the store's digest covers them, so no byte is
-    // replaced.
+    // The values of programs may have any bytes, which the store's digest covers: none is replaced.
     object.add(space[i].name,
                JsonPiece{is_text ? quoted_text(value.text) : to_fixed_text(value.number)});
   }

@@ -24,8 +24,7 @@ namespace swarmsmith {
 /// with only one possible value are left out.
 class MachineSpace {
  public:
-  /// `digits`: decimals of real parameters. Fails if a range cannot be represented with these
-  /// digits.
+  /// `digits`: decimals of real parameters. Fails if they are not enough for a range.
   static Expected<MachineSpace> make(const Method& method, const Flavour& flavour, int digits);
 
   /// The same space in the words of the text grammar, as in AutoMoDe's irace files: the switches
@@ -44,8 +43,7 @@ class MachineSpace {
   Configuration from_machine(const Machine& machine) const;
 
  private:
-  /// The indices of the parameters of one state or one transition; kNoParameter for parameters that
-  /// are left out.
+  /// Parameter indices of one state or transition; kNoParameter for omitted parameters.
   struct TransitionSlot {
     std::size_t target = 0;
     std::size_t condition = 0;

@@ -15,7 +15,7 @@ namespace {
 /// The largest text that a task may carry to a worker (proto/wire.h, kMaxMachineBytes).
 constexpr std::size_t kMostCallBytes = 1U << 20U;
 constexpr std::size_t kNumberBytes = 25;
-constexpr std::size_t kBlanks = 3;  ///< with aclib's dash
+constexpr std::size_t kBlanks = 3;  ///< includes the dash of AClib's convention
 
 /// The bytes of switches and values if all parameters are active and have their longest values.
 std::size_t longest_call(const ParameterSpace& space) {

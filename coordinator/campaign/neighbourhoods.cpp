@@ -184,8 +184,7 @@ class MachineOperators {
     const std::size_t source = sources[draw(sources.size())];
     const std::size_t target = draw(states_.size());
     const auto added = static_cast<int>(states_.size());
-    // If it was the machine's only state, it had no transition out, and now needs one to the new
-    // state.
+    // A machine's only state had no outgoing transition, and now needs one to the new state.
     states_[source].transitions.push_back({modules_.condition(), added});
     State state{modules_.behaviour(), {}};
     state.transitions.push_back({modules_.condition(), static_cast<int>(target)});

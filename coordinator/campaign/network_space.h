@@ -8,8 +8,7 @@
 
 namespace swarmsmith {
 
-/// The weights of a method's networks, all real and always active: w1 is the first weight of the
-/// left wheel.
+/// The weights of a method's networks, all real and always active: w1 is the left wheel's first.
 Expected<ParameterSpace> network_space(const Method& method, int digits);
 
 /// The network of a configuration of the space of `network_space`.

@@ -17,8 +17,7 @@ namespace swarmsmith {
 /// parameters for all modules of `watermelon`, 41 for `chocolate`).
 class TreeSpace {
  public:
-  /// `digits`: decimals of real parameters. Fails if a range cannot be represented with these
-  /// digits.
+  /// `digits`: decimals of real parameters. Fails if they are not enough for a range.
   static Expected<TreeSpace> make(const Method& method, const Flavour& flavour, int digits);
 
   /// The same space in the words of the text grammar, like MachineSpace::in_grammar: the switches

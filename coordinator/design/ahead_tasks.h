@@ -28,8 +28,8 @@ class AheadTasks {
 
   void add(const EvaluationKey& key, double bound);
   bool contains(const EvaluationKey& key) const;
-  /// Removes a task whose outcome has come or that was never handed out; returns its bound if it
-  /// was here.
+  /// Removes a task: its outcome has come, or it was not handed out. Returns its bound if it was
+  /// here.
   std::optional<double> remove(const EvaluationKey& key);
   /// The race now waits for this task, so it is not dropped.
   void want(const EvaluationKey& key);

@@ -91,8 +91,7 @@ std::optional<Task> CampaignRunner::task_of(const EvaluationKey& key) const {
 
 void CampaignRunner::tell(const Outcome& outcome) {
   const DesignId id = design_of(outcome.key.candidate);
-  // The task was handed out ahead, and an outcome that came together with this one made the race
-  // want it.
+  // It was handed out ahead, and an outcome that came just before made the race want it.
   std::erase_if(tasks_, [&](const Task& task) { return task.key == outcome.key; });
   if (const auto found = open_.find(id); found != open_.end()) {
     found->second.tell(outcome, rows_);
@@ -201,8 +200,7 @@ Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
   return {};
 }
 
-/// A cancel opens the design, so that it ends now, as a design that was cancelled before its first
-/// step.
+/// A cancel opens the design, so that it ends now, as if cancelled before its first step.
 Expected<void> CampaignRunner::command_waiting(std::map<DesignId, Waiting>::iterator found,
                                                const CommandRow& command) {
   DesignPlan& plan = found->second.plan;

@@ -13,8 +13,7 @@
 
 namespace swarmsmith {
 
-/// Limits on the designs that a campaign holds in memory; a design with 100,000 experiments takes
-/// about 40 MB.
+/// Limits on a campaign's designs in memory; one with 100,000 experiments takes about 40 MB.
 struct OpenDesigns {
   /// This many designs race at the same time, whatever the number of workers: with a single one,
   /// slots would idle at each of its barriers (docs/decisions/0008).
@@ -80,8 +79,7 @@ class CampaignRunner final : public WorkSource {
   /// Opens the waiting design and removes it from the list.
   void open(std::map<DesignId, Waiting>::iterator next);
   void advance(DesignRunner& design);
-  /// The design is over: keeps it for a while, or keeps only its tasks that may still get an
-  /// outcome.
+  /// The design is over: keeps it for a while, or only its tasks that may still have outcomes.
   void put_away(DesignId id);
   bool keeps_too_many() const;
   void forget(const DesignRunner& ended);

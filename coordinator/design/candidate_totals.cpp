@@ -31,8 +31,7 @@ CandidateTotalsRow CandidateTotals::judge(std::int64_t number, std::int64_t pair
   if (judged_.size() < runs_.size()) judged_.resize(runs_.size());
   auto& by_pair = judged_[static_cast<std::size_t>(number - 1)];
   by_pair[pair] = score;
-  // Summed again in the order of the pairs, because subtracting the old score would cause rounding
-  // errors.
+  // Summed again in the order of the pairs, because subtracting an old score would round.
   Sums sums;
   for (const auto& [of, judged] : by_pair)
     sums.add(judged);

@@ -12,8 +12,8 @@
 namespace swarmsmith {
 
 /// Returns an error for a command that is not possible for a design in any state: only races can be
-/// cancelled and extended; only a budget in experiments can be extended by experiments; and no
-/// command may follow a cancel among the `earlier` ones.
+/// cancelled and extended, some searches cannot be extended, only a budget in experiments can be
+/// extended, and no command may follow a cancel among the `earlier` ones.
 Expected<void> check_command(const DesignPlan& plan, std::span<const CommandRow> earlier,
                              const CommandRow& command);
 
@@ -26,8 +26,7 @@ class CommandLog {
 
   /// Adds a command that waits from now on.
   void add(const CommandRow& command);
-  /// The next command of this kind, if it can take effect after `steps` steps; null if there is
-  /// none.
+  /// The next command of this kind that can take effect after `steps` steps, or null.
   const CommandRow* next(CommandKind kind, std::int64_t steps) const;
   /// A command returned by `next` takes effect after `steps` steps; returns its row.
   CommandRow act(CommandRow command, std::int64_t steps);

@@ -345,8 +345,7 @@ void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector
 }
 
 Expected<void> DesignRunner::tell_race() {
-  // With a targetEvaluator, all runs are used, and the step comes after the evaluator has given
-  // their scores.
+  // A targetEvaluator's runs are all used, and the step comes after it has given their scores.
   if (!plan_.scenario.target_evaluator)
     given_.insert(given_.end(), batch_.scores().begin(), batch_.scores().end());
   search_->tell(batch_.measurements());
@@ -391,8 +390,8 @@ Expected<void> DesignRunner::take_events() {
                             event);
     if (!taken) return taken;
   }
-  // With capping, a step may take several batches: none of its scores is unused before the step has
-  // ended.
+  // With capping, a step may take several batches, and only at its end is a score known to be
+  // unused.
   if (!is_reported) return {};
   for (const StoredScore& score : std::exchange(given_, {}))
     leave_unused(score);

@@ -31,7 +31,7 @@ namespace swarmsmith {
 /// stored step are not produced again.
 ///
 /// Commands (docs/irace.md, "More budget, and an early end") take effect between two batches, and
-/// their rows contain the number of the race's last step before; in a replay they take effect there
+/// their rows contain the number of the last step before that; in a replay they take effect there
 /// again. A "cancel" takes effect as soon as possible: the design stops, and evaluations after that
 /// step do not count. An "extend" takes effect when the race and its tests are over: the race
 /// continues from its end, and its new elites are tested.
@@ -67,7 +67,8 @@ class DesignRunner {
   std::vector<std::pair<EvaluationKey, double>> outstanding() const { return ahead_.outstanding(); }
   /// The candidates that are out of the race, if an iteration has ended since the last call.
   std::optional<PassedCandidates> take_passed() { return std::exchange(passed_, std::nullopt); }
-  /// The number of tasks that it waits for: the design with the fewest is nearest to a barrier.
+  /// The number of tasks that the design waits for; the design with the fewest is nearest to a
+  /// barrier.
   std::size_t awaited() const { return batch_.n_awaited(); }
 
   /// Takes a command; `advance` carries it out when it can take effect. If it cannot take effect
@@ -91,8 +92,7 @@ class DesignRunner {
   Expected<void> begin(std::vector<Task>& tasks);
   /// Continues the race until evaluations are awaited or the race is over.
   Expected<void> go_on_racing(std::vector<Task>& tasks);
-  /// Starts the tests of the elites; ends the design without tests if every configuration was
-  /// rejected.
+  /// Starts the elites' tests; ends the design without tests if all configurations were rejected.
   Expected<void> finish_race(std::vector<Task>& tasks);
   /// All outcomes of the tests have come; returns true if there is nothing left to test.
   bool finish_tests(std::vector<Task>& tasks);
@@ -136,8 +136,7 @@ class DesignRunner {
   EliteTests tests_;
   RowRecorder recorder_;
 
-  /// Scores that the race got and has not reported as used, in the order in which it asked for
-  /// them.
+  /// Scores that the race has not reported as used yet, in the order of its requests.
   std::deque<StoredScore> given_;
   std::map<std::int64_t, Experiment> pairs_;  ///< the race's pairs, as they were first used
   /// The texts that workers get for the candidates in the race, by number.

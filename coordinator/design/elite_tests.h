@@ -23,8 +23,7 @@ class EliteTests {
   /// Configurations to test instead of a race's elites: all of them.
   void test_all(std::vector<std::int64_t> given);
 
-  /// The race is over: selects the candidates to test and returns their runs, one candidate after
-  /// another.
+  /// The race is over: selects the candidates to test and returns their runs by candidate.
   std::vector<Experiment> begin();
   /// The run of a candidate on a pair (counted from 1), whether the candidate is tested or not.
   Experiment run(std::int64_t candidate, std::int64_t pair) const;
@@ -44,8 +43,7 @@ class EliteTests {
   std::int64_t pairs() const {
     return plan_.count * (1 + static_cast<std::int64_t>(plan_.profiles.size()));
   }
-  /// The tested candidates: the last iteration's elites, best first, then those of the other
-  /// iterations.
+  /// The tested candidates: the last iteration's elites, best first, then those of the others.
   const std::vector<std::int64_t>& tested() const { return tested_; }
 
  private:

@@ -55,7 +55,7 @@ class KnownScores {
 
   /// A stored score that was not asked for; null if there is none.
   const StoredScore* stored(const EvaluationKey& key) const;
-  /// The score, if it is known; see above.
+  /// The score, if it is known. Scores of the race are handed over.
   std::optional<StoredScore> take(const EvaluationKey& key);
   /// Adds a score of the race that no iteration uses, or a score of a test.
   void keep(StoredScore score);

@@ -17,8 +17,7 @@ namespace swarmsmith {
 /// The tests of the elites after the race, outside its budget.
 struct TestPlan {
   std::int64_t count = 0;  ///< pairs
-  /// Pair n is test instance n; otherwise a fresh seed on one of the training instances, used in
-  /// turn.
+  /// Pair n is test instance n; otherwise a fresh seed on a training instance, in turn.
   bool on_test_instances = false;
   std::int64_t elites = 1;       ///< number of elites of the last iteration that are tested
   bool every_iteration = false;  ///< test the same number of elites of every other iteration too

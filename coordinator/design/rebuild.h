@@ -20,7 +20,7 @@ struct Rebuilt {
     std::size_t missing = 0;   ///< evaluations that it still needs
   };
   std::vector<Design> designs;
-  /// A sentence for each race that cannot be replayed, or gives other steps than the recovered
+  /// A sentence for each race that cannot be replayed or whose steps differ from the recovered
   /// ones.
   std::vector<std::string> complaints;
 };

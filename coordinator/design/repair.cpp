@@ -44,7 +44,7 @@ Repair repair_by(const std::string& program, const std::string& folder,
     const ParameterSpace& parameters = space->parameters();
     const auto table = print_configurations_file(parameters, std::span(&given, 1));
     if (!table) return Unexpected(table.error());
-    // `run_process` has no input for programs, so a shell pipes it in.
+    // `run_process` gives programs no input, so a shell pipes the configuration in.
     const ProcessCall call{
         .words = {"/bin/sh", "-c", R"(printf '%s' "$1" | "$0")", program, *table},
         .folder = folder};

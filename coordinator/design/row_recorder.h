@@ -63,7 +63,8 @@ class RowRecorder {
   bool is_replaying() const { return steps_ < step_digests_.size(); }
   /// The error that the next step differs from the stored one.
   Error other_step() const;
-  /// Events before the first iteration, the first estimate of max_time, count as part of it.
+  /// The iteration to which events belong now; the first estimate of max_time, which precedes the
+  /// first iteration, counts as part of it.
   std::int64_t counted_iteration() const;
   /// The largest number of a candidate that was created.
   std::int64_t n_candidates() const { return totals_.count(); }
@@ -81,8 +82,7 @@ class RowRecorder {
   std::vector<std::uint64_t> step_digests_;  ///< stored digests; that of step n at index n - 1
   std::size_t steps_ = 0;
   CandidateTotals totals_;
-  std::set<std::int64_t> alive_;           ///< numbers of the candidates alive in the current
-                                           ///< iteration
+  std::set<std::int64_t> alive_;           ///< candidates alive in this iteration
   std::map<Purpose, std::int64_t> pairs_;  ///< the last pair of each purpose that has a row
   std::vector<Row> rows_;
 };

@@ -27,8 +27,7 @@ class TargetCalls {
   /// Starts the calls for this number of tests.
   void begin_tests(std::int64_t count) { in_tests_ = count; }
   bool are_tests_begun() const { return in_tests_.has_value(); }
-  /// The race continues after the tests, and the numbers of its further tasks follow those of the
-  /// tests.
+  /// The race continues after the tests, and its further tasks are numbered after them.
   void go_on();
 
  private:
@@ -36,7 +35,7 @@ class TargetCalls {
   bool is_calling_ = false;
   std::int64_t last_ = 0;                 ///< the last task before the current tests
   std::int64_t tests_ = 0;                ///< number of tasks for tests before the race continued
-  std::optional<std::int64_t> in_tests_;  ///< number of tests with calls now
+  std::optional<std::int64_t> in_tests_;  ///< number of tests in the current calls
 };
 
 }  // namespace swarmsmith

@@ -18,7 +18,7 @@ struct Task : EvaluationInput {
   bool ahead = false;
 };
 
-/// The end of a task as a worker reported it.
+/// How a task ended, as reported by a worker.
 struct Outcome {
   EvaluationKey key;
   std::uint32_t campaign = 0;

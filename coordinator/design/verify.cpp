@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t kComplaintsPerDesign = 20;
 
-/// The rows of one design as texts. Rows that contain only a latest value are stored under the
-/// thing they describe.
+/// The rows of one design as texts. If only the latest value counts, as for totals, the rows are in
+/// a map.
 struct DesignAnswer {
   std::vector<std::string> rows;
   /// Pairs of the race by number; pairs without a step are not part of the answer.

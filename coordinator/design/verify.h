@@ -20,7 +20,7 @@ struct Verification {
 
 /// Replays every race of the store from the stored scores, and compares the results with the stored
 /// ones: candidates, pairs, steps, eliminations, elites, budget, winner. An unfinished design is
-/// compared as far as it has come. Also checks for evaluations with two different results, runs
+/// compared up to its last step. Also checks for evaluations with two different results, runs
 /// SQLite's own integrity check, checks that each campaign agrees with the campaign file in the
 /// store, and recomputes the scores of real runs from their control cycles. If there are several
 /// campaigns, each one is checked as if it were alone, and the ids in its complaints are numbered

@@ -37,14 +37,12 @@ class WorkSource {
   /// Tasks of `take_more` that are no longer needed and need not be run.
   virtual std::vector<EvaluationKey> take_dropped() { return {}; }
 
-  /// Designs that have ended for good since the last call; no command can restart them, and
-  /// duplicate results of them need not be recognised. Outcomes of tasks that were handed out may
-  /// still come.
+  /// Designs that have ended for good since the last call; no command can restart them, and their
+  /// duplicate results need not be recognised. Outcomes of earlier tasks may still come.
   virtual std::vector<DesignId> take_ended() { return {}; }
 
-  /// Candidates for whose results no design waits any more, since the last call: duplicate results
-  /// of them need not be recognised. Their tasks may still be handed out, and their outcomes may
-  /// come.
+  /// Candidates for whose results no design waits any more, since the last call: their duplicate
+  /// results need not be recognised. Further tasks and outcomes of them may come.
   virtual std::vector<PassedCandidates> take_passed() { return {}; }
 
   /// Carries out "cancel" or "extend"; its row comes through `take_rows`, with the step after which

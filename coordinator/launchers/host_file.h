@@ -26,8 +26,8 @@ struct SshHost {
 using HostsOrErrors = tl::expected<std::vector<SshHost>, std::vector<Error>>;
 
 /// A host file has one host per line, `host [slots=N] [program=PATH] [key=PATH]
-/// [coordinator=PATH]`, and comments that begin with #. A duplicate host and a file without hosts
-/// are errors.
+/// [coordinator=PATH]`, and comments that begin with #. Duplicate hosts and an empty file are
+/// errors.
 HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& file);
 HostsOrErrors read_hosts(const std::filesystem::path& file);
 

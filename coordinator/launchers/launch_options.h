@@ -11,8 +11,7 @@ namespace swarmsmith {
 struct SlurmOptions {
   std::int64_t jobs = 4;
   std::int64_t cpus_per_task = 4;    ///< slots of each worker
-  std::string time;                  ///< in sbatch's format: "8:00:00"; empty: the partition's
-                                     ///< limit
+  std::string time;                  ///< for sbatch: "8:00:00"; empty: the partition's limit
   std::string partition;             ///< empty: the default partition
   std::vector<std::string> options;  ///< more options for sbatch: "--account=swarm"
 
@@ -43,8 +42,7 @@ struct LaunchOptions {
 /// How workers reach the coordinator.
 struct WorkerAddress {
   std::string endpoint;               ///< tcp://host:port
-  std::filesystem::path coordinator;  ///< a coordinator file, which has priority over `endpoint`;
-                                      ///< or empty
+  std::filesystem::path coordinator;  ///< a coordinator file, used before `endpoint`; or empty
   std::filesystem::path key;          ///< the workers' secret key; or empty
 };
 

@@ -53,8 +53,7 @@ class SlurmJobs {
     std::int64_t jobs;
   };
   using Action = std::variant<Nothing, LookAtQueue, Submit>;
-  /// The next action. After LookAtQueue and Submit, it returns Nothing until their answer has come
-  /// in.
+  /// The next action. After LookAtQueue and Submit, it is Nothing until their answer has come.
   Action next(TimePoint now);
 
   void on_queue(const std::vector<QueuedJob>& jobs, TimePoint now);
@@ -78,8 +77,7 @@ class SlurmJobs {
   SlurmTimes times_;
   Backoff pause_;
   std::map<std::string, std::string> states_;       ///< last known state of each job
-  std::map<std::string, TimePoint> running_since_;  ///< when each running job was first seen
-                                                    ///< running
+  std::map<std::string, TimePoint> running_since_;  ///< when each job was first seen running
   int quick_ends_ = 0;                              ///< jobs that completed at once, in a row
   bool seen_ = false;                               ///< whether the queue has been read
   bool submitted_ = false;                          ///< whether jobs were submitted, by this

@@ -28,7 +28,7 @@ struct SlurmWorkersOptions {
   std::filesystem::path program;       ///< on every node; empty: the result of
                                        ///< `find_worker_program`
   std::vector<std::string> arguments;  ///< additional arguments for the worker
-  /// Bundles to run instead of `program`, from this user's cache, which every node must see; empty:
+  /// Bundles to run instead of `program`, from this user's cache, visible to every node; empty:
   /// none.
   std::vector<WorkerBundle> bundles{};
   SlurmTimes times;

@@ -23,7 +23,7 @@ constexpr int kMostShortConnections = 5;
 /// connections at 10.
 constexpr int kFewLogins = 3;
 constexpr int kMostLogins = 9;
-/// Logins that take longer, such as those to a host that does not answer, no longer count.
+/// A login that takes longer, because the host does not answer, no longer counts as under way.
 constexpr Duration kLoginTime = std::chrono::seconds(12);
 constexpr int kBuildRefused = 7;  // of swarmsmith-worker: it is another build
 constexpr int kCannotRun = 126;   // of the host's shell: the program cannot be executed
@@ -197,8 +197,7 @@ void SshWorkers::on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoin
   }
   worker.start_at = now;
   const auto sent = sent_.find(&bundle);
-  // The host was checked before the bundle reached another host, and the two may share a cache:
-  // check again.
+  // Checked before the bundle reached another host, which may share the cache: check again.
   if (sent != sent_.end() && worker.started < sent->second) return;
   worker.trouble = "the worker is sent there";
   const bool wait = sent == sent_.end() && is_sent_now(&bundle);

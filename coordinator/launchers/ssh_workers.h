@@ -21,8 +21,7 @@ struct SshWorkersOptions {
   WorkerAddress address;               ///< with the paths for hosts that do not set their own
   std::filesystem::path program;       ///< the same; empty: the result of `find_worker_program`
   std::vector<std::string> arguments;  ///< additional arguments for the worker
-  /// Bundles to copy to hosts whose line names no program, if they do not have theirs yet; empty:
-  /// none.
+  /// Bundles to copy to hosts that lack one and whose line names no program; empty: none.
   std::vector<WorkerBundle> bundles{};
   std::string ssh = "ssh";
   /// The pause before a host is tried again; it doubles each time, up to `longest_pause`.
@@ -61,10 +60,8 @@ class SshWorkers final : public Launcher {
  private:
   struct Worker {
     SshHost host;
-    const WorkerBundle* sends = nullptr;  ///< the bundle that `ssh` is sending, instead of running
-                                          ///< a worker
-    const WorkerBundle* after = nullptr;  ///< the bundle whose transfer to another host must finish
-                                          ///< first
+    const WorkerBundle* sends = nullptr;  ///< the bundle that `ssh` is sending, or null
+    const WorkerBundle* after = nullptr;  ///< waits for this bundle's transfer elsewhere
     bool sent = false;                    ///< whether the last successful action was the transfer
     ChildProcess ssh;
     TimePoint started;

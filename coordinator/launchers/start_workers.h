@@ -17,8 +17,7 @@ struct WorkersSetup {
   WorkerAddress address;
   int local_slots = 0;                 ///< for each local process; 0: the cores, shared among them
   std::vector<std::string> arguments;  ///< additional arguments for the worker program
-  std::string local_secret;            ///< by which the coordinator recognises the workers on this
-                                       ///< host
+  std::string local_secret;            ///< identifies the workers on this host
   std::string campaign_digest;
   std::filesystem::path store;
   /// A folder for the files of workers on other hosts; all these hosts must see it.

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kArchitectures[] = {"x86_64", "aarch64"};
 constexpr const char* kPlaces[] = {"../bundle", "../share/swarmsmith"};
 
-// Works in any login shell that passes it on to sh: no line breaks, no single quotes. It needs only
-// what every Linux host has, so it does not need xz.
+// Works in any login shell that passes it on to sh: no line breaks, no single quotes. It uses only
+// programs that every Linux host has, so not xz.
 
 constexpr std::string_view kCache = "${XDG_CACHE_HOME:-$HOME/.cache}/swarmsmith";
 

@@ -57,8 +57,7 @@ struct Case {
 /// cases, and acts on the rulings.
 class Cases {
  public:
-  /// If the case is open already, adds the statement; the case then stays an audit only if `audit`
-  /// is set.
+  /// Adds the statement if the case is open; the case then stays an audit only if `audit` is set.
   void open(Task task, std::optional<Said> said, bool audit);
   /// The next task, if the referee is free; the task then counts as running until `close`.
   std::optional<Task> next();

@@ -43,8 +43,7 @@ void DesignQueues::put(Order& order, std::optional<Order::iterator>& at, bool re
 }
 
 /// The ranks are keys of the ordered sets and must not change while a design is in one: so every
-/// change goes through this function, and before and after it the sets and totals agree with the
-/// designs.
+/// change is made by this function, before and after which the sets and totals are consistent.
 template <class Change>
 void DesignQueues::change(Design& design, const Change& make) {
   if (!design.held) {
@@ -158,8 +157,7 @@ bool DesignQueues::is_urgent(const Design& design, std::size_t free,
 std::optional<PackedKey> DesignQueues::next(std::size_t free, std::uint64_t allowance_us,
                                             const Fits& fits) const {
   // Before a barrier, all workers of the design's step wait for its last task, so these tasks go
-  // first (orchestration facts, 5 "Order"). They are charged like all leases, so they cannot starve
-  // other designs.
+  // first (orchestration facts, 5 "Order"). They are charged, so they cannot starve other designs.
   int seen = 0;
   for (auto at = by_outstanding_.begin(); at != by_outstanding_.end() && seen < kNearest;
        ++at, ++seen) {

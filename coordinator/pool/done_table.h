@@ -16,7 +16,7 @@ namespace swarmsmith {
 struct DoneEntry {
   PackedKey key = 0;
   std::uint64_t score_bits = 0;
-  std::uint64_t state_digest = 0;  ///< 0 for a rejected evaluation, which `score_bits` marks
+  std::uint64_t state_digest = 0;  ///< 0 if rejected (see kRejectedBits)
 };
 
 /// The outcomes of active designs, by design: 24 bytes each in one array (open addressing, linear

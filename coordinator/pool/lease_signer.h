@@ -23,7 +23,7 @@ class LeaseSigner {
 
   /// The signature of the lease of a task to a principal (principal.h); never 0, which means no
   /// signature. 16 of its bits are a mark of the evaluation's input, because after a crash that
-  /// lost a false result, the key may belong to another machine.
+  /// lost a false result, the same key may mean another machine.
   std::uint64_t sign(const Task& task, std::int64_t attempt, std::string_view principal) const;
   /// Whether the signature belongs to a lease of that key.
   bool is_ours(std::uint64_t signature, PackedKey key, std::int64_t attempt,
@@ -42,13 +42,11 @@ class LeaseSigner {
   LeaseSecret secret_;
 };
 
-/// The secret of a pool of campaigns, derived from a permanent secret; it differs between
-/// scenarios.
+/// The secret of a pool of campaigns, from a permanent secret; it differs between scenarios.
 LeaseSecret lease_secret_of(std::string_view lasting, std::uint64_t scenario);
 /// A secret from the system's random bytes, as hexadecimal text.
 std::string random_secret();
-/// Compares in constant time, so that it does not reveal where the two differ; false if one is
-/// empty.
+/// Compares in a time that does not reveal where the two differ; false if one is empty.
 bool same_secret(std::string_view one, std::string_view other);
 
 }  // namespace swarmsmith

@@ -26,8 +26,7 @@ struct Lease {
   bool alone = false;    ///< the worker has no other task
   bool began = false;    ///< the worker has reported that it runs
 
-  WorkerLoads::Place of_worker;  ///< maintained by the table: its place in the list of its worker's
-                                 ///< leases
+  WorkerLoads::Place of_worker;  ///< maintained by the table: its place in its worker's list
 };
 
 /// A task that has no outcome yet, and its failed attempts so far.
@@ -40,9 +39,8 @@ struct TaskRecord {
   std::int64_t attempts = 0;
   int deaths = 0;                      ///< worker processes that died while it ran alone
   std::vector<std::string> died_with;  ///< the principals of these workers
-  int losses = 0;                      ///< workers that became silent or died while it may have
-                                       ///< been running
-  int strays = 0;                      ///< the same for workers of unknown principals
+  int losses = 0;                      ///< workers lost while it may have been running
+  int strays = 0;                      ///< the same for strangers' workers
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try another worker, if there is one
   bool alone = false;      ///< it may have killed a worker, so no other task may run beside it
@@ -58,8 +56,7 @@ struct TaskRecord {
   // Maintained by the table.
   TimePoint added;  ///< when it became wanted or was added as look-ahead
   DesignQueues::Design* design = nullptr;
-  std::list<PackedKey>::iterator place;  ///< its place in a queue, or in `by_age` while it is
-                                         ///< leased
+  std::list<PackedKey>::iterator place;  ///< in a queue, or in `by_age` while leased
 };
 
 /// All tasks without an outcome, by key. A task is queued, or leased to one worker or two. It
@@ -81,12 +78,10 @@ class LeaseTable {
   bool add(Task task, TimePoint now = {});
   TaskRecord* find(PackedKey key);
   const TaskRecord* find(PackedKey key) const;
-  /// `by` has delivered the outcome; other workers with a lease of this task still have it for a
-  /// while.
+  /// `by` has delivered the outcome; another worker with a lease of it has it for a while longer.
   void remove(PackedKey key, WorkerNumber by = 0);
   void remove_all(std::uint32_t campaign);
-  /// A look-ahead task is wanted now: if it is queued, it moves to the end of the queue of wanted
-  /// tasks.
+  /// A look-ahead task is wanted now: if queued, it moves to the end of the wanted tasks.
   void promote(TaskRecord& record, TimePoint now = {});
   /// Stops or resumes leasing of the design's tasks; design 0 means the whole campaign.
   void hold(std::uint32_t campaign, std::int64_t design, bool held);
@@ -104,8 +99,7 @@ class LeaseTable {
   void grant(TaskRecord& record, WorkerNumber worker, TimePoint now, std::uint64_t cost_us = 1);
   /// Leases the task to a second worker.
   void copy(TaskRecord& record, WorkerNumber worker, TimePoint now);
-  /// Ends the worker's lease. If it was the only one, queues the task, at the front or the end, and
-  /// returns true.
+  /// Ends the worker's lease. If it was the only one, queues the task and returns true.
   bool requeue(TaskRecord& record, WorkerNumber worker, bool at_front = true);
   /// Keeps a queued task from all workers, or releases it again.
   void park(TaskRecord& record);
@@ -139,8 +133,7 @@ class LeaseTable {
   const WorkerLoads& loads() const { return loads_; }
   const DesignQueues& queues() const { return queues_; }
 
-  /// Leases and waiting times are counted here, the rest by the scheduler. Grows with the
-  /// campaigns.
+  /// Leases and waiting times are counted here, and the rest by the scheduler.
   CampaignMeters& meters(std::uint32_t campaign);
   const std::vector<CampaignMeters>& meters() const { return meters_; }
 

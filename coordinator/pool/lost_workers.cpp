@@ -39,8 +39,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
   workers_->disconnect(entry);
   book_->leases.loads().set_capacity(entry.number, 0, 0);
   trust_->go_astray(*entry.principal, keys.size(), now);
-  // From last to first, because each one goes to the front of its queue: so they are leased again
-  // in order.
+  // From last to first: each goes to the front of its queue, so they are leased again in order.
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *book_->leases.find(keys[i]);
     // A task that was only queued there did not kill the worker, and the worker did not fail at it.

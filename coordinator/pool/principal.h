@@ -30,8 +30,7 @@ std::string hexadecimal(const std::string& bytes);
 
 /// The history of one principal.
 struct Principal {
-  /// A result of a worker that is not known yet; it waits for the referee's rulings on other
-  /// results.
+  /// A result of a worker on trial; it waits for the referee's rulings on other results.
   struct Waiting {
     WorkerNumber worker = 0;
     Result result;
@@ -39,8 +38,7 @@ struct Principal {
 
   /// The largest number of claims before the referee; with that many, it gets no more tasks.
   static constexpr int kMostClaims = 8;
-  /// If this many processes of a principal without a key have lied, the whole principal is
-  /// quarantined.
+  /// Without a key, the whole principal is quarantined when this many of its processes have lied.
   static constexpr std::size_t kMostLiars = 3;
 
   /// The reason for a quarantine.
@@ -69,11 +67,9 @@ struct Principal {
   bool local = false;              ///< started by this process: trusted from the beginning
   std::set<WorkerNumber> workers;  ///< workers in the registry, connected or not
   std::int64_t taken = 0;          ///< results of all its workers that became outcomes
-  std::int64_t astray = 0;         ///< leases that ended without a result before it delivered its
-                                   ///< first one
+  std::int64_t astray = 0;         ///< leases that ended before its first result
   TimePoint waits_until;           ///< because of `astray`: it gets no tasks until then
-  int claims = 0;                  ///< failures, deaths and contradictions that wait for the
-                                   ///< referee
+  int claims = 0;                  ///< failures, deaths, contradictions: open cases
   bool quarantined = false;
   Cause cause;                           ///< of its own quarantine
   std::map<std::string, Cause> liars{};  ///< single processes in quarantine, by id (hexadecimal)

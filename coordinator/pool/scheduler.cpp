@@ -224,9 +224,8 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   }
 }
 
-/// Leases from the worker's last connection that it does not hold were lost on the way. Of the
-/// tasks that it holds, it gets a lease of those that an earlier process gave it and that no other
-/// worker has.
+/// Leases from the worker's last connection that it does not hold were lost on the way. It gets a
+/// lease of each task that it holds from an earlier process and that no other worker has.
 void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   std::unordered_set<PackedKey> held;
   if (entry.hello.same_scenario) {

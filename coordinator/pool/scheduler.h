@@ -46,8 +46,7 @@ class Scheduler {
     trust_->audit_stored(std::move(task), std::move(said));
   }
 
-  /// A task that was added as look-ahead and is still here may be added once more: it is wanted
-  /// now.
+  /// A task that was added as look-ahead may be added again when it becomes wanted.
   void add(std::vector<Task> tasks);
   /// Drops look-ahead that is no longer needed; leased tasks continue.
   void drop(std::span<const PackedKey> keys);
@@ -55,8 +54,7 @@ class Scheduler {
   /// results that this process did not ask for, such as look-ahead of a coordinator that crashed.
   void close(std::uint32_t campaign, bool closed) { book_->close(campaign, closed); }
   /// The design will never want anything more, so its known outcomes are forgotten. Its tasks that
-  /// were added still get their outcomes; other results are acknowledged as duplicates, without a
-  /// comparison.
+  /// were added still get their outcomes; other results are acknowledged as duplicates.
   void close_design(std::uint32_t campaign, DesignId design) {
     book_->done.close(campaign, design);
   }
@@ -78,8 +76,8 @@ class Scheduler {
   /// A worker has started a task that runs alone on it.
   void on_began(const Sender& sender, PackedKey key, TimePoint now);
   /// Ends the quarantine of workers, selected by a key's name, an address or a host's name. Their
-  /// principal is on trial again, as if it were new. Returns their names; empty if none of them is
-  /// in quarantine.
+  /// principal is on trial again, as if it were new. Returns their names; empty if none were
+  /// quarantined.
   std::vector<std::string> forgive(std::string_view word, const std::string& by, TimePoint now) {
     return trust_->forgive(word, by, now);
   }
@@ -90,15 +88,13 @@ class Scheduler {
   void on_disputed(PackedKey key, const std::optional<Task>& task, TimePoint now) {
     trust_->on_disputed(key, task, now);
   }
-  /// Any other message is a sign of life. If the peer is not known, asks who it is and returns
-  /// false.
+  /// Any other message is a sign of life. Asks an unknown peer who it is, and returns false.
   bool on_sign_of_life(const Sender& sender, TimePoint now);
   /// The transport reports that the connection has ended, and that these leases were not delivered.
   void on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered = {});
   /// The peer sent malformed messages and is now ignored.
   void on_refused(PeerId peer, TimePoint now);
-  /// Handles heartbeats, silent workers and leases without progress; call it several times a
-  /// second.
+  /// Handles heartbeats, silent workers and stalled leases; call it several times a second.
   void on_tick(TimePoint now);
 
   /// The current time for the meters; most events pass it too.

@@ -17,7 +17,7 @@ namespace swarmsmith {
 
 /// The scheduler's input from messages and its actions, as plain values.
 
-/// A task that a worker reports to have, and the lease under which it got the task.
+/// A task that a worker reports, and the lease under which it got the task.
 struct Hold {
   PackedKey key = 0;
   std::int64_t attempt = 0;
@@ -49,7 +49,7 @@ struct Ruling {
     Score,
     Rejected,  ///< there is no score: an exception, not a number, or the death of the process
     TimedOut,  ///< it takes longer than the campaign allows
-    NoWord,    ///< the referee cannot work, because of a problem of the host
+    NoWord,    ///< the referee cannot work, because of a problem with the host
   };
   PackedKey key = 0;
   Kind kind = Kind::Score;
@@ -104,7 +104,7 @@ struct SendHeartbeat {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
 };
-/// A message for a person at the worker, which continues.
+/// A message for the person who runs the worker; the worker continues.
 struct SendNotice {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
@@ -205,8 +205,7 @@ struct SchedulerOptions {
   Duration silence = std::chrono::milliseconds(2500);
   std::vector<CampaignPolicy> campaigns{CampaignPolicy{}};  ///< Task::campaign is an index
   /// Whether programs evaluate, for all campaigns or none. Then no evaluation is repeated while a
-  /// worker that runs it is alive, the first failure is final, and two results of one evaluation
-  /// may differ.
+  /// worker that runs it is alive, the first failure is final, and two results may differ.
   bool evaluates_programs = false;
   /// A principal that fails this often where others (with the simulator: the referee) succeed, and
   /// in at least one of twenty of its evaluations, gets no more tasks.

@@ -20,8 +20,7 @@ double seconds(Duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// The reason why no task is ready: look-ahead that was not leased does not count as work that is
-/// held back.
+/// The reason why no task is ready. Queued look-ahead does not count as work that is held back.
 IdleCause cause_without_ready(const LeaseTable& leases) {
   IdleCause cause = IdleCause::Barrier;
   for (const PoolDesign& held : leases.queues().held()) {

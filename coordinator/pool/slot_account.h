@@ -25,7 +25,7 @@ struct WorkerRate {
 /// coordinator finds the reasons for idle slots ten times a second: each sample counts the slots of
 /// a worker without a lease, and their cause. From one heartbeat of a worker to the next, idle time
 /// = slot time - busy time, exactly. The causes get the time found by the samples, all scaled down
-/// by the same factor if their sum is larger; the rest is assigned to the network: leased, and not
+/// by the same factor if their sum is larger; the rest counts as network time: leased, and not
 /// evaluated.
 class SlotAccount {
  public:

@@ -68,8 +68,7 @@ class TaskBook {
             std::optional<std::uint32_t> campaign = std::nullopt, const Principal* source = nullptr,
             WorkerNumber worker = 0);
   void note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutcome outcome, TimePoint at);
-  /// Notes an attempt for the copy whose result came second or will come; does nothing if there is
-  /// no copy.
+  /// Notes an attempt for the copy whose result comes second, if there are two copies.
   void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint at);
 
  private:

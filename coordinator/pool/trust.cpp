@@ -1,5 +1,4 @@
-// Which workers are trusted: authority over a task, trials of new workers, audits, strikes,
-// quarantine.
+// Trust in workers: authority over a task, trials of new workers, audits, strikes, quarantine.
 
 #include "coordinator/pool/trust.h"
 
@@ -15,13 +14,11 @@ namespace {
 
 /// Failing at one of this many evaluations is more than bad luck.
 constexpr std::int64_t kOneOf = 20;
-/// The number of first results of a principal that the referee evaluates again before any of its
-/// results count.
+/// How many first results of a principal the referee evaluates again before any result counts.
 constexpr std::int64_t kTrial = 2;
 /// The most tasks that a worker of an unknown principal may hold: enough for its trial.
 constexpr std::size_t kRoomOnTrial = 64;
-/// A principal's n-th result is audited with probability this / n, until that is below the usual
-/// rate.
+/// A principal's n-th result is audited with probability this / n, or the usual rate if higher.
 constexpr double kDenseAtFirst = 4;
 /// Strangers that were given this many tasks and have delivered no result must wait while others
 /// work, because races wait for the tasks that they take. Each further task adds a second.

@@ -46,8 +46,7 @@ class Trust {
   /// Cases of the campaign, and results that wait for a ruling, are no longer needed.
   void forget(std::uint32_t campaign);
 
-  /// Whether the worker was given the task: it has a lease of it, or the result has a lease's
-  /// signature.
+  /// Whether the worker was given the task: it has a lease of it, or the result is signed.
   bool may_answer(const WorkerEntry& entry, const Result& result);
   /// A score of a task without an outcome: it becomes the outcome, waits, or becomes a case.
   void on_score(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
@@ -108,8 +107,7 @@ class Trust {
   void quarantine(Principal& principal, WorkerNumber worker, const std::string& reason,
                   TimePoint now);
   void quarantine_all(Principal& principal, const std::string& reason, TimePoint now);
-  /// Quarantines one process of a principal without a key; after kMostLiars of them, the whole
-  /// principal.
+  /// Quarantines one process of a principal without a key, or all after kMostLiars of them.
   void quarantine_process(Principal& principal, WorkerNumber worker, const std::string& reason,
                           TimePoint now);
   void isolate(WorkerEntry& entry, const std::string& sentence, TimePoint now);

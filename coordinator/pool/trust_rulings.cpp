@@ -109,7 +109,7 @@ void Trust::on_disputed(PackedKey key, const std::optional<Task>& task, TimePoin
   if (!found || book_->is_stopped(campaign_of(key))) return;
   for (const Dispute& dispute : found.mapped()) {
     const Said& other = dispute.other;
-    // A campaign that is over asks for no result.
+    // A campaign that is over needs no results.
     if (task || book_->is_closed(campaign_of(key))) book_->act(OutcomeRepeated{key, other.worker});
     if (!task) {
       let_go(other);
@@ -261,8 +261,7 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
   }
 }
 
-/// The statement is no longer before the referee. Each statement was counted once when it was
-/// brought there.
+/// The referee no longer has the statement, which was counted when its case was opened.
 void Trust::let_go(const Said& said) {
   Principal* principal = principals_.find(said.principal);
   if (principal == nullptr || said.taken) return;

@@ -37,8 +37,7 @@ struct WorkerEntry {
   bool reserved = false;
   std::int64_t done = 0;
   std::int64_t failed = 0;
-  /// The worker or its principal is in quarantine: it gets no tasks, and its results are not
-  /// accepted.
+  /// The worker or its principal is in quarantine: it gets no tasks, and its results do not count.
   bool quarantined = false;
 
   bool is_idler() const { return !connected && done == 0 && failed == 0; }
@@ -66,8 +65,7 @@ class WorkerRegistry {
   WorkerEntry& add(Principal& principal, const std::string& identity);
   void connect(WorkerEntry& entry, PeerId peer, TimePoint now);
   void disconnect(WorkerEntry& entry);
-  /// Forgets workers that have been disconnected for a long time, and the oldest of those that did
-  /// nothing.
+  /// Forgets workers that left long ago, and the oldest of those that did nothing.
   void forget_old(TimePoint now);
   /// Whether it is worthwhile to call `forget_old`.
   bool has_many_gone() const { return entries_.size() > by_peer_.size() + 2 * kMostIdlers; }

@@ -16,8 +16,7 @@ namespace swarmsmith {
 struct MissionWords {
   std::string of_all;  ///< the mission of rows that name none; may be empty
   std::map<std::string, std::string> renamed;
-  std::vector<MissionEntry> of_files;  ///< missions described by files, under the names that they
-                                       ///< get here
+  std::vector<MissionEntry> of_files;  ///< missions from files, by their names here
   bool all_of_file = false;            ///< `of_all` is one of `of_files`, and is also the mission
                                        ///< of rows with another name
 
@@ -27,8 +26,7 @@ struct MissionWords {
   const MissionEntry* of_file(const std::string& name) const;
 };
 
-/// Errors: two names for all rows, a mission that is renamed twice, an empty name, errors in a
-/// mission file.
+/// Errors: two names for all rows, a mission renamed twice, an empty name, a bad mission file.
 OrErrors<MissionWords> read_mission_words(const std::vector<std::string>& words);
 
 }  // namespace swarmsmith

@@ -190,8 +190,7 @@ void read_runs(Reader reader, const Known& known, IraceLog& log) {
                .time = reader.number(row, "time").value_or(0),
                .bound = reader.number(row, "bound").value_or(0)};
     if (run.iteration < 0) reader.complain(row, "iterations count from 0");
-    // The runs that estimate the time come before the first race (irace facts, 16) and are counted
-    // as part of it.
+    // Runs that estimate the time precede the first race (irace facts, 16) and count as part of it.
     run.iteration = std::max<std::int64_t>(run.iteration, 1);
     log.runs.push_back(run);
   }

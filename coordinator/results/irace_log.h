@@ -90,13 +90,12 @@ struct IraceLog {
 
 /// Names of the tables: "log.csv", "parameters.csv", ...
 const std::vector<std::string>& irace_log_files();
-/// The tables that describe what was tuned and how: a store has no columns for them and keeps their
-/// texts.
+/// The tables that describe what was tuned and how: a store keeps their texts.
 const std::vector<std::string>& irace_setting_files();
 
 /// `texts`: the tables by their file names. A missing table is an error, and so is a row that names
-/// a pair or configuration that does not exist. domains.csv, instances.csv and scenario.csv may be
-/// missing.
+/// a pair or configuration that does not exist. domains.csv, instances.csv and scenario.csv are
+/// optional.
 OrErrors<IraceLog> read_irace_log(const std::map<std::string, std::string>& texts);
 /// Reads only the tables of irace_setting_files.
 OrErrors<IraceLog> read_irace_settings(const std::map<std::string, std::string>& texts);

@@ -79,8 +79,7 @@ std::vector<Error> Rows::add_candidates() {
   for (const LogRun& run : log_.runs)
     first_ran.emplace(run.configuration, run.iteration);
   std::vector<Error> errors;
-  std::int64_t iteration = 1;  // a configuration that never ran gets the iteration of the one
-                               // before it
+  std::int64_t iteration = 1;  // without runs: as the one before
   for (const LogConfiguration& configuration : log_.configurations) {
     if (const auto ran = first_ran.find(configuration.id); ran != first_ran.end()) {
       iteration = ran->second;

@@ -17,8 +17,7 @@ struct KnownDesign {
   std::string mission;
   std::string method;
   std::int64_t repetition = 0;
-  std::string name;     ///< the name in the file from which it was imported; empty for other
-                        ///< designs
+  std::string name;     ///< its name in the imported file; empty for others
   std::string flavour;  ///< empty for parameters of a program, and in stores with schemas 1 to 3
   std::int64_t campaign = 1;
   bool finished = false;

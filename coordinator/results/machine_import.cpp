@@ -86,8 +86,7 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
 /// Collects the worlds of all machines: one mission per name, and one profile.
 class Worlds {
  public:
-  /// The description of the machine's mission, whose name here is `name`; none if the name alone is
-  /// enough.
+  /// The description of the machine's mission, here called `name`; none if the name is enough.
   static std::optional<MissionEntry> entry_of(const MachineText& from, const std::string& name,
                                               const MissionWords& words) {
     if (const MissionEntry* of_file = words.of_file(name)) return *of_file;

@@ -23,8 +23,7 @@ struct MachineText {
   std::string mission;                    ///< the mission's name in the file; may be empty
   std::string method;                     ///< may be empty
   std::string flavour;                    ///< from the file's head; may be empty
-  const Flavour* own_flavour = nullptr;   ///< from the file's head, see kept_flavour; null: built
-                                          ///< in
+  const Flavour* own_flavour = nullptr;   ///< from the head, see kept_flavour; null: built in
   std::string text;                       ///< a text of the grammar
   std::string place;                      ///< file:line
   std::optional<MissionEntry> described;  ///< the mission that the file's head describes

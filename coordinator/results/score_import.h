@@ -31,8 +31,7 @@ struct ScoreImport {
   std::vector<std::string> costs_of;  ///< missions (by their names here) whose `score` is a cost
   bool replace = false;               ///< accept a different score for a known place
   std::vector<KnownDesign> designs;
-  std::function<bool(CandidateId)> has_candidate;  ///< called only for candidates that are not a
-                                                   ///< winner
+  std::function<bool(CandidateId)> has_candidate;  ///< called for candidates that did not win
 };
 
 /// The result of importing a table.

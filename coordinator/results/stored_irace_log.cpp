@@ -91,8 +91,7 @@ Expected<void> add_settings(const Campaign& campaign, const DesignRow& design, I
   add_instances(false, setup->training, log);
   add_instances(true, setup->test, log);
   for (auto& [option, value] : irace_options(*setup)) {
-    // Left out: options that the log itself has, a program where R has a function, and empty
-    // options.
+    // Left out: options that are in the log itself, a program for R's function, and empty options.
     const bool apart = option == "seed" || option == "maxExperiments" ||
                        option == "repairConfiguration" || value == "\"\"";
     if (!apart) log.options.emplace_back(option, std::move(value));
@@ -372,8 +371,7 @@ Expected<void> Reading::read_runs() {
   return {};
 }
 
-/// A race with capping does not use the printed costs but its own capped costs, so the log has
-/// these too.
+/// A race with capping uses its own capped costs instead of the printed ones, and so does a log.
 Expected<void> Reading::cap() {
   if (!capping_) return {};
   double bound_max = capping_->bound_max;

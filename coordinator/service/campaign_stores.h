@@ -44,8 +44,7 @@ class CampaignStores {
   /// For each store, its trouble if the store is lost; empty for the others.
   std::vector<std::string> lost() const;
 
-  /// Calls `on_bytes` with the index and the length of the write-ahead log of each store that has a
-  /// file.
+  /// Calls `on_bytes` for each store with a file: its index, and the length of its write-ahead log.
   void each_log(const std::function<void(std::size_t, std::int64_t)>& on_bytes) const;
 
  private:

@@ -262,8 +262,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   return name + " gets " + std::to_string(row.budget) + " experiments more";
 }
 
-/// A command to the pool: every store gets the rows, and the answer waits for the first store's
-/// commit.
+/// A command to the pool: every store gets the rows, and the answer waits for the first commit.
 Expected<std::string> Coordinator::forgive(const pb::Command& command, TimePoint now) {
   const std::vector<std::string> names = scheduler_.forgive(command.whom(), command.who(), now);
   if (!names.empty()) return sentence_of_forgiven(names);
@@ -294,8 +293,7 @@ Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& 
   return sentence_of_pause(command.kind, *rows);
 }
 
-/// Reports once, by an event, that a campaign waits for a person because all of its designs are
-/// paused.
+/// Reports once that all designs of a campaign are paused, so that it waits for a person.
 void Coordinator::note_if_all_is_paused(Campaign& campaign) {
   bool all = !campaign.paused.empty() && !campaign.stopped;
   if (all) {
@@ -577,8 +575,7 @@ void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
   acknowledge(keys);
 }
 
-/// A repeated outcome is acknowledged at once if it is on disk, or else together with the first
-/// copy.
+/// Acknowledges a repeated outcome at once if it is on disk, else together with the first copy.
 void Coordinator::repeat(const OutcomeRepeated& action) {
   const auto at = waiting_.find(action.key);
   if (at == waiting_.end()) {

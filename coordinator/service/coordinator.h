@@ -31,8 +31,7 @@ struct CoordinatorOptions {
   int malformed_limit = 10;
   Duration refuse_for = std::chrono::seconds(60);
   BudgetOptions budgets{};
-  /// The secret by which the coordinator recognises the workers that this process started; empty:
-  /// none.
+  /// The secret that identifies the workers started by this process; empty: none.
   std::string local_secret;
 };
 
@@ -59,8 +58,7 @@ struct SendFrame {
   std::string frame;
   std::vector<PackedKey> leases;  ///< the leases that the frame contains
 };
-/// Rows to append to the campaign's store in one unit; its ticket comes back through `on_appended`,
-/// in order.
+/// Rows to append to the campaign's store in one unit; its ticket comes by `on_appended`, in order.
 struct AppendRows {
   std::uint32_t campaign = 0;
   std::vector<Row> rows;
@@ -101,8 +99,7 @@ class Coordinator {
   void on_ruling(const Ruling& ruling, TimePoint now) { scheduler_.on_ruling(ruling, now); }
   void on_appended(std::uint32_t index, std::uint64_t ticket);
   void on_committed(std::uint32_t index, std::uint64_t ticket);
-  /// Stops or resumes leasing for all campaigns: the disks are too slow, or the process is
-  /// stopping.
+  /// Stops or resumes leasing for all campaigns: disks are too slow, or the process is stopping.
   void hold(Holding holding) {
     holding_ = holding;
     scheduler_.hold(holding != Holding::No);
@@ -156,8 +153,7 @@ class Coordinator {
     std::vector<WorkerNumber> others;
   };
 
-  /// A unit of rows that was handed out for its store, with the acknowledgements that wait for its
-  /// commit.
+  /// A unit of rows for a store, with the acknowledgements that wait for its commit.
   struct Unit {
     std::uint64_t ticket = 0;  ///< 0 until it has one
     std::vector<PackedKey> keys;
@@ -172,8 +168,7 @@ class Coordinator {
     std::int64_t commands = 0;         ///< the largest number of a command
     std::set<DesignId> paused{};
     std::deque<StoredWord> unaudited{};  ///< scores that an earlier process chose for an audit
-    bool all_paused = false;             ///< every unfinished design is paused, and an event has
-                                         ///< said so
+    bool all_paused = false;             ///< an event has said that all are paused
     bool told = false;                   ///< it got an outcome or a command since it was last asked
                                          ///< what it drops
     /// It had no more look-ahead work, and nothing has changed that since.

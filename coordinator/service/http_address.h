@@ -15,8 +15,7 @@ namespace swarmsmith {
 /// look numbers up.
 bool is_our_host(std::string_view header, const Address& address, const std::string& host_name);
 
-/// Reads the token from a file that only its owner can read; it is one line of at least 16
-/// characters.
+/// Reads the token from a file that only its owner can read; one line of at least 16 characters.
 Expected<std::string> read_token(const std::filesystem::path& file);
 
 /// Whether an Authorization header has the token; takes equally long for every wrong token.

@@ -102,9 +102,9 @@ class Pages final : public HttpServer {
   bool is_known(const httplib::Request& request) const {
     return options_.token.empty() || has_token_of(request, options_.token);
   }
-  /// Whether a user of this host without permission asks: without a token, only the user who runs
-  /// this process and root may read. A client that knows the acts' token is trusted, whatever the
-  /// kernel reports.
+  /// Whether the request comes from a user of this host who may not read: without a token, only
+  /// root and the user who runs this process may. A client that knows the acts' token is trusted,
+  /// whatever the kernel reports.
   bool is_other_user(const httplib::Request& request) const {
     return options_.token.empty() && !is_of_same_user(PageServer::socket_of_request()) &&
            !has_token_of(request, options_.act_token);

@@ -35,8 +35,7 @@ class HttpSite {
  public:
   virtual ~HttpSite() = default;
 
-  /// Whether every client that names the right host may read this path, because it holds nothing
-  /// private.
+  /// Whether any client that names the right host may read this path: it has nothing private.
   virtual bool is_open(std::string_view path) const = 0;
   /// Whether errors of this path are JSON, like its answers.
   virtual bool is_api(std::string_view path) const = 0;
@@ -45,8 +44,7 @@ class HttpSite {
   virtual SiteAnswer answer(const SiteRequest& request) = 0;
   /// The body `{"v":1,"error":{...}}` for a request that is refused.
   virtual std::string error_json(std::string_view kind, std::string_view message) const = 0;
-  /// Publishes a new status of the coordinator's loop; `status` stays valid until the next call has
-  /// returned.
+  /// Publishes a new status of the coordinator's loop; `status` stays valid until the next call.
   virtual void publish(const LiveStatus& status) = 0;
 };
 

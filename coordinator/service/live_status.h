@@ -81,8 +81,7 @@ struct CampaignStatus {
 /// The current state of a coordinator's campaigns, from the coordinator's memory, for people.
 /// Counts start with this process.
 struct LiveStatus {
-  /// Whether the status comes from a running coordinator; false if it was read from a store without
-  /// one.
+  /// Whether the status comes from a running coordinator; false if it comes from a store.
   bool running = true;
   std::int64_t workers = 0;
   std::int64_t slots = 0;
@@ -123,15 +122,13 @@ struct LiveStatus {
   bool insecure_plaintext = false;
   std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
   std::vector<QuarantineStatus> quarantine;
-  /// Refreshed once a second; shared, because each status is copied. Never null after the first
-  /// refresh.
+  /// Refreshed once a second; shared, because each status is copied. Null only at the beginning.
   std::shared_ptr<const std::vector<WorkerStatus>> fleet;
   std::shared_ptr<const std::vector<CampaignStatus>> campaigns;
 };
 
 /// Seconds until the races have used the rest of their budgets at the rate of the last minute; all
-/// outputs show it as the expected time. Negative if no experiments are being used, 0 if none are
-/// left.
+/// outputs show it as the expected time. Negative if nothing moves, 0 if nothing is left.
 double seconds_left(const LiveStatus& status);
 
 /// One JSON object whose keys are the names of the fields; docs/observability.md describes it.

@@ -16,8 +16,7 @@ namespace swarmsmith {
 /// Logs rows as they are written: events of workers, designs and races.
 class RowLog {
  public:
-  /// `searches`: those of each campaign, because other searches are described in other words than
-  /// races.
+  /// `searches`: those of each campaign; the log uses other words for them than for races.
   explicit RowLog(std::vector<Searches> searches = {}) : searches_(std::move(searches)) {}
 
   /// `campaign` is its index in the coordinator; none: the row belongs to the pool.

@@ -13,8 +13,7 @@
 namespace swarmsmith {
 
 /// Converts messages of workers to the scheduler's plain values, and its actions to frames.
-/// Messages come from `decode_to_coordinator`, so their keys are valid and their numbers are within
-/// limits.
+/// Messages come from `decode_to_coordinator`, so their keys and numbers are valid.
 
 WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
 void results_of(const pb::Results& results, std::vector<Result>& out);

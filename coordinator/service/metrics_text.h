@@ -11,8 +11,7 @@ namespace swarmsmith {
 /// of fixed lists (orchestration facts, 11).
 std::string metrics_text(const LiveStatus& status);
 
-/// Names of all metrics, in the order of the text; for histograms without the endings _bucket, _sum
-/// and _count.
+/// Names of all metrics, in the order of the text; of histograms without _bucket, _sum, _count.
 std::vector<std::string> metric_names();
 
 }  // namespace swarmsmith

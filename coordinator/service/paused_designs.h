@@ -11,8 +11,8 @@
 namespace swarmsmith {
 
 /// The designs that are paused after all commands of a store, applied in order. Each "pause" or
-/// "resume" names one design: a command to a whole campaign is stored as a row for each design that
-/// it affects.
+/// "resume" names one design: a command to a whole campaign is stored as one row per affected
+/// design.
 std::set<DesignId> paused_designs(std::span<const CommandRow> commands);
 
 /// Applies a command to the set of paused designs; only "pause" and "resume" change it.

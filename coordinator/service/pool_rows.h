@@ -34,8 +34,7 @@ class PoolRows {
   /// Writes rows of workers for which there was no room earlier; at most once a second.
   void write_late_workers(TimePoint now);
 
-  /// Whether a row of this size that names the worker may be written; if so, the worker's own row
-  /// is put first.
+  /// Whether a row of this size that names the worker may be written; puts the worker's row first.
   bool may_name(WorkerNumber worker, std::string_view kind, std::size_t bytes, TimePoint now);
   /// The same for an event, which may name a worker.
   bool may_note(const Noted& noted, TimePoint now);
@@ -58,8 +57,7 @@ class PoolRows {
   std::vector<Row> rows_;
   std::unordered_set<WorkerNumber> written_;  ///< workers whose row is in the stores
   std::map<WorkerNumber, WorkerRow> late_;    ///< rows for which there was no room
-  /// Pairs of a principal and the identity of its quarantined process, or an empty one for all of
-  /// them.
+  /// Principals, each with the identity of a quarantined process, or an empty one for all.
   std::set<std::pair<std::string, std::string>> told_in_quarantine_;
   TimePoint wrote_late_;
 };

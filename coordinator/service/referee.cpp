@@ -85,8 +85,7 @@ class ProcessReferee final : public Referee {
     std::string trouble{};
   };
 
-  /// Runs in its own thread, because it waits for the process; the process is killed when this
-  /// thread ends.
+  /// Runs in its own thread, because it waits for the process, which dies with this thread.
   void work() {
     // The end of the process is then noticed by an error of write, instead of by SIGPIPE.
     sigset_t pipes;

@@ -16,8 +16,7 @@ class Referee {
  public:
   virtual ~Referee() = default;
 
-  /// Starts one evaluation without waiting for it. Call again only after the ruling on the previous
-  /// one.
+  /// Starts an evaluation without waiting for it. Call again only after the ruling on it.
   virtual void judge(AskReferee ask) = 0;
   /// The rulings since the last call.
   virtual std::vector<Ruling> take_rulings() = 0;

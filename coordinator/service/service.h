@@ -75,8 +75,7 @@ struct ServiceEnd {
   std::vector<std::string> lost{};
   /// For each campaign, whether it stopped because its stored scores are wrong or may be wrong.
   std::vector<bool> distrusted{};
-  /// For each campaign, the number of evaluations that were used but that its store could not
-  /// write.
+  /// For each campaign, the number of used evaluations that its store could not write.
   std::vector<std::int64_t> unwritten{};
 };
 

@@ -23,8 +23,7 @@ class RateWindow {
  public:
   explicit RateWindow(Duration window) : window_(window) {}
 
-  /// Growth per second over the window, or over a shorter time until the window is full; 0 for the
-  /// first point.
+  /// Growth per second over the window, or over a shorter time at first; 0 for the first point.
   double update(TimePoint now, std::int64_t count);
 
  private:

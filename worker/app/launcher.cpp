@@ -53,14 +53,12 @@ int main(int argc, char** argv) {
   // Libraries of this system need its own libc, which differs from ours.
   unsetenv("LD_PRELOAD");
   unsetenv("LD_AUDIT");
-  // The program uses this path as its own (base/program_path.h), because /proc/self/exe is the
-  // loader.
+  // The program takes this path as its own (base/program_path.h): /proc/self/exe is the loader.
   std::vector<const char*> words{loader.path,    "--inhibit-cache", "--library-path",
                                  libraries.path, "--argv0",         self,
                                  program.path};
   if (argc > 1) words.insert(words.end(), argv + 1, argv + argc);
   words.push_back(nullptr);
-  execv(loader.path, const_cast<char**>(words.data()));  // execv's signature needs the cast; execv
-                                                         // changes nothing
+  execv(loader.path, const_cast<char**>(words.data()));  // execv changes nothing
   fail(name, "cannot start ", loader.path);
 }

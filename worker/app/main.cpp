@@ -88,8 +88,7 @@ struct Arguments {
 /// Drains when standard input ends. A separate thread waits for that and does nothing else, so that
 /// a signal that ends the process is not delayed.
 void watch_input() {
-  // The launcher's end may close first: a write must not kill this process then, so that it can
-  // drain.
+  // The launcher's end may close first: a write must not kill this process before it drains.
   std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {
     std::array<char, 256> ignored{};
@@ -201,8 +200,7 @@ int run(const Arguments& arguments) {
   std::_Exit(static_cast<int>(end.code));
 }
 
-/// Answers requests of scripts in the same way as swarmsmith (console/program.h); false if there is
-/// none.
+/// Answers requests of scripts, like swarmsmith itself (console/program.h); false if none.
 bool answer_scripts(const CLI::App& app, std::span<const std::string> words) {
   if (words.empty()) return false;
   const std::vector<DeclaredOption> options = declared_options(app);

@@ -21,8 +21,7 @@ std::string argos_walls();
 /// The experiment file for the e-puck's stack. Errors: BadInput.
 Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experiment);
 
-/// Fails for control software that the original AutoMoDe cannot run; `flavour` is the flavour with
-/// its modules.
+/// Fails if the original AutoMoDe, whose modules `flavour` contains, cannot run this.
 Expected<void> check_for_argos(const Controller& controller, const Flavour& flavour);
 
 /// Makes a text safe for an XML comment, which must not contain two hyphens in a row.

@@ -73,8 +73,7 @@ Expression more_than(const std::string& parameter, int value);
 /// A parameter's value, or `otherwise` if it is left out or inactive.
 double value_or(const Configuration& configuration, std::size_t index, double otherwise);
 
-/// The module's parameters in a configuration, in the form that make_behaviour and make_condition
-/// take.
+/// The module's parameters in a configuration, as arguments of make_behaviour and make_condition.
 std::vector<double> values_of(const Configuration& configuration, const ModuleSlot& slot,
                               const Flavour& flavour);
 /// The reverse: returns the index of the slot for the module, as the chooser's value, and writes

@@ -15,8 +15,8 @@ namespace swarmsmith {
 /// Whether any method races: for other searches, [race] has no meaning except the budget.
 bool has_races(const Campaign& campaign);
 
-/// The keys of [race] that are a number of the scenario, in one list so that reading, writing and
-/// the digest use the same ones. Names are irace's names in snake_case.
+/// The keys of [race] whose values are numbers in the scenario: a single list, so that reading,
+/// writing and the digest use the same keys. Names are irace's names in snake_case.
 
 struct IntegerOption {
   std::string_view key;

@@ -26,8 +26,7 @@ std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
   return ids;
 }
 
-/// Reads a flavour from the file that the key names, or from a table, as in stores; null after a
-/// complaint.
+/// Reads a flavour from the file that the key names, or from a table; null after a complaint.
 const Flavour* read_own_flavour(TableReader& table, const std::string* word,
                                 const std::filesystem::path& folder, Method& method) {
   const std::size_t before = table.complaints();
@@ -182,8 +181,7 @@ void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   }
 }
 
-/// Reads the text from the file that the key names, or from the key with the ending `_text`, as in
-/// stores.
+/// Reads the text from the file that the key names, or, as in stores, from the key plus `_text`.
 std::string read_text(TableReader& table, const std::string& key,
                       const std::filesystem::path& folder, const std::string& what) {
   if (auto text = table.text(key + "_text")) return std::move(*text);
@@ -195,7 +193,7 @@ std::string read_text(TableReader& table, const std::string& key,
   return {};
 }
 
-/// The name of that text in error messages: the file's path, or the key of a text in this file.
+/// The name of a key's text in error messages: the file's path, or the key of the text itself.
 std::string text_name(TableReader& table, const std::string& key,
                       const std::filesystem::path& folder) {
   const Node* node = table.take(key);
@@ -271,8 +269,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Reads a machine given as text or in a file as `baseline`; does nothing for a race or a random
-/// machine.
+/// Reads a `baseline` given as text or as a file; does nothing for a race or a random machine.
 void read_baseline(TableReader& table, const std::filesystem::path& folder, Method& method) {
   const auto baseline = table.text("baseline");
   if (!baseline) return;

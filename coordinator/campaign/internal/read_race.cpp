@@ -44,8 +44,7 @@ void read_numbers(TableReader& race, Scenario& scenario) {
       read_choice<BoundType>(race, "bound_type", kBoundTypes).value_or(scenario.bound_type);
 }
 
-/// Checks that exactly one of the two budgets is given; a time budget only if programs report their
-/// time.
+/// Checks that exactly one of the two budgets is given; a time only if programs report theirs.
 bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target) {
   if (scenario.max_time > 0 && !has_target) {
     race.complain("max_time",

@@ -14,8 +14,7 @@ namespace swarmsmith {
 /// the programs. Errors go to the reader's complaints.
 Target read_target(TableReader& simulator, const std::filesystem::path& folder);
 
-/// Reads the [[mission]] tables of a campaign that programs evaluate: names, and instances as
-/// texts.
+/// Reads the [[mission]] tables for evaluation by programs: names, and instances as texts.
 std::vector<CampaignMission> read_target_missions(TableReader& root,
                                                   const std::filesystem::path& folder);
 

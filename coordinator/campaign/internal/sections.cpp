@@ -112,7 +112,7 @@ void add_race_options(const Scenario& race, Section& section) {
   }
 }
 
-/// [race] with every option, even if it has its default.
+/// [race] with all options, even those with default values.
 Section race_section(const Campaign& campaign) {
   const Scenario& race = campaign.race;
   Section section{"[race]", "race.", {}};

@@ -49,8 +49,8 @@ Section parameter_file_section(const Method& method) {
   return section;
 }
 
-/// Leaves out whether calls are repeated and how long one may take, because they do not change the
-/// results; the meaning of a time-out does.
+/// Leaves out whether calls are repeated and how long a call may take, because neither changes the
+/// results; includes the meaning of a time-out, because it does.
 Section target_section(const Target& target) {
   Section section{"[simulator]",
                   "simulator.",
