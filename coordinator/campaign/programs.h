@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The problems that prevent the campaign's programs from being run: missing or not executable
+/// The problems that prevent the campaign's programs from being run: missing or non-executable
 /// programs, missing folders, a command-line template without its necessary parts. Checked before
 /// anything runs; a store can be read and verified without its programs. Empty for a campaign that
 /// uses the simulator.
