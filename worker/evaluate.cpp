@@ -9,10 +9,10 @@
 namespace swarmsmith {
 namespace {
 
-/// One campaign of the pool, read once for all slots.
+/// One campaign of the pool, parsed once for all slots.
 using SharedScenario = std::shared_ptr<const WorkerScenario>;
 
-/// Items go to the evaluator of their campaign.
+/// Passes each item to the evaluator of its campaign.
 Evaluator by_campaign(std::vector<Evaluator> evaluators) {
   if (evaluators.size() == 1) return std::move(evaluators.front());
   return [evaluators = std::move(evaluators)](const LeasedTask& item) -> Result {
@@ -22,7 +22,7 @@ Evaluator by_campaign(std::vector<Evaluator> evaluators) {
   };
 }
 
-/// The scenarios that are in use.
+/// The parsed campaigns of the current scenario, and a factory for their evaluators.
 class Evaluators {
  public:
   explicit Evaluators(AllowedPrograms allowed) : allowed_(std::move(allowed)) {}

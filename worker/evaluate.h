@@ -5,9 +5,10 @@
 
 namespace swarmsmith {
 
-/// Evaluators for whatever a scenario asks for: its programs, as far as they are allowed, or the
-/// simulator. Programs of one scenario that still run when another one comes are ended. The
-/// factory's errors: bytes that are not a scenario, and those of the makers.
+/// Makes evaluators for a scenario: they run its programs, if these are allowed, or the simulator.
+/// When another scenario comes, running programs of the previous one are killed. Errors of the
+/// factory: bytes that are not a scenario, and the errors of make_simulation_evaluator and
+/// make_target_evaluator.
 EvaluatorFactory make_evaluators(AllowedPrograms allowed = {});
 
 }  // namespace swarmsmith

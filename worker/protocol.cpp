@@ -43,7 +43,7 @@ void WorkerProtocol::send(pb::ToCoordinator& message, TimePoint) {
   actions_.emplace_back(SendToCoordinator{encode(message)});
 }
 
-/// Opens a connection, unless it was asked for on the one that there is.
+/// Opens a connection, unless the coordinator asked for a greeting on the existing one.
 void WorkerProtocol::greet(TimePoint now) {
   SWARMSMITH_ASSERT(state_ != State::Left, "a worker that has left stays away");
   if (state_ == State::Waiting) actions_.emplace_back(OpenConnection{});
@@ -82,7 +82,7 @@ void WorkerProtocol::lose(TimePoint now) {
   SWARMSMITH_ASSERT(state_ == State::Greeting || state_ == State::Active, "there is one to lose");
   if (state_ == State::Active) alone_since_ = now;
   state_ = State::Waiting;
-  // Jitter, so that a thousand workers do not come back in step.
+  // Random, so that a thousand workers do not all reconnect at the same time.
   const double factor = jitter_.uniform(0.5, 1.5);
   retry_ =
       now + Duration(static_cast<std::int64_t>(factor * static_cast<double>(backoff_.count())));
@@ -108,7 +108,7 @@ void WorkerProtocol::on_frame(std::string_view frame, TimePoint now) {
 }
 
 void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
-  // Words meant for an earlier incarnation are void, but what is on disk stays there.
+  // Ignores messages for earlier incarnations, but not acknowledgements: those results are on disk.
   const bool current = message.incarnation() == incarnation_;
   if (current) last_heard_ = now;
   switch (message.body_case()) {
@@ -138,7 +138,7 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
       if (current) actions_.emplace_back(Say{message.notice().sentence()});
       return;
     case pb::ToWorker::kHeartbeat:
-    // For people's programs.
+    // Messages for other clients.
     case pb::ToWorker::kCommandReply:
     case pb::ToWorker::kStatusReply:
     case pb::ToWorker::BODY_NOT_SET:
@@ -198,7 +198,7 @@ void WorkerProtocol::on_bad_scenario(const std::string& reason) {
   leave(WorkerExit::Refused, "this program cannot run the campaign: " + reason);
 }
 
-/// Connected, with a scenario: what the coordinator may not have is sent, and work asked for.
+/// Connected, with a scenario: sends results that the coordinator may not have, asks for work.
 void WorkerProtocol::be_ready(TimePoint now) {
   SWARMSMITH_ASSERT(state_ == State::Active && has_scenario_, "work follows welcome and scenario");
   for (auto& [key, finished] : finished_)
@@ -213,7 +213,7 @@ void WorkerProtocol::on_drain(TimePoint now) {
   if (drain_until_ || state_ == State::Left) return;
   drain_until_ = now + options_.grace;
   if (state_ == State::Waiting) return leave(WorkerExit::Done, "drained without a connection");
-  // The coordinator may have read the hello.
+  // The coordinator may have received the hello already.
   if (state_ == State::Greeting) return say_goodbye(now, "drained without a welcome");
   update_credit(now);
   actions_.emplace_back(TakeBack{});
@@ -224,7 +224,7 @@ void WorkerProtocol::on_drain(TimePoint now) {
   flush(now);
 }
 
-/// Leaves when nothing runs and everything is on the coordinator's disk, or the time is over.
+/// Leaves when nothing runs and all results are on the coordinator's disk, or the time is up.
 void WorkerProtocol::finish_draining(TimePoint now) {
   if (state_ != State::Active) return;
   SWARMSMITH_ASSERT(drain_until_, "only a worker that drains finishes draining");
@@ -250,7 +250,7 @@ void WorkerProtocol::say_goodbye(TimePoint now, const std::string& reason) {
 // --- time ---
 
 void WorkerProtocol::on_tick(TimePoint now) {
-  // This process was stopped or starved, so it could hear nothing.
+  // This process was stopped or got no processor time, so it could not receive anything.
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
   if (state_ != State::Left) begin_alone(now);

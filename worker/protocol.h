@@ -17,16 +17,16 @@
 
 namespace swarmsmith {
 
-/// How a worker process ends, for batch systems and launchers.
+/// The exit codes of a worker process, for batch systems and launchers.
 enum class WorkerExit : int {
-  Done = 0,  ///< drained: everything was reported or given back
+  Done = 0,  ///< drained: everything was reported or returned
   Usage = 2,
   Unreachable = 5,    ///< no coordinator for ten minutes
-  Refused = 7,        ///< the coordinator does not want this build: starting it again is useless
+  Refused = 7,        ///< the coordinator refuses this build: a restart does not help
   Interrupted = 143,  ///< a second SIGTERM
 };
 
-/// How a worker introduces itself.
+/// The information with which a worker introduces itself.
 struct WorkerIdentity {
   std::string id{};  ///< 16 random bytes
   std::string build{};
@@ -37,7 +37,7 @@ struct WorkerIdentity {
   std::int64_t pid = 0;
   std::string job{};
   std::string cpu{};     ///< model of the processor
-  std::string secret{};  ///< given by the coordinator that started it; empty for others
+  std::string secret{};  ///< from the coordinator that started it; empty for others
 };
 
 struct WorkerOptions {
@@ -46,13 +46,14 @@ struct WorkerOptions {
   Duration welcome_timeout = std::chrono::seconds(5);
   Duration give_up_after = std::chrono::minutes(10);
   std::size_t results_per_message = 64;
-  /// The end of a step waits for nothing, since slots that run dry are said at once.
+  /// This does not delay the end of a step: results are sent at once when slots run out of work.
   Duration flush_after = std::chrono::milliseconds(5);
   Duration work_ahead = std::chrono::milliseconds(20);
   Duration grace = std::chrono::seconds(5);
-  /// A task that runs alone may end this process: it begins when its coordinator has been told.
+  /// A task that is to run alone may kill this process, so it starts after this delay, when its
+  /// coordinator has been informed.
   Duration before_alone = std::chrono::milliseconds(20);
-  /// Asks for nothing while it has more results than this that are not acknowledged.
+  /// With more unacknowledged results than this, the worker asks for no tasks.
   std::size_t max_unacknowledged = 16'384;
 };
 
@@ -61,22 +62,22 @@ struct OpenConnection {};
 struct SendToCoordinator {
   std::string frame;
 };
-/// A scenario came; `on_bad_scenario` when it cannot be run.
+/// A scenario has arrived; call `on_bad_scenario` if it cannot be run.
 struct UseScenario {
   std::string scenario;
 };
 struct RunItems {
   std::vector<LeasedTask> items;
 };
-/// Give back what is not started: `on_taken_back` with the keys.
+/// Take back the items that have not started, and call `on_taken_back` with their keys.
 struct TakeBack {};
-/// Another campaign runs now: drop all items.
+/// Another campaign is running now: drop all items.
 struct DropItems {};
-/// A person at the worker should read it.
+/// A message for the person who runs the worker.
 struct Say {
   std::string sentence;
 };
-/// The process is to end.
+/// The process must end.
 struct Leave {
   WorkerExit code = WorkerExit::Done;
   std::string reason;
@@ -84,14 +85,14 @@ struct Leave {
 using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
                                   TakeBack, DropItems, Say, Leave>;
 
-/// A worker's side of the protocol. Pure: events in with the time, actions out.
+/// The worker's side of the protocol. Pure: events and the time in, actions out.
 ///
 ///     waiting ──open──► greeting ──welcome──► active ──drain──► draining ──► left
 ///        ▲                 │                    │
 ///        └── no welcome ───┴── lost, silent ────┘
 ///
-/// Results are kept until they are acknowledged, and sent again after a while and on every new
-/// connection. Items that are held go on while there is no connection.
+/// Results are kept until they are acknowledged; they are sent again after a while and on every new
+/// connection. The slots go on with their items while there is no connection.
 class WorkerProtocol {
  public:
   WorkerProtocol(WorkerIdentity identity, WorkerOptions options, Rng jitter);
@@ -103,12 +104,12 @@ class WorkerProtocol {
   void on_evaluated(Result result, TimePoint now);
   void on_taken_back(std::span<const PackedKey> keys, TimePoint now);
   void on_bad_scenario(const std::string& reason);
-  /// SIGTERM: finish what runs, give back the rest, say goodbye.
+  /// SIGTERM: finish the running items, return the others, say goodbye.
   void on_drain(TimePoint now);
   void on_tick(TimePoint now);
 
   std::vector<WorkerAction> take_actions();
-  /// When `on_tick` has something to do at the latest.
+  /// The latest time at which `on_tick` must be called.
   TimePoint next_deadline() const;
 
   bool active() const { return state_ == State::Active; }
@@ -166,12 +167,12 @@ class WorkerProtocol {
   std::uint64_t incarnation_ = 0;
   std::uint64_t sequence_ = 0;
   Duration backoff_;
-  TimePoint retry_;  ///< waiting: when to open
+  TimePoint retry_;  ///< while waiting: when to connect again
   TimePoint greeted_;
   TimePoint last_heard_;
   TimePoint last_beat_;
   TimePoint ticked_;
-  TimePoint alone_since_;  ///< without a welcome
+  TimePoint alone_since_;  ///< time without a welcome
   Duration heartbeat_ = std::chrono::seconds(1);
   Duration dead_after_ = std::chrono::seconds(5);
   Duration resend_after_ = std::chrono::seconds(10);
@@ -179,18 +180,19 @@ class WorkerProtocol {
   std::uint32_t credit_sent_ = 0;
 
   // The work.
-  std::uint64_t scenario_ = 0;  ///< digest of the campaign's scenario
+  std::uint64_t scenario_ = 0;  ///< digest of the scenario
   bool has_scenario_ = false;
-  TimePoint asked_;         ///< for the scenario
-  double estimate_us_ = 0;  ///< of an evaluation's time
+  TimePoint asked_;         ///< when the scenario was requested
+  double estimate_us_ = 0;  ///< average time of an evaluation
   TimePoint welcomed_;
-  Duration busy_{0};  ///< slot time since then that finished evaluations took
+  Duration busy_{0};  ///< slot time of finished evaluations since the welcome
   std::unordered_map<PackedKey, Held> held_;
-  std::vector<std::pair<TimePoint, LeasedTask>> announced_;  ///< to begin then
+  std::vector<std::pair<TimePoint, LeasedTask>> announced_;  ///< with the times when they begin
   std::unordered_map<PackedKey, Finished> finished_;         ///< until acknowledged
   std::vector<PackedKey> unsent_;
   TimePoint oldest_unsent_;
-  std::deque<std::pair<TimePoint, PackedKey>> sent_;  ///< in order of sending, stale ones too
+  std::deque<std::pair<TimePoint, PackedKey>> sent_;  ///< in the order of sending; may contain
+                                                      ///< outdated entries
   std::optional<TimePoint> drain_until_;
 };
 

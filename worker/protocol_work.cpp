@@ -7,7 +7,7 @@
 #include "proto/task_messages.h"
 #include "proto/wire.pb.h"
 
-// The part of the protocol that carries work: tasks in, results out, credit for more.
+// The part of the protocol that handles work: tasks in, results out, credit for more.
 
 namespace swarmsmith {
 
@@ -73,10 +73,10 @@ void WorkerProtocol::on_started(PackedKey key, TimePoint now) {
 void WorkerProtocol::on_evaluated(Result result, TimePoint now) {
   const PackedKey key = result.key;
   const auto held = held_.find(key);
-  if (held == held_.end()) return;  // of a campaign that is over
-  // What ends this worker ends its programs too: such a failure says nothing of the evaluation.
+  if (held == held_.end()) return;  // belongs to a campaign that is over
+  // A signal that ends this worker also ends its programs: the evaluation did not fail.
   if (drain_until_ && !result.failure.empty()) return on_taken_back({&key, 1}, now);
-  // Those of its last lease: it may have been leased to this worker again meanwhile.
+  // The values of its latest lease: it may have been leased to this worker again in the meantime.
   result.attempt = held->second.attempt;
   result.signature = held->second.signature;
   count_busy(held->second, result.measured.wall_us, now);
@@ -98,7 +98,7 @@ void WorkerProtocol::queue_result(PackedKey key, Finished& finished, TimePoint n
   unsent_.push_back(key);
 }
 
-/// In good time before the slots run dry, and never later than `flush_after`.
+/// Early enough before the slots run out of work, and at the latest after `flush_after`.
 bool WorkerProtocol::must_flush(TimePoint now) const {
   return unsent_.size() >= options_.results_per_message ||
          held_.size() <= static_cast<std::size_t>(identity_.slots) || drain_until_ ||
@@ -154,7 +154,7 @@ void WorkerProtocol::on_taken_back(std::span<const PackedKey> keys, TimePoint no
   if (drain_until_) finish_draining(now);
 }
 
-/// Two tasks a slot, and what `work_ahead` amounts to.
+/// Two tasks per slot, plus the number of tasks that fit in `work_ahead`.
 std::uint32_t WorkerProtocol::credit() const {
   if (drain_until_ || !has_scenario_ || finished_.size() > options_.max_unacknowledged) return 0;
   const double ahead_us = std::chrono::duration<double, std::micro>(options_.work_ahead).count();
@@ -163,7 +163,7 @@ std::uint32_t WorkerProtocol::credit() const {
       std::min(a_slot * identity_.slots, static_cast<double>(max_credit_)));
 }
 
-/// Says so when it wants notably more or less; small changes wait for the heartbeat.
+/// Sends the credit if it has changed considerably; small changes wait for the heartbeat.
 void WorkerProtocol::update_credit(TimePoint now) {
   if (state_ != State::Active) return;
   const std::uint32_t wanted = credit();
@@ -175,7 +175,7 @@ void WorkerProtocol::update_credit(TimePoint now) {
   send(message, now);
 }
 
-/// What of an evaluation falls behind the welcome counts: the coordinator asks for this connection.
+/// Counts the part of an evaluation after the welcome, because slot time is per connection.
 void WorkerProtocol::count_busy(const Held& held, std::int64_t wall_us, TimePoint now) {
   const Duration spent =
       wall_us > 0 ? Duration(std::chrono::microseconds(wall_us)) : now - held.started.value_or(now);
@@ -205,7 +205,8 @@ void WorkerProtocol::heartbeat(TimePoint now) {
   };
   const std::uint64_t slot_us = us(identity_.slots * (now - welcomed_));
   beat.set_slot_us(slot_us);
-  // Slots tell of an end a little late: what begins meanwhile must not make more than there is.
+  // Slots report the end of an evaluation slightly late: the sum with those that have begun since
+  // must not exceed the slots' time.
   beat.set_busy_us(std::min(us(busy), slot_us));
   send(message, now);
 }

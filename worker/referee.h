@@ -5,13 +5,13 @@
 
 namespace swarmsmith {
 
-/// Evaluates for the coordinator that started this process, one task after the other, until `input`
-/// ends; returns the exit code. No network: it believes the pipes alone.
+/// Evaluates tasks for the coordinator that started this process, one at a time, until `input`
+/// ends; returns the exit code. It uses no network and trusts only the pipes.
 ///
-/// What goes through them is framed as on the wire, each frame behind its length (four bytes,
-/// little-endian). Out: Hello, once the self test is done. In: ScenarioReply, then Tasks. Out, for
-/// each task: Began before it is evaluated, then Results. What the process dies of after Began is
-/// the evaluation's doing.
+/// Messages on the pipes have the same frames as on the network, each preceded by its length (four
+/// bytes, little-endian). Out: Hello, after the self test. In: ScenarioReply, then Tasks. Out, for
+/// each task: Began before the evaluation, then Results. If the process dies after Began, the
+/// evaluation is the cause.
 int serve_as_referee(const WorkerIdentity& identity, const EvaluatorFactory& make_evaluator,
                      int input, int output);
 

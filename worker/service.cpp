@@ -14,11 +14,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Time for the last words to leave the socket.
+/// Time for the last messages to leave the socket.
 constexpr milliseconds kLinger{500};
-/// Without a coordinator, before a message says so.
+/// Time without a coordinator before a message reports it.
 constexpr std::chrono::seconds kLonely{3};
-/// While results come, the slots do not wake the loop for each.
+/// While results keep coming, the loop polls this often, and the slots do not wake it for each.
 constexpr milliseconds kLookAgain{5};
 
 class Loop {
@@ -55,14 +55,14 @@ class Loop {
 
   void step(const std::atomic<bool>& drain) {
     const TimePoint now = clock_.now();
-    // Looked up first: what was said before the end is read below.
+    // Checked first: messages from before the end are still read below.
     const bool is_lost = socket_.lost();
     std::string frame;
     while (!end_ && socket_.receive(frame)) {
       protocol_.on_frame(frame, now);
       carry_out();
     }
-    // Before the events: programs that died of the same signal did not fail.
+    // Before the events: programs that were killed by the same signal did not fail.
     if (drain.load()) protocol_.on_drain(now);
     take_events(now);
     if (is_lost) {
@@ -89,7 +89,7 @@ class Loop {
     socket_.connect();
   }
 
-  /// The same sentence once, however often it is tried again.
+  /// Reports the same problem only once, however many attempts there are.
   void tell_trouble(const std::string& trouble) {
     if (trouble == trouble_) return;
     trouble_ = trouble;
@@ -104,7 +104,7 @@ class Loop {
         " refuses this worker's key: it is not in the coordinator's clients.toml, or has expired");
   }
 
-  /// Once each time that no coordinator answers.
+  /// Reports once each time that no coordinator answers.
   void tell_when_alone(TimePoint now) {
     if (std::exchange(connected_, protocol_.active()) != protocol_.active() && on_connected_)
       on_connected_(connected_);
@@ -171,8 +171,8 @@ class Loop {
   }
 
   void send(const std::string& frame) {
-    // A full queue is a coordinator that does not read; it will be found silent, and what matters
-    // is sent again.
+    // A full queue means that the coordinator does not read; it will be noticed as silent, and
+    // important messages are sent again.
     if (socket_.send(frame) == SendStatus::Gone) protocol_.on_connection_lost(clock_.now());
   }
 
@@ -183,7 +183,7 @@ class Loop {
   std::function<Expected<CoordinatorAddress>()> find_;
   std::function<void(bool)> on_connected_;
   bool connected_ = false;
-  std::string trouble_;  ///< that was told
+  std::string trouble_;  ///< that was reported last
   TimePoint active_ = clock_.now();
   bool told_ = false;
   Pool* pool_;

@@ -12,36 +12,36 @@
 
 namespace swarmsmith {
 
-/// Where a coordinator is, and the keys to talk to it; none: in plaintext.
+/// The address of a coordinator, and the keys for the connection; none: plaintext.
 struct CoordinatorAddress {
   std::string endpoint;  ///< tcp://host:port
   std::optional<ClientKeys> keys;
-  std::vector<std::string> others{};  ///< endpoints where it may be found, too
+  std::vector<std::string> others{};  ///< other endpoints where it may be
 };
 
 struct WorkerServiceOptions {
-  std::string endpoint;  ///< of the coordinator: tcp://host:port
+  std::string endpoint;  ///< the coordinator's endpoint: tcp://host:port
   std::optional<ClientKeys> keys{};
-  /// Asked before each try to connect, if it is there: a coordinator may move, and keys may change.
-  /// An error is a try that failed.
+  /// If set, called before each attempt to connect: the coordinator may move, and keys may change.
+  /// An error counts as a failed attempt.
   std::function<Expected<CoordinatorAddress>()> find{};
-  /// Told when the coordinator has welcomed this worker, and when it is lost.
+  /// Called when the coordinator has welcomed this worker, and when the connection is lost.
   std::function<void(bool connected)> on_connected{};
   WorkerOptions protocol;
   SocketOptions socket;
 };
 
-/// How it ended, and why in a sentence.
+/// The exit code and the reason as a sentence.
 struct WorkerEnd {
   WorkerExit code = WorkerExit::Done;
   std::string reason;
 };
 
-/// A worker's loop: protocol, socket, clock and slots put together. Returns when the protocol says
-/// so. `drain` asks for it (SIGTERM); `wakeup` wakes the loop, and may be notified from a signal
-/// handler. Throws std::runtime_error when the operating system refuses something.
+/// A worker's event loop, with protocol, socket, clock and slots. Returns when the protocol decides
+/// to leave. `drain` requests draining (SIGTERM); `wakeup` wakes the loop, and may be notified from
+/// a signal handler. Throws std::runtime_error if the operating system refuses a resource.
 ///
-/// Items that still run when it ends are waited for, unless the process exits at once.
+/// It waits for items that are still running at the end, unless the process exits at once.
 WorkerEnd serve(const WorkerServiceOptions& options, const WorkerIdentity& identity, Pool& pool,
                 Wakeup& wakeup, const std::atomic<bool>& drain);
 

@@ -12,8 +12,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Candidates meet many pairs, so that their control software comes again; bounded, since races go
-/// on.
+/// Candidates are evaluated on many pairs, so parsed control software is cached; the cache is
+/// limited, because races can be long.
 constexpr std::size_t kMaxControllers = 1024;
 
 class Simulation {
@@ -72,7 +72,7 @@ class Simulation {
   std::vector<std::unordered_map<std::string, Controller>> controllers_;  ///< by method and text
 };
 
-/// The version that plays all of its missions here.
+/// The engine version that is needed to simulate all of its missions here.
 int engine_version_of(const WorkerScenario& scenario) {
   int version = kEngineVersion;
   for (const Mission& mission : scenario.missions) {

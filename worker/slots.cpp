@@ -26,16 +26,16 @@ int number_in(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
 
-/// Several nodes of Slurm may be one host, so its name for the node comes first.
+/// Several Slurm nodes may be on one host, so the node's name has priority.
 std::string host_of_this_process() {
   if (std::string node = environment("SLURMD_NODENAME"); !node.empty()) return node;
-  std::array<char, HOST_NAME_MAX + 2> host{};  // whose last one stays zero
+  std::array<char, HOST_NAME_MAX + 2> host{};  // the last character stays zero
   if (gethostname(host.data(), host.size() - 1) != 0) return "unknown";
   return host.data();
 }
 
-/// As squeue lists it, "12" or "12_3" for an element of an array; "12_3 restart 1" after Slurm has
-/// put it back into its queue once.
+/// In squeue's form, "12" or "12_3" for an element of an array; "12_3 restart 1" after Slurm has
+/// requeued it once.
 std::string job_of_this_process() {
   std::string job = environment("SLURM_JOB_ID");
   if (const std::string array = environment("SLURM_ARRAY_JOB_ID"); !array.empty()) {
@@ -46,7 +46,7 @@ std::string job_of_this_process() {
   return job;
 }
 
-/// Scores must not depend on it, and when they do, people will want to know it.
+/// Scores must not depend on the processor, but if they do, people will want to know its model.
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
@@ -71,7 +71,7 @@ int available_slots() {
 }
 
 WorkerIdentity identity_of_this_process(int slots, std::string build) {
-  // A name, not a draw of the campaign: it has to differ between processes.
+  // A unique name for this process, so it is not drawn from the campaign's random streams.
   std::random_device device;
   std::string id;
   for (std::size_t i = 0; i < kWorkerIdBytes; ++i)

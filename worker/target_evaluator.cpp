@@ -12,8 +12,8 @@
 namespace swarmsmith {
 namespace {
 
-/// What ends a program from outside often ends the worker too, a moment later: then the evaluation
-/// did not fail, and goes to another worker.
+/// A signal that kills a program from outside often ends the worker too, a moment later: then the
+/// evaluation did not fail, and goes to another worker.
 constexpr int kOutsideGraceMs = 100;
 
 std::optional<std::string> canonical(const std::string& path) {
@@ -30,8 +30,8 @@ std::uint64_t digest_of(const Reading& reading) {
   return digest.value64();
 }
 
-/// The file behind a program's name, if it is one of the list's, now: a path without links. Who can
-/// change what lies there has been trusted with it.
+/// The file of a program, if it is currently on the list: a path without links. The list trusts
+/// everyone who can change that file.
 Expected<std::string> allowed_file(const std::string& program,
                                    const std::vector<std::string>& allowed) {
   std::optional<std::string> file = canonical(program);
@@ -46,7 +46,7 @@ Expected<std::string> allowed_file(const std::string& program,
                         *file);
 }
 
-/// An instance as programs get it.
+/// An instance as passed to programs.
 struct NamedInstance {
   std::string id;
   std::string text;
@@ -67,7 +67,7 @@ class Programs {
                  .batch_poll = allowed.batch_poll},
                 *interrupt_) {}
 
-  /// So that a campaign that cannot run here is refused before anything does.
+  /// Refuses a campaign that cannot run here before any of its programs is run.
   Expected<void> check_all() const {
     for (const auto& [role, program] : {std::pair{"targetRunner", &target_.runner},
                                         {"targetRunnerLauncher", &target_.launcher},
@@ -102,7 +102,8 @@ class Programs {
   Expected<NamedInstance> instance_of(const LeasedTask& item) const {
     if (item.mission < scenario_->instances.size()) {
       const InstanceTexts& texts = scenario_->instances[item.mission];
-      // Calls of the evaluator have one purpose for both lists: there the sign tells.
+      // Evaluator calls have the same purpose for both lists, so the sign of the instance tells
+      // them apart.
       const bool test = (purpose_of(item.key) == kTestPurpose && !texts.test.empty()) ||
                         (is_evaluator_call(item) && item.instance < 0);
       const std::int64_t number = item.instance < 0 ? -item.instance : item.instance;
@@ -139,7 +140,7 @@ class Programs {
                          .time = result.reading.time}};
   }
 
-  std::shared_ptr<const WorkerScenario> scenario_;  ///< of all slots
+  std::shared_ptr<const WorkerScenario> scenario_;  ///< shared by all slots
   Target target_;
   std::vector<std::string> allowed_;
   std::shared_ptr<const Interrupt> interrupt_;

@@ -11,20 +11,20 @@
 
 namespace swarmsmith {
 
-/// The programs that a worker may run: a coordinator could name any.
+/// The programs that a worker may run, because a coordinator could name any program.
 struct AllowedPrograms {
   std::vector<std::string> programs;  ///< canonical absolute paths
-  bool shell = false;                 ///< command lines that only a shell understands are run too
-  /// Between two questions about a job of a batch system.
+  bool shell = false;                 ///< whether to run command lines that need a shell
+  /// Time between two queries about a job of a batch system.
   std::chrono::milliseconds batch_poll = std::chrono::seconds(2);
 };
 
-/// The canonical path of a program that is to be allowed. Errors: there is none.
+/// The canonical path of a program to allow. Errors: NotFound if it does not exist.
 Expected<std::string> allowed_program(const std::string& path);
 
-/// An evaluator that runs the scenario's programs (docs/targets.md). Scores are the negative of the
-/// costs that they print. `interrupt` ends what runs. Errors: no target, a program that is not
-/// allowed, or a folder that is not there, with what to do about it.
+/// An evaluator that runs the scenario's programs (docs/targets.md). Scores are the negated costs
+/// that they print. `interrupt` ends running programs. Errors: no target, a program that is not
+/// allowed, or a missing folder; the messages say what to do.
 Expected<Evaluator> make_target_evaluator(std::shared_ptr<const WorkerScenario> scenario,
                                           const AllowedPrograms& allowed,
                                           std::shared_ptr<const Interrupt> interrupt);

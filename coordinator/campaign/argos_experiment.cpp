@@ -13,9 +13,9 @@
 namespace swarmsmith {
 namespace {
 
-/// Where the original keeps a mission.
+/// The loop functions of a mission in the original software.
 struct LoopFunctions {
-  std::string_view mission;  ///< our name of it
+  std::string_view mission;  ///< our name of the mission
   std::string_view library;
   std::string_view label;
 };
@@ -27,12 +27,12 @@ constexpr std::array<LoopFunctions, 3> kLoopFunctions = {
      {"color_selection", "librvr_pow_color_aggregation_loopfunc.so",
       "color_aggregation_loop_functions"}}};
 
-/// The controller reads a robot's number out of the sixth letter of its id.
+/// The controller reads a robot's number from the sixth character of its id.
 constexpr int kMostRobots = 9;
-/// The numbers of the thesis' robots, which end their ids; of further ones any.
+/// The numbers at the end of robot ids: first those of the thesis' robots, then arbitrary ones.
 constexpr std::array<int, kMostRobots> kRobotLabels = {30, 40, 50, 51, 55, 56, 57, 58, 59};
 
-/// Centre of a wall in metres, and its turn in degrees (rvr-automode facts, section 7).
+/// Centre of a wall in metres, and its rotation in degrees (rvr-automode facts, section 7).
 struct ArgosWall {
   double x;
   double y;
@@ -52,9 +52,9 @@ constexpr std::array<ArgosWall, 12> kWalls = {{{-1.231, 0, 0},
                                                {0.615, -1.066, -60},
                                                {1.066, -0.615, -30}}};
 
-/// The thesis' mission that this one is, whatever it is called, however long, with however many
-/// robots; those three the file can say. Patches, walls and score are compiled into the loop
-/// functions or checked against our own.
+/// Finds the thesis' mission that equals this one, except for name, duration and number of robots,
+/// which the file can set. Patches, walls and score are compiled into the loop functions, or
+/// checked here against our own.
 Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
   for (const LoopFunctions& known : kLoopFunctions) {
     auto original = built_in_mission(known.mission);
@@ -70,7 +70,7 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
       "arena, floor, placement or score differ, and the original has no loop functions for it");
 }
 
-/// Settings of the files that the thesis' machines ran with: range 0.4 m, 30 cm/s, no noise.
+/// The settings with which the thesis' machines were run: range 0.4 m, 30 cm/s, no noise.
 std::string controllers_text(const std::string& machine) {
   return fmt::format(
       "  <controllers>\n"
@@ -96,8 +96,7 @@ std::string controllers_text(const std::string& machine) {
 std::string robots_text(int robots) {
   std::string text;
   for (int i = 1; i <= robots; ++i) {
-    // The loop functions move the robots; until then they stand where the original's files have
-    // them.
+    // The loop functions move the robots; until then they are where the original puts them.
     text += fmt::format(
         "    <rvr id=\"rvr_{:02}_{:02}\">\n"
         "      <body position=\"{}\" orientation=\"0,0,0\"/>\n"

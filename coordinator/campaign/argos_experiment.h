@@ -14,29 +14,29 @@ namespace swarmsmith {
 struct ArgosExperiment {
   Controller controller;
   Mission mission;
-  Profile profile;        ///< of e-pucks: its noise is in the file
-  std::int64_t seed = 1;  ///< 1 to 4294967295: ARGoS takes 0 for the time of day
-  std::string title;      ///< for the comment at the file's head
+  Profile profile;        ///< for e-pucks: the file contains its noise
+  std::int64_t seed = 1;  ///< 1 to 4294967295: for 0, ARGoS uses the time of day
+  std::string title;      ///< for the comment at the start of the file
 };
 
 /// An experiment file (.argos, XML) for ARGoS 3.0.0-beta48.
 ///
-/// Of the RVR: for the programs published with the thesis, the RVR plugin, the missions' loop
-/// functions and AutoMoDe (rvr-automode facts, sections 6.3 to 8 and the table of versions). The
-/// machine is written with that AutoMoDe's numbers.
+/// For the RVR, the file is for the programs published with the thesis: the RVR plugin, the loop
+/// functions of the missions, and AutoMoDe (rvr-automode facts, sections 6.3 to 8 and the table of
+/// versions). The machine is written with the module numbers of that AutoMoDe.
 ///
-/// Of another robot: for the e-puck's stack, as in the published files of Results-Transferability
-/// (epuck facts, section 6.1; repositories E, D, L, M).
+/// For other robots, it is for the e-puck's software stack, like the published files of
+/// Results-Transferability (epuck facts, section 6.1; repositories E, D, L, M).
 ///
-/// Libraries are named without folders, and found through ARGOS_PLUGIN_PATH.
+/// Libraries are named without folders, so that ARGoS finds them through ARGOS_PLUGIN_PATH.
 ///
-/// Errors: BadInput when the original has no loop functions for the mission, or its AutoMoDe lacks
-/// a module or the architecture. A mission may have another name, duration and number of robots (of
-/// RVRs up to 9), e-pucks' ones another light and range of the radio.
+/// Errors: BadInput if the original software has no loop functions for the mission, or if its
+/// AutoMoDe lacks a module or the architecture. The mission may differ from the original in name,
+/// duration and number of robots (at most 9 RVRs), and for e-pucks in light and radio range.
 Expected<std::string> argos_experiment(const ArgosExperiment& experiment);
 
-/// Keys of a profile that an experiment file of e-pucks cannot say, "timing.delays": it has the
-/// noise of wheels, proximity, light and ground, and the share of lost packets.
+/// Keys of a profile that an experiment file for e-pucks cannot express, such as "timing.delays".
+/// It can express the noise of wheels and of proximity, light and ground sensors, and packet loss.
 std::vector<std::string> left_out_of_argos(const Profile& profile);
 
 }  // namespace swarmsmith

@@ -19,8 +19,8 @@
 
 namespace swarmsmith {
 
-/// A mission and how its designs are judged; with a target only its name counts, and what its
-/// programs are given.
+/// A mission and how its designs are judged. With a target, only the mission's name and the
+/// instances for its programs matter.
 struct CampaignMission : MissionEntry {
   InstanceTexts instances;
 
@@ -37,84 +37,85 @@ struct RangeOverride {
   friend bool operator==(const RangeOverride&, const RangeOverride&) = default;
 };
 
-/// As a baseline: a machine drawn from the method's space, another one in each repetition.
+/// As a baseline: a random machine from the method's space, a new one for each repetition.
 inline constexpr std::string_view kRandomMachine = "random";
 
 struct Method;
 struct Campaign;
-/// Designs of the method on each mission: one of a machine that is given, whatever the campaign's
-/// repetitions are, since all would be the same.
+/// The number of designs of the method on each mission: the campaign's repetitions, or one for a
+/// baseline with a given machine, since all repetitions would be the same.
 std::int64_t repetitions_of(const Campaign& campaign, const Method& method);
 
-/// A way to design: the flavour's modules that may be used, and how large machines may grow.
+/// A way to design: the modules of a flavour that may be used, and the maximum size of machines.
 struct Method {
   std::string name;
   std::string flavour = "watermelon";
-  const Flavour* own_flavour = nullptr;      ///< of a file, see kept_flavour; null: built in
-  TurnClock turn_clock = TurnClock::Cycles;  ///< the flavour's own unless the file has another
+  const Flavour* own_flavour = nullptr;      ///< from a file, see kept_flavour; null: built in
+  TurnClock turn_clock = TurnClock::Cycles;  ///< the flavour's own unless the file sets another
   std::int64_t max_states = 4;
   std::int64_t max_transitions = 4;
-  std::vector<std::string> behaviours;  ///< names; all of the flavour's when the file has none
+  std::vector<std::string> behaviours;  ///< names; by default, all of the flavour's
   std::vector<std::string> conditions;
   std::vector<RangeOverride> ranges;
-  Architecture architecture = Architecture::Machine;  ///< what is searched
-  std::int64_t max_subtrees = kMaxSubtrees;           ///< of trees
-  NetworkInputs inputs = NetworkInputs::Rvr;          ///< of networks
-  double most_weight = kMostWeight;                   ///< of networks
-  SearchOptions search;                               ///< how it is searched
-  /// No race, but a machine to compare with, tested as the winners of races are: a text of the
-  /// grammar, or kRandomMachine; empty: a race.
+  Architecture architecture = Architecture::Machine;  ///< the kind of control software
+  std::int64_t max_subtrees = kMaxSubtrees;           ///< for trees
+  NetworkInputs inputs = NetworkInputs::Rvr;          ///< for networks
+  double most_weight = kMostWeight;                   ///< for networks
+  SearchOptions search;                               ///< the search that is used
+  /// Instead of a race, a machine for comparison, which is tested like the winners of races: a text
+  /// of the grammar, or kRandomMachine; empty: a race.
   std::string baseline;
-  /// Text of an irace parameter file; empty for a flavour's machines. Only with a target.
+  /// Text of an irace parameter file; empty for machines of a flavour. Only with a target.
   std::string parameters;
-  /// Text of an irace configurations file: the first configurations; empty for none.
+  /// Text of an irace file with the initial configurations; empty for none.
   std::string configurations;
 
   friend bool operator==(const Method&, const Method&) = default;
 };
 
-/// The method's flavour, but for the turn clock. Fails for a name that this program does not know.
+/// The method's flavour, with the flavour's own turn clock. Fails for an unknown name.
 inline Expected<const Flavour*> flavour_of(const Method& method) {
   return find_flavour(method.flavour, method.own_flavour);
 }
 
-/// Of a design: lists of pairs are as long as a part of it.
+/// The largest budget of a design; limited because lists of pairs grow with the budget.
 inline constexpr std::int64_t kLargestBudget = 100'000'000;
 
-/// A campaign file, checked and complete.
+/// The contents of a campaign file, checked and complete.
 struct Campaign {
   std::string name = "campaign";
   std::uint64_t seed = 1;
   std::int64_t repetitions = 1;
   std::vector<CampaignMission> missions;
   std::vector<Method> methods;
-  /// Race options; number of instances and seed are set per design.
+  /// Race options; the number of instances and the seed are set for each design.
   Scenario race;
   std::int64_t digits = 2;  ///< decimals of the real parameters
   Profile profile;
-  std::optional<Target> target;  ///< evaluates in place of the simulator, and its profile
-  /// Program that repairs sampled configurations (irace's repairConfiguration), absolute; empty for
-  /// none.
+  std::optional<Target> target;  ///< programs that evaluate instead of the simulator; there is no
+                                 ///< profile then
+  /// Absolute path of a program that repairs sampled configurations (irace's repairConfiguration);
+  /// empty for none.
   std::string repair;
-  std::int64_t test_nb_elites = 1;     ///< how many elites are tested after the last race
-  bool test_iteration_elites = false;  ///< those of every iteration too
-  /// Under which the tests are run again, besides `profile`; other names than its, each once. Their
-  /// names are the scores' sources.
+  std::int64_t test_nb_elites = 1;     ///< number of elites that are tested after the last race
+  bool test_iteration_elites = false;  ///< whether to test the elites of every iteration too
+  /// Profiles under which the tests are repeated, besides `profile`; the names are unique and
+  /// differ from its name. The names are the sources of the scores.
   std::vector<Profile> test_profiles;
-  /// No race: what is tested are the configurations of `Method::configurations`. Only with a
-  /// target.
+  /// No race: only the configurations of `Method::configurations` are tested. Only with a target.
   bool only_test = false;
 
-  // Outside the digest: other values neither stop a resume nor change the answer.
+  // Outside the digest: changing these values neither prevents a resume nor changes the answer.
   std::filesystem::path store;
   std::optional<std::int64_t> local_workers;  ///< processes; none: as many slots as cores
-  LaunchOptions launch;                       ///< who starts workers, but for `local_workers`
+  LaunchOptions launch;                       ///< how workers are started, except `local_workers`
   std::string bind;                           ///< empty: a free port on loopback
-  std::string dashboard_bind{};               ///< of the pages; empty: as the command has it
+  std::string dashboard_bind{};               ///< address of the dashboard's pages; empty: the
+                                              ///< command's default
   double task_timeout_s = 30;
   std::int64_t retries = 2;
-  bool stop_on_failure = false;    ///< else an evaluation that fails for good is a rejection
-  std::int64_t audit_every = 200;  ///< one evaluation of so many is made twice; 0: none
+  bool stop_on_failure = false;    ///< otherwise a final failure is a rejection
+  std::int64_t audit_every = 200;  ///< one of this many evaluations is checked; 0: none
 };
 
 }  // namespace swarmsmith

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
 
-/// The file's name without folder and ending, letters that no name has replaced.
+/// The file's name without folder and extension; characters not allowed in names are replaced.
 std::string name_from(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   for (char& letter : name) {
@@ -32,7 +32,7 @@ std::string name_from(const std::filesystem::path& file) {
   return name.empty() ? "campaign" : name;
 }
 
-/// [campaign], and the defaults that come from the file's own name.
+/// [campaign], with defaults from the file's own name.
 void read_identity(TableReader& root, Campaign& campaign, const std::filesystem::path& file) {
   campaign.store = std::filesystem::path(file).replace_extension(".db");
   campaign.name = name_from(file);
@@ -52,8 +52,8 @@ void read_identity(TableReader& root, Campaign& campaign, const std::filesystem:
   table->finish();
 }
 
-/// All missions travel to the workers in one message. Pictures are the only part of it that can
-/// become large (proto/wire.h).
+/// All missions are sent to the workers in one message, and only pictures can make it large
+/// (proto/wire.h).
 void check_pictures(TableReader& root, const Campaign& campaign) {
   constexpr std::size_t kMostBytes = 24U << 20U;
   std::size_t bytes = 0;
@@ -69,7 +69,7 @@ void check_pictures(TableReader& root, const Campaign& campaign) {
                                "campaigns");
 }
 
-/// By name, or in a file of its own; nothing after a complaint.
+/// A profile given by name or in a separate file; none after a complaint.
 std::optional<Profile> named_profile(TableReader& table, std::string_view key,
                                      const std::string& word, const std::filesystem::path& folder) {
   auto profile = find_profile(word, folder);
@@ -84,7 +84,7 @@ std::optional<Profile> named_profile(TableReader& table, std::string_view key,
   return std::nullopt;
 }
 
-/// By name, in a file of its own, or in a table.
+/// A profile given by name, in a separate file, or in a table.
 Profile read_profile(TableReader& simulator, const std::filesystem::path& folder) {
   const Node* node = simulator.take("profile");
   if (node != nullptr && std::holds_alternative<Table>(node->value)) {
@@ -95,7 +95,7 @@ Profile read_profile(TableReader& simulator, const std::filesystem::path& folder
   return named_profile(simulator, "profile", name, folder).value_or(Profile{});
 }
 
-/// [simulator]: who evaluates.
+/// [simulator]: how evaluations are made.
 void read_simulator(TableReader& root, Campaign& campaign, const std::filesystem::path& folder) {
   static const std::vector<std::string> kKinds = {"builtin", "command"};
   static const std::vector<std::string> kKindsNotYet = {"argos"};
@@ -111,7 +111,7 @@ void read_simulator(TableReader& root, Campaign& campaign, const std::filesystem
   table->finish();
 }
 
-/// [[mission]]: worlds of the simulator, or names and instances for programs.
+/// [[mission]]: missions of the simulator, or names and instances for programs.
 void read_campaign_missions(TableReader& root, Campaign& campaign,
                             const std::filesystem::path& folder) {
   if (campaign.target) {
@@ -123,15 +123,14 @@ void read_campaign_missions(TableReader& root, Campaign& campaign,
   check_pictures(root, campaign);
 }
 
-/// What the race's options say about the programs.
+/// Copies the race options that concern programs to the target.
 void complete_target(Campaign& campaign) {
   if (!campaign.target) return;
   campaign.target->prints_time = campaign.race.max_time > 0;
   campaign.target->min_measurable_time = campaign.race.min_measurable_time;
 }
 
-/// Adds a profile of the tests. The campaign's own may be named, too: the tests are run in it
-/// anyway.
+/// Adds a profile for the tests. The campaign's own profile may be given too, and is used anyway.
 void add_test_profile(TableReader& tests, std::string_view key, Profile profile,
                       Campaign& campaign) {
   const bool is_own = profile.name == campaign.profile.name;
@@ -150,8 +149,8 @@ void add_test_profile(TableReader& tests, std::string_view key, Profile profile,
   }
 }
 
-/// [tests]: under which profiles the winners are tested. `profiles` has names and files, each
-/// [[tests.profile]] is a whole one.
+/// [tests]: the profiles under which the winners are tested. `profiles` lists names and files, and
+/// each [[tests.profile]] is a complete profile.
 void read_tests(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
   auto tests = root.table("tests");
   if (!tests) return;
@@ -177,15 +176,15 @@ void read_dashboard(TableReader& root, Campaign& campaign) {
   table->finish();
 }
 
-/// Why the method's race cannot run on one of the missions, if so.
+/// The error if the method's race cannot run on one of the missions.
 std::optional<Error> check_race(const Campaign& campaign, const Method& method) {
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
   if (!space) return space.error();
-  Repair repair;  // whether there is one
+  Repair repair;  // only its presence matters
   if (!campaign.repair.empty()) {
     repair = [](const Configuration& whole) -> Expected<Configuration> { return whole; };
   }
-  std::optional<std::int64_t> checked;  // missions differ in their number of instances alone
+  std::optional<std::int64_t> checked;  // missions differ only in their number of instances
   for (const CampaignMission& mission : campaign.missions) {
     const Scenario scenario = race_on(campaign, mission);
     if (checked == scenario.n_instances) continue;
@@ -202,13 +201,13 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
   return std::nullopt;
 }
 
-/// What the method's networks read.
+/// The inputs of the method's networks.
 NetworkInputs inputs_of(const Method& method, const Flavour& flavour) {
   if (method.baseline.empty() || method.baseline == kRandomMachine) return method.inputs;
   return std::get<Network>(parse_controller(method.baseline, flavour).value()).inputs;
 }
 
-/// Whether methods, profiles and the missions' robots go together.
+/// Checks whether methods, profiles and the missions' robots fit together.
 void check_robots(TableReader& root, const Campaign& campaign) {
   if (campaign.target) return;
   const std::string other = ", or a mission of another robot";
@@ -234,8 +233,8 @@ void check_robots(TableReader& root, const Campaign& campaign) {
   }
 }
 
-/// What would mix up scores or modules in a store, which tells them by names. Stores that have it
-/// are read all the same.
+/// Names that would mix up scores or modules in a store, which distinguishes them by name. Existing
+/// stores with such names can still be read.
 std::vector<Error> mixed_names(const Campaign& campaign, const std::string& where) {
   std::vector<Error> errors;
   const auto look_at = [&](const Profile& profile) {
@@ -262,7 +261,7 @@ std::vector<Error> mixed_names(const Campaign& campaign, const std::string& wher
   return errors;
 }
 
-/// What only the whole campaign shows; asked when all else is right, since it needs all of it.
+/// Checks that need the whole campaign; done last, when there are no other errors.
 void complain_about_races(TableReader& root, Campaign& campaign) {
   auto race = root.table("race");
   for (const Error& error : check_budget(campaign))

@@ -12,28 +12,30 @@
 
 namespace swarmsmith {
 
-/// A campaign, or everything that is wrong with its file: `where` is file:line:column.
+/// The campaign, or all errors in its file: `where` is file:line:column.
 using CampaignOrErrors = tl::expected<Campaign, std::vector<Error>>;
 
 /// Reads a campaign file (docs/campaign-file.md). Strict: unknown keys, wrong types and values,
-/// names that nothing has, budgets that are too small for the race and arenas too small for the
+/// unknown names, budgets that are too small for the race, and arenas that are too small for the
 /// swarm are errors, all reported together. Paths in the file are relative to its folder; without
-/// `store` it is the file's name with `.db`. A `budget` from elsewhere takes the place of the
-/// file's, which is then not judged: `check_budget` does it.
+/// `store`, the store is the file's name with `.db`. A given `budget` replaces the file's budget,
+/// and is not checked here: call `check_budget`.
 CampaignOrErrors read_campaign(const std::filesystem::path& file,
                                std::optional<std::int64_t> budget = std::nullopt);
 
-/// The same for a text; `file` gives the name for errors and the folder for paths, and is not read.
+/// The same for a text; `file` is for error messages and gives the folder for paths; it is not
+/// opened.
 CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::path& file,
                                 std::optional<std::int64_t> budget = std::nullopt);
 
-/// Whether budget and spaces of a campaign fit, after flags have changed it: the sentences of the
-/// methods for which they don't. `read_campaign` has done it, unless it was given a budget.
+/// Checks whether the budget is large enough for each method's space, after command-line options
+/// have changed the campaign; returns one error for each method whose race cannot run.
+/// `read_campaign` does this unless it gets a budget.
 std::vector<Error> check_budget(const Campaign& campaign);
 
-/// The campaign that `run` runs without a file: color_selection, a watermelon design of a few
-/// thousand experiments beside a machine by hand and a random one, store demo.db in the current
-/// folder.
+/// The campaign that `run` runs without a file: color_selection with a watermelon design of a few
+/// thousand experiments, a machine made by hand and a random one; the store is demo.db in the
+/// current folder.
 Campaign demo_campaign();
 
 }  // namespace swarmsmith

@@ -13,13 +13,13 @@
 namespace swarmsmith {
 namespace {
 
-/// Positive, and within what SQLite and TOML call an integer.
+/// A positive seed within the integer range of SQLite and TOML.
 std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
   Rng rng = Rng(campaign_seed).split("design", static_cast<std::uint64_t>(id));
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(rng.next() >> 1U));
 }
 
-/// What each design of the method may use; 0 when a time is its budget, and without a race.
+/// The budget of each design of the method; 0 if the budget is a time, and without a race.
 std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
                            const Method& method) {
   if (!method.baseline.empty()) return 0;
@@ -30,7 +30,7 @@ std::int64_t design_budget(const Campaign& campaign, const CampaignMission& miss
   return total_budget(space->parameters(), race_on(campaign, mission));
 }
 
-/// In the digest's order, so that a person can compare two campaigns line by line.
+/// In the order of the digest, so that a person can compare two campaigns line by line.
 std::string deciding_json(const Deciding& entries) {
   JsonObject object;
   for (const auto& [key, value] : entries)
@@ -75,7 +75,7 @@ std::vector<DesignRow> design_rows(const Campaign& campaign) {
                         .method = method.name,
                         .flavour = method.parameters.empty() ? method.flavour : "",
                         .repetition = repetition,
-                        // An ablation's pairs are those of its campaign's seed.
+                        // All designs of an ablation use the pairs of the campaign's seed.
                         .seed = campaign.race.ablation ? static_cast<std::int64_t>(campaign.seed)
                                                        : design_seed(campaign.seed, id),
                         .budget = budget});

@@ -10,18 +10,19 @@
 
 namespace swarmsmith {
 
-/// A hash over what decides the answer (`deciding`): two campaigns of the same digest give the same
-/// answer, whatever their store, workers, comments and order of keys.
+/// A hash over everything that decides the answer (`deciding`): two campaigns with the same digest
+/// give the same answer, whatever their store, workers, comments and order of keys.
 std::string campaign_digest(const Campaign& campaign);
 
-/// What a store keeps of the campaign.
+/// The campaign's row in its store.
 CampaignRow campaign_row(const Campaign& campaign);
 
-/// The campaign's designs: missions in the order of the file, methods within, repetitions within;
-/// ids from 1. A design's seed follows from the campaign's and its id.
+/// The campaign's designs, sorted by mission in the order of the file, then by method, then by
+/// repetition; ids start at 1. A design's seed is derived from the campaign's seed and the design's
+/// id.
 std::vector<DesignRow> design_rows(const Campaign& campaign);
 
-/// How designs are searched for, by another search than iterated racing.
+/// The search options of designs that use another search than iterated racing.
 using Searches = std::map<DesignId, SearchOptions>;
 Searches searches_of(const Campaign& campaign);
 

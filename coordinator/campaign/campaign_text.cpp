@@ -31,7 +31,7 @@ Deciding deciding(const Campaign& campaign) {
   }
   entries.emplace_back("engine.version", std::to_string(engine_version_of(campaign)));
   entries.emplace_back("race.version", std::to_string(kRaceVersion));
-  // Other searches only where a method uses them: campaigns without keep their digests.
+  // Other searches appear only if a method uses them, so that old digests do not change.
   for (const SearchKind kind : all_searches()) {
     const bool is_used = std::ranges::any_of(
         campaign.methods, [kind](const Method& method) { return kind_of(method.search) == kind; });

@@ -5,12 +5,12 @@
 
 namespace swarmsmith {
 
-/// What a configuration of the race means outside of it.
+/// A configuration of the race in the forms that are used outside the race.
 struct CandidateText {
   std::string parameters;  ///< JSON object of the active parameters
-  /// Text of the grammar, or the switches and values of a parameter file.
+  /// A text of the grammar, or the switches and values of a parameter file.
   std::string machine;
-  /// As workers get it; not the machine's text where programs follow AClib's convention.
+  /// In the form that workers get; it differs from `machine` if programs follow AClib's convention.
   std::string call;
   std::string modules;  ///< JSON object, module name -> occurrences
   std::int64_t states = 0;

@@ -49,10 +49,11 @@ Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed) {
   method.configurations = setup.configurations_text;
   campaign.methods.push_back(std::move(method));
   campaign.race = setup.race;
-  // Both are the design's: they follow from the mission and the campaign's seed.
+  // Both are set for each design, from the mission and the campaign's seed.
   campaign.race.n_instances = Scenario{}.n_instances;
   campaign.race.seed = Scenario{}.seed;
-  // Only the first estimate of a time depends on it; else it must not stop a run from going on.
+  // `parallel` only affects the first estimate of a run's time; without a time budget, a change
+  // must not prevent a resume.
   if (campaign.race.max_time == 0) campaign.race.parallel = Scenario{}.parallel;
   campaign.race.target_evaluator = Scenario{}.target_evaluator;
   campaign.race.one_task_at_a_time = Scenario{}.one_task_at_a_time;

@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// The campaign of one design that an irace scenario asks for: mission `tuning`, method `irace`,
-/// the target evaluates. The seed is the setup's, or `seed` when it has none.
+/// The campaign with one design that corresponds to an irace scenario: mission `tuning`, method
+/// `irace`, evaluated by the target. `seed` is used if the setup has no seed.
 Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed);
 
 }  // namespace swarmsmith

@@ -12,7 +12,7 @@
 namespace swarmsmith {
 namespace {
 
-/// In single quotes for a shell.
+/// Puts a text in single quotes for a shell.
 std::string shell_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text)
@@ -20,12 +20,12 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-/// The first words of a network's text; its weights are irace's values, without switches.
+/// The beginning of a network's text; its weights follow as irace's values, without switches.
 std::string words_before_weights(const Method& method) {
   return "--network " + std::string(name_of(method.inputs)) + " --weights";
 }
 
-/// irace's calling convention (irace facts, 18.1); a POSIX shell needs no other program for it.
+/// Follows irace's calling convention (irace facts, 18.1); it needs only a POSIX shell.
 std::string target_runner(const Method& method, const DesignRow& design,
                           const std::filesystem::path& program) {
   const std::string kind(name_of(method.architecture));
@@ -59,7 +59,7 @@ std::string target_runner(const Method& method, const DesignRow& design,
          "esac\n";
 }
 
-/// What the last line of irace's report has from some word on.
+/// How to find the control software in the last line of irace's report.
 std::string reported(const Method& method) {
   switch (method.architecture) {
     case Architecture::Machine:
@@ -124,7 +124,7 @@ std::string readme(const Campaign& campaign, const Method& method, const DesignR
          to_string(design.id) + " --seeds 1-200 -- " + found_text(method) + "\n";
 }
 
-/// A text a line.
+/// One text per line.
 std::string lines_of(const std::vector<std::string>& texts) {
   std::string lines;
   for (const std::string& text : texts)
@@ -132,8 +132,8 @@ std::string lines_of(const std::vector<std::string>& texts) {
   return lines;
 }
 
-/// The method's space, so that switches and values of a configuration, put together, are its text;
-/// of networks they are the weights alone, and the target-runner makes the text from them.
+/// The method's space, in which the switches and values of a configuration form its text. For
+/// networks the space has only the weights, and the target-runner makes the text from them.
 Expected<ParameterSpace> space_in_grammar(const Method& method, const Flavour& flavour,
                                           int digits) {
   switch (method.architecture) {
@@ -152,8 +152,8 @@ Expected<ParameterSpace> space_in_grammar(const Method& method, const Flavour& f
   return ParameterSpace::make(std::move(weights), {}, digits);
 }
 
-/// What irace gets of a design of control software: one instance, the mission, whose runs differ
-/// in their seeds; as many test instances as the winner is tested on seeds.
+/// The irace setup for a design of control software: one instance (the mission), whose runs differ
+/// in their seeds, and as many test instances as there are seeds for the winner's tests.
 Expected<IraceSetup> setup_of_simulations(const Campaign& campaign, const Method& method,
                                           const CampaignMission& mission) {
   if (campaign.race.max_time > 0) {
@@ -171,14 +171,14 @@ Expected<IraceSetup> setup_of_simulations(const Campaign& campaign, const Method
   return setup;
 }
 
-/// The word of irace's option batchmode.
+/// The value of irace's option batchmode.
 std::string_view word_of(BatchMode mode) {
   constexpr std::array<std::string_view, 6> kWords = {"0",      "sge",   "pbs",
                                                       "torque", "slurm", "htcondor"};
   return kWords.at(static_cast<std::size_t>(mode));
 }
 
-/// The reverse of `campaign_of`: what irace gets of a design that programs evaluate.
+/// The reverse of `campaign_of`: the irace setup of a design that programs evaluate.
 Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& method,
                                      const CampaignMission& mission) {
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
@@ -204,7 +204,7 @@ Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& met
   return setup;
 }
 
-/// Everything but the parameter file.
+/// Adds all files except the parameter file.
 void add_files(const IraceSetup& setup, IraceVersion version, IraceFileNames names,
                IraceFolder& folder) {
   folder.files.push_back({names.training, lines_of(setup.training)});
@@ -217,7 +217,7 @@ void add_files(const IraceSetup& setup, IraceVersion version, IraceFileNames nam
   folder.remarks = scenario.remarks;
 }
 
-/// The parameter file, and the names of what belongs to it.
+/// Adds the parameter file; returns the names of the files that belong to it.
 Expected<IraceFileNames> add_parameters(const ParameterSpace& space, IraceVersion version,
                                         IraceFolder& folder) {
   IraceFileNames names;

@@ -12,7 +12,7 @@
 
 namespace swarmsmith {
 
-/// A file of a folder that is to be written.
+/// A file to write into a folder.
 struct NamedText {
   std::string name;
   std::string text;
@@ -21,18 +21,19 @@ struct NamedText {
 
 struct IraceFolder {
   std::vector<NamedText> files;
-  std::vector<std::string> remarks;  ///< what that irace cannot be told, a sentence each
+  std::vector<std::string> remarks;  ///< a sentence for each unsupported setting
 };
 
-/// What irace gets of a design: options, instances, and the space, which of machines and trees
-/// is in the words of their text grammar, and of networks the weights. Fails for what irace cannot
-/// express.
+/// The irace setup of a design: options, instances and parameter space. For machines and trees the
+/// space uses the words of their text grammar; for networks it consists of the weights. Fails for
+/// settings that irace cannot express.
 Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& design);
 
-/// A folder in which R's irace tunes what the design tunes: scenario, parameters, instances. A
-/// design of control software is tuned against this simulator: switches and values are its text,
-/// and the folder's target-runner calls `program evaluate` (`program` is absolute). A design with a
-/// target calls the target's programs. Fails for what irace cannot express.
+/// The files of a folder in which R's irace can do the search of this design: scenario, parameters,
+/// instances. For control software, irace evaluates with this simulator: switches and values form
+/// the text of the control software, and the folder's target-runner calls `program evaluate`
+/// (`program` is an absolute path). For a design with a target, irace calls the target's programs.
+/// Fails for settings that irace cannot express.
 Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& design,
                                    IraceVersion version, const std::filesystem::path& program);
 

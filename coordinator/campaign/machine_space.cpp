@@ -11,13 +11,13 @@
 
 namespace swarmsmith {
 
-/// Adds the parameters one by one and remembers where they are.
+/// Adds the parameters one by one and stores their indices.
 class MachineSpace::Builder : public ModuleParameters {
  public:
   Builder(const Method& method, const Flavour& flavour, Wording words)
       : ModuleParameters(method, flavour, words), method_(method) {}
 
-  /// All states, in the order of the original's file: NumStates first.
+  /// Adds all states, in the order of the original file: NumStates first.
   void build() {
     const auto max_states = static_cast<int>(method_.max_states);
     if (max_states > 1) {
@@ -33,13 +33,13 @@ class MachineSpace::Builder : public ModuleParameters {
   std::size_t state_count_ = kNoParameter;
 
  private:
-  /// True while the machine has more states than `i`; nothing when it always has.
+  /// The condition that the machine has more states than `i`; none if it always has.
   static std::optional<Expression> has_state(int i) {
     if (i == 0) return std::nullopt;
     return more_than("NumStates", i);
   }
 
-  /// State i: its behaviour, the behaviour's parameters, its transitions.
+  /// Adds state i: its behaviour, the behaviour's parameters, its transitions.
   void add_state(int i) {
     const std::string suffix = std::to_string(i);
     StateSlot& state = states_.emplace_back();
@@ -47,7 +47,7 @@ class MachineSpace::Builder : public ModuleParameters {
     state.modules = add_modules(behaviours(), "S" + suffix, suffix);
     state.transition_count = kNoParameter;
     if (method_.max_states == 1) return;
-    // A machine of one state has no transition, hence at least 1 even for state 0.
+    // A machine with one state has no transitions, so even state 0 needs more than 1 state.
     const Expression has_other = more_than("NumStates", std::max(i, 1));
     if (method_.max_transitions > 1) {
       state.transition_count = add("NumConnections" + suffix, "n" + suffix,
@@ -59,7 +59,7 @@ class MachineSpace::Builder : public ModuleParameters {
       add_transition(state, i, j);
   }
 
-  /// Transition j of state i: target, condition, the condition's parameters.
+  /// Adds transition j of state i: target, condition, the condition's parameters.
   void add_transition(StateSlot& state, int i, int j) {
     const std::string suffix = std::to_string(i) + "x" + std::to_string(j);
     const Expression active = method_.max_transitions > 1
@@ -76,8 +76,8 @@ class MachineSpace::Builder : public ModuleParameters {
     transition.modules = add_modules(conditions(), "C" + suffix, suffix);
   }
 
-  /// Targets count the other states, hence NumStates - 2. R evaluates this for machines of one
-  /// state too, and stops at a negative bound.
+  /// Targets are numbered among the other states, hence NumStates - 2. R evaluates this for
+  /// machines with one state too, and fails if a bound is negative.
   Expression last_target() const {
     Expression last = Expression::call(Operation::Subtract,
                                        {Expression::parameter("NumStates"), Expression::number(2)});
@@ -148,7 +148,7 @@ Configuration MachineSpace::from_machine(const Machine& machine) const {
     for (std::size_t j = 0; j < state.transitions.size(); ++j) {
       const TransitionSlot& to = slot.transitions.at(j);
       const auto& [condition, target] = state.transitions[j];
-      // Of two states the target is the other one, and has no parameter that is active.
+      // With two states, the target is always the other one, without an active parameter.
       if (to.target != kNoParameter)
         configuration.set(to.target, target < static_cast<int>(i) ? target : target - 1);
       configuration.set(to.condition, static_cast<double>(
@@ -165,7 +165,7 @@ std::string parameters_json(const ParameterSpace& space, const Configuration& co
     if (!configuration.is_active(i)) continue;
     const Scalar value = space.scalar(i, configuration[i]);
     const bool is_text = value.type == Scalar::Type::Text;
-    // A program's values may be any bytes, and the store's digest covers them: none is replaced.
+    // The values of programs may have any bytes, which the store's digest covers: none is replaced.
     object.add(space[i].name,
                JsonPiece{is_text ? quoted_text(value.text) : to_fixed_text(value.number)});
   }

@@ -17,34 +17,33 @@
 
 namespace swarmsmith {
 
-/// The parameter space of a method: the machines that its flavour's modules can be put together to
-/// (rvr-automode facts, section 6.4; 149 parameters for everything that `watermelon` has). Names,
-/// switches, ranges and order are those of AutoMoDe's irace files, but modules are values by name
-/// (`black_floor`, not 0), so that a number never leaves the flavour's table. A parameter that
-/// could have one value alone is left out.
+/// The parameter space of a method: all machines that can be built from its flavour's modules
+/// (rvr-automode facts, section 6.4; 149 parameters for all modules of `watermelon`). Names,
+/// switches, ranges and order are as in AutoMoDe's irace files, but modules are values by name
+/// (`black_floor`, not 0), so that the flavour's numbers are used only in its table. Parameters
+/// with only one possible value are left out.
 class MachineSpace {
  public:
-  /// `digits`: decimals of reals. Fails when a range cannot be kept with these digits.
+  /// `digits`: decimals of real parameters. Fails if they are not enough for a range.
   static Expected<MachineSpace> make(const Method& method, const Flavour& flavour, int digits);
 
-  /// The same space in the words of the text grammar, as AutoMoDe's irace files have it: switches
-  /// and values of the active parameters, put together, are the text of a machine. Modules are
-  /// values by the flavour's number, what could have one value alone is there too, and bounds can
-  /// be computed for inactive parameters, which R does (irace facts, 8.3).
+  /// The same space in the words of the text grammar, as in AutoMoDe's irace files: the switches
+  /// and values of the active parameters form the text of a machine. Modules are values by the
+  /// flavour's number, parameters with only one possible value are included, and bounds can be
+  /// computed for inactive parameters too, because R does so (irace facts, 8.3).
   static Expected<ParameterSpace> in_grammar(const Method& method, const Flavour& flavour,
                                              int digits);
 
   const ParameterSpace& parameters() const { return space_; }
 
-  /// The machine of a configuration of this space, which must be valid (`ParameterSpace::check`).
+  /// The machine of a configuration, which must be valid in this space (`ParameterSpace::check`).
   Machine to_machine(const Configuration& configuration) const;
-  /// The configuration of a machine that is in the space: of the method's modules and within its
-  /// limits and digits.
+  /// The configuration of a machine, which must be in the space: it uses only the method's modules
+  /// and keeps to its limits and digits.
   Configuration from_machine(const Machine& machine) const;
 
  private:
-  /// The parameters of one state or one transition. Indices are kNoParameter for omitted
-  /// ones.
+  /// Parameter indices of one state or transition; kNoParameter for omitted parameters.
   struct TransitionSlot {
     std::size_t target = 0;
     std::size_t condition = 0;
@@ -66,7 +65,7 @@ class MachineSpace {
   std::vector<StateSlot> states_;
 };
 
-/// A parameter's range as the method has it: the flavour's own, or the override.
+/// The range of a parameter in a method: the flavour's own, or the method's override.
 struct SearchRange {
   double lower = 0;
   double upper = 0;
@@ -76,17 +75,17 @@ struct SearchRange {
 SearchRange range_of(const Method& method, const ModuleSpec& module,
                      const ParameterSpec& parameter);
 
-/// The active parameters as a JSON object, in the space's order: choices as texts.
+/// The active parameters as a JSON object, in the order of the space; categorical values are texts.
 std::string parameters_json(const ParameterSpace& space, const Configuration& configuration);
 
-/// How often the control software has each module: by id, in the order of the flavours' tables; a
-/// network has none.
+/// How often the control software uses each module: by id, in the order of the flavour's tables;
+/// empty for a network.
 std::vector<std::pair<std::string, int>> module_counts(const Controller& controller,
                                                        const Flavour& flavour);
 /// The same as a JSON object.
 std::string modules_json(const Controller& controller, const Flavour& flavour);
 
-/// The number of transitions of all states.
+/// The total number of transitions of all states.
 int transition_count(const Machine& machine);
 
 }  // namespace swarmsmith

@@ -12,12 +12,12 @@
 namespace swarmsmith {
 namespace {
 
-/// As much as a task may carry to a worker (proto/wire.h, kMaxMachineBytes).
+/// The largest text that a task may carry to a worker (proto/wire.h, kMaxMachineBytes).
 constexpr std::size_t kMostCallBytes = 1U << 20U;
 constexpr std::size_t kNumberBytes = 25;
-constexpr std::size_t kBlanks = 3;  ///< and the dash of aclib
+constexpr std::size_t kBlanks = 3;  ///< includes the dash of AClib's convention
 
-/// Bytes of switches and values when all parameters are active and their values the longest.
+/// The bytes of switches and values if all parameters are active and have their longest values.
 std::size_t longest_call(const ParameterSpace& space) {
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < space.size(); ++i) {
@@ -119,7 +119,7 @@ CandidateText MethodSpace::text_of(const Configuration& configuration) const {
     return text;
   }
   CandidateText text = swarmsmith::text_of(controller_of(configuration), *flavour_);
-  // A network's text is nothing but its parameters.
+  // A network's text consists only of its parameters.
   if (method_.architecture != Architecture::Network)
     text.parameters = parameters_json(parameters(), configuration);
   return text;
@@ -130,8 +130,8 @@ Scenario race_on(const Campaign& campaign, const CampaignMission& mission) {
   if (!campaign.target) return race;
   race.n_instances = static_cast<std::int64_t>(mission.instances.training.size());
   race.target_evaluator = !campaign.target->evaluator.empty();
-  // Programs are dear and may be counted on their calls: nothing is run that a rejection would have
-  // saved (irace facts, 19).
+  // Programs are expensive, and the number of their calls may matter: no experiment is started that
+  // a rejection would make unnecessary (irace facts, 19).
   race.one_task_at_a_time = true;
   return race;
 }

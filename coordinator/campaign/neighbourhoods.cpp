@@ -11,14 +11,15 @@
 namespace swarmsmith {
 namespace {
 
-/// Draws modules as the space does, by drawing whole controllers: ranges and digits are right.
+/// Draws modules from the distribution of the space by drawing whole controllers, so that ranges
+/// and digits are right.
 class MachineModules {
  public:
   MachineModules(const MachineSpace& space, Rng& rng) : space_(space), rng_(rng) {}
 
   Behaviour behaviour() const { return machine().states.front().behaviour; }
 
-  /// The space must have machines of two states.
+  /// Requires a space that has machines with two states.
   Condition condition() const {
     while (true) {
       const Machine drawn = machine();
@@ -29,7 +30,7 @@ class MachineModules {
 
  private:
   Machine machine() const {
-    // Domains of targets depend on the number of states alone and are never empty.
+    // The domains of targets depend only on the number of states and are never empty.
     return space_.to_machine(sample_uniform(space_.parameters(), rng_).value());
   }
 
@@ -52,7 +53,7 @@ class TreeModules {
   Rng& rng_;
 };
 
-/// Another module of this kind; false when there is no other.
+/// Replaces the module by another one of its kind; false if there is no other.
 template <class Module, class Draw>
 bool exchange_module(Module& module, std::size_t known, Draw draw) {
   if (known < 2) return false;
@@ -69,7 +70,7 @@ Condition made_again(const Condition& like, std::span<const double> parameters) 
   return make_condition(module_of(like), parameters);
 }
 
-/// One parameter of the module, drawn anew from its whole range; false when it has none.
+/// Draws one of the module's parameters anew from its whole range; false if it has none.
 template <class Module, class Draw>
 bool draw_parameter(Module& module, Rng& rng, Draw draw) {
   std::vector<double> parameters = parameters_of(module);
@@ -83,7 +84,8 @@ bool draw_parameter(Module& module, Rng& rng, Draw draw) {
   return true;
 }
 
-/// The operators on one machine. Each changes the machine, or leaves it and says that it cannot.
+/// The operators on a machine. Each one changes the machine and returns true, or leaves it
+/// unchanged and returns false.
 class MachineOperators {
  public:
   MachineOperators(Machine& machine, const Method& method, MachineModules modules, Rng& rng)
@@ -130,7 +132,7 @@ class MachineOperators {
   bool has_room(const State& state) const {
     return static_cast<std::int64_t>(state.transitions.size()) < method_.max_transitions;
   }
-  /// A transition, all of them as likely.
+  /// A random transition; all transitions have the same probability.
   std::optional<Place> any_transition() {
     std::vector<Place> places;
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -145,7 +147,7 @@ class MachineOperators {
     auto& transitions = states_[place.state].transitions;
     transitions.erase(transitions.begin() + static_cast<std::ptrdiff_t>(place.transition));
   }
-  /// A state that is none of these two.
+  /// A random state other than these two.
   std::optional<std::size_t> other_than(std::size_t a, std::size_t b) {
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -182,7 +184,7 @@ class MachineOperators {
     const std::size_t source = sources[draw(sources.size())];
     const std::size_t target = draw(states_.size());
     const auto added = static_cast<int>(states_.size());
-    // The only state of a machine has no way out so far, and needs one now: to the new one.
+    // A machine's only state had no outgoing transition, and now needs one to the new state.
     states_[source].transitions.push_back({modules_.condition(), added});
     State state{modules_.behaviour(), {}};
     state.transitions.push_back({modules_.condition(), static_cast<int>(target)});
@@ -201,7 +203,8 @@ class MachineOperators {
     return true;
   }
 
-  /// Nothing when others are reached through the state alone, or have no other way out.
+  /// The machine without the state; none if other states could then not be reached, or would have
+  /// no transitions left.
   std::optional<Machine> machine_without(std::size_t removed) const {
     Machine machine{states_};
     std::vector<State>& states = machine.states;
@@ -332,7 +335,7 @@ class TreeOperators {
   Rng& rng_;
 };
 
-/// Draws operators until one acts and leaves something new.
+/// Draws operators until one acts and the result differs.
 template <class Operators, class Kind, class Modules>
 Kind perturbed(const Kind& from, const Method& method, Modules modules, Rng& rng) {
   while (true) {
@@ -345,7 +348,7 @@ Kind perturbed(const Kind& from, const Method& method, Modules modules, Rng& rng
       if (Operators(changed, method, modules, rng).apply(*chosen)) break;
       left.erase(chosen);
     }
-    // Nothing can act on the only module of a method without parameters.
+    // No operator can act on a method with a single module without parameters.
     if (left.empty() || !(changed == from)) return changed;
   }
 }

@@ -9,15 +9,17 @@
 
 namespace swarmsmith {
 
-/// What local search changes in a machine, one of eleven at a time, drawn uniformly among those
-/// that can act (docs/methods.md): the start state; a state added or removed; a state's behaviour,
-/// or a parameter of it; a transition added or removed; where a transition begins or ends; its
-/// condition, or a parameter of it. It starts at one state that stops.
+/// The changes that local search makes in a machine: one of eleven operators at a time, drawn
+/// uniformly among those that are possible (docs/methods.md). They change the start state; add or
+/// remove a state; change a state's behaviour, or one of its parameters; add or remove a
+/// transition; change where a transition begins or ends; or change its condition, or one of its
+/// parameters. The search starts at a machine with a single state that stops.
 search::Neighbourhood machine_neighbourhood(const std::shared_ptr<const MachineSpace>& space,
                                             const Method& method);
 
-/// The same of trees, one of seven: a subtree added or removed, two swapped, an action or a
-/// parameter of it, a condition or a parameter of it. It starts at one subtree that stops.
+/// The same for trees, with seven operators: they add or remove a subtree, swap two, or change an
+/// action, a parameter of it, a condition or a parameter of it. The search starts at a tree with a
+/// single subtree that stops.
 search::Neighbourhood tree_neighbourhood(const std::shared_ptr<const TreeSpace>& space,
                                          const Method& method);
 

@@ -8,10 +8,10 @@
 
 namespace swarmsmith {
 
-/// The weights of a method's networks, all real and all active: w1 is the left wheel's first.
+/// The weights of a method's networks, all real and always active: w1 is the left wheel's first.
 Expected<ParameterSpace> network_space(const Method& method, int digits);
 
-/// The network of a configuration of that space.
+/// The network of a configuration of the space of `network_space`.
 Network to_network(const Method& method, const Configuration& configuration);
 
 }  // namespace swarmsmith

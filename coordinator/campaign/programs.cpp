@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is wrong with the program under this key, if it is there at all.
+/// Reports problems of the program under this key, if the key is set.
 void check_program(const std::string& path, const std::string& key, std::vector<Error>& errors) {
   if (path.empty()) return;
   std::error_code trouble;

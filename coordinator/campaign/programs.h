@@ -7,9 +7,10 @@
 
 namespace swarmsmith {
 
-/// What keeps the campaign's programs from being run: missing, not executable, a folder that is not
-/// there, a template without what it needs. Asked before anything runs; a store can be read and
-/// verified without its programs. None for a campaign of the simulator.
+/// The problems that prevent the campaign's programs from being run: missing or non-executable
+/// programs, missing folders, a command-line template without its necessary parts. Checked before
+/// anything runs; a store can be read and verified without its programs. Empty for a campaign that
+/// uses the simulator.
 std::vector<Error> check_programs(const Campaign& campaign);
 
 }  // namespace swarmsmith

@@ -13,26 +13,26 @@
 namespace swarmsmith {
 
 /// The parameter space of Maple's trees: NumSubtrees, and for each subtree an action and a
-/// condition with their parameters, as machines have them (docs/methods.md; 45 parameters for
-/// everything that `watermelon` has, 41 for `chocolate`).
+/// condition with their parameters, in the same form as for machines (docs/methods.md; 45
+/// parameters for all modules of `watermelon`, 41 for `chocolate`).
 class TreeSpace {
  public:
-  /// `digits`: decimals of reals. Fails when a range cannot be kept with these digits.
+  /// `digits`: decimals of real parameters. Fails if they are not enough for a range.
   static Expected<TreeSpace> make(const Method& method, const Flavour& flavour, int digits);
 
-  /// The same space in the words of the text grammar, as MachineSpace::in_grammar has it: switches
-  /// and values of the active parameters, put together, are the text of a tree.
+  /// The same space in the words of the text grammar, like MachineSpace::in_grammar: the switches
+  /// and values of the active parameters form the text of a tree.
   static Expected<ParameterSpace> in_grammar(const Method& method, const Flavour& flavour,
                                              int digits);
 
   const ParameterSpace& parameters() const { return space_; }
 
-  /// The tree of a valid configuration of this space, and back.
+  /// Converts between trees and valid configurations of this space.
   Tree to_tree(const Configuration& configuration) const;
   Configuration from_tree(const Tree& tree) const;
 
  private:
-  /// Where the parameters of one subtree are.
+  /// The indices of one subtree's parameters.
   struct SubtreeSlot {
     std::size_t action = 0;
     std::vector<ModuleSlot> actions;
@@ -40,7 +40,7 @@ class TreeSpace {
     std::vector<ModuleSlot> conditions;
   };
 
-  /// Where the parameters of a tree are.
+  /// The indices of a tree's parameters.
   struct TreeSlot {
     std::size_t count = kNoParameter;
     std::vector<SubtreeSlot> subtrees;

@@ -12,28 +12,28 @@
 
 namespace swarmsmith {
 
-/// What is waited for, in the search's order: a batch of the race, or the tests. Each experiment
-/// that was put or awaited has a score or is awaited, never both.
+/// The experiments that the design waits for, in the search's order: a batch of the race, or the
+/// tests. After `put` or `await`, an experiment either has a score or is awaited, never both.
 class Batch {
  public:
   Batch() = default;
-  /// Nothing is put or awaited yet.
+  /// No experiment has a score or is awaited yet.
   explicit Batch(std::vector<Experiment> experiments);
 
   void put(std::size_t position, const StoredScore& score) { scores_[position] = score; }
   void await(std::size_t position, const EvaluationKey& key);
-  /// The outcome of one that is awaited; its score.
+  /// The outcome of an awaited experiment has come; returns its score.
   StoredScore answer(const Outcome& outcome);
 
-  /// It is no longer awaited; false when it was not.
+  /// Stops awaiting an experiment; false if it was not awaited.
   bool let_go(const EvaluationKey& key);
-  /// Nothing is awaited any more; what was.
+  /// Stops awaiting all experiments; returns those that were awaited.
   std::vector<Experiment> let_go();
 
   std::span<const Experiment> experiments() const { return experiments_; }
-  /// By experiment; without a candidate where none is there.
+  /// By experiment; an entry without a candidate has no score yet.
   std::span<const StoredScore> scores() const { return scores_; }
-  /// By experiment, as a search takes them: costs, infinite for those that were rejected.
+  /// By experiment, in the form that a search takes: costs, infinite for rejected experiments.
   std::vector<Measurement> measurements() const;
   std::size_t n_awaited() const { return awaited_.size(); }
   bool is_complete() const { return awaited_.empty(); }
@@ -44,7 +44,7 @@ class Batch {
   std::unordered_map<std::uint64_t, std::size_t> awaited_;  ///< position by key
 };
 
-/// The score of an evaluation that was made, as a store gives it back.
+/// The score of an outcome in the form in which a store returns it.
 StoredScore score_of(const Outcome& outcome, double bound);
 
 }  // namespace swarmsmith

@@ -31,7 +31,7 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
     waiting_.emplace(id,
                      Waiting{std::move(plan), known ? std::move(known.mapped()) : StoredDesign{}});
   }
-  // It may have been finished before.
+  // The campaign may have been finished before.
   if (waits_for_extension(commands)) rows_.emplace_back(CampaignStateRow{.state = "running"});
   open_designs();
 }
@@ -40,8 +40,8 @@ std::vector<Task> CampaignRunner::take_tasks() {
   return std::exchange(tasks_, {});
 }
 
-/// One pair ahead costs little, since most tests drop none; a further design costs nothing but
-/// memory; more pairs ahead may be for nothing.
+/// The order is by cost: looking one pair ahead costs little, because most tests drop no candidate;
+/// another design costs only memory; evaluations on further pairs may turn out to be useless.
 std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();
   open_more(count, std::min(most_.at_most, slots / kSlotsOfADesign), more);
@@ -91,7 +91,7 @@ std::optional<Task> CampaignRunner::task_of(const EvaluationKey& key) const {
 
 void CampaignRunner::tell(const Outcome& outcome) {
   const DesignId id = design_of(outcome.key.candidate);
-  // Given ahead, and wanted since an outcome that came with this one.
+  // It was handed out ahead, and an outcome that came just before made the race want it.
   std::erase_if(tasks_, [&](const Task& task) { return task.key == outcome.key; });
   if (const auto found = open_.find(id); found != open_.end()) {
     found->second.tell(outcome, rows_);
@@ -200,7 +200,7 @@ Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
   return {};
 }
 
-/// A cancel opens it, so that it ends now and as one that was cancelled before its first step.
+/// A cancel opens the design, so that it ends now, as if cancelled before its first step.
 Expected<void> CampaignRunner::command_waiting(std::map<DesignId, Waiting>::iterator found,
                                                const CommandRow& command) {
   DesignPlan& plan = found->second.plan;

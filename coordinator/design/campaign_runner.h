@@ -13,37 +13,38 @@
 
 namespace swarmsmith {
 
-/// How many designs a campaign holds in memory; one of 100,000 experiments takes some 40 MB.
+/// Limits on a campaign's designs in memory; one with 100,000 experiments takes about 40 MB.
 struct OpenDesigns {
-  /// Race at the same time whatever the workers: one alone leaves slots idle at each of its
-  /// barriers (docs/decisions/0008).
+  /// This many designs race at the same time, whatever the number of workers: with a single one,
+  /// slots would idle at each of its barriers (docs/decisions/0008).
   std::size_t at_least = 4;
-  /// Race at the same time when slots would idle otherwise.
+  /// At most this many designs race at the same time, if slots would idle otherwise.
   std::size_t at_most = 64;
-  /// Finished ones, the latest, that can be given more budget without a restart: so many at most,
-  /// and so many that their races are no longer together than this, but always the last one.
+  /// The latest finished designs are kept, so that they can get more budget without a restart: at
+  /// most `finished` of them, with at most `finished_experiments` experiments together, but always
+  /// the last one.
   std::size_t finished = 8;
   std::int64_t finished_experiments = 100'000;
 };
 
-/// All designs of a campaign as one source of work: opens them in order, as many as it takes to
-/// keep the slots busy, and passes outcomes and commands on to theirs. A pure state machine.
+/// All designs of a campaign as one source of work: opens as many of them, in order, as are needed
+/// to keep the slots busy, and passes outcomes and commands to their designs. A pure state machine.
 class CampaignRunner final : public WorkSource {
  public:
-  /// How many pairs ahead of its race a design is asked for at most.
+  /// The largest number of pairs for which a design is asked to look ahead of its race.
   static constexpr std::int64_t kMostPairsAhead = 64;
 
-  /// `stored` holds what is known of unfinished designs; `finished` those that need nothing more
-  /// (see `ended_designs`); `commands` all that the store has. Plans are started when they are
-  /// opened; the first error stops everything, see `error`.
+  /// `stored` contains the stored scores and steps of unfinished designs; `finished` the designs
+  /// that need nothing more (see `ended_designs`); `commands` all commands in the store. A plan is
+  /// started when its design is opened; the first error stops the campaign, see `error`.
   CampaignRunner(std::vector<DesignPlan> plans, std::map<DesignId, StoredDesign> stored,
                  const std::vector<DesignId>& finished,
                  const std::vector<CommandRow>& commands = {}, OpenDesigns most = {});
 
   std::vector<Task> take_tasks() override;
-  /// Designs are opened up to one for six slots. Then all that race are looked ahead in by one
-  /// pair, first the design that is the nearest to a barrier; then any designs are opened, up to
-  /// the limit; then come further pairs.
+  /// First opens designs, up to one for every six slots. Then asks all racing designs to look ahead
+  /// by one pair, starting with the design that is nearest to a barrier. Then it opens designs up
+  /// to the limit, and finally looks ahead by more pairs.
   std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override;
   std::vector<DesignId> take_ended() override { return std::exchange(ended_, {}); }
@@ -54,31 +55,31 @@ class CampaignRunner final : public WorkSource {
   std::vector<Row> take_rows() override;
   bool finished() const override;
 
-  /// A plan that does not fit, a store that disagrees.
+  /// A plan that cannot be run, or a store that contradicts the replay.
   std::optional<Error> error() const override { return error_; }
   std::vector<DesignId> unfinished() const override;
 
  private:
-  /// A design before its turn.
+  /// A design that has not been opened yet.
   struct Waiting {
     DesignPlan plan;
     StoredDesign stored;
   };
-  /// A task that was given when its design ended.
+  /// A task that was still out when its design ended.
   struct Late {
     double bound;
     std::string source;
   };
 
-  /// While there are fewer tasks than `count` and fewer open designs than `limit`.
+  /// Opens designs while there are fewer tasks than `count` and fewer open designs than `limit`.
   void open_more(std::size_t count, std::size_t limit, std::vector<Task>& tasks);
-  /// Adds tasks up to `count`.
+  /// Adds look-ahead tasks until there are `count` tasks.
   void look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks);
   void open_designs();
-  /// Starts the design that waits, or the next one.
+  /// Opens the waiting design and removes it from the list.
   void open(std::map<DesignId, Waiting>::iterator next);
   void advance(DesignRunner& design);
-  /// The design is over: keeps it for a while, or what may still come of it.
+  /// The design is over: keeps it for a while, or only its tasks that may still have outcomes.
   void put_away(DesignId id);
   bool keeps_too_many() const;
   void forget(const DesignRunner& ended);
@@ -90,8 +91,8 @@ class CampaignRunner final : public WorkSource {
   std::vector<DesignId> all_;
   std::map<DesignId, Waiting> waiting_;
   std::map<DesignId, DesignRunner> open_;
-  std::map<DesignId, DesignRunner> kept_;  ///< finished
-  std::vector<DesignId> kept_order_;       ///< of `kept_`, the earliest first
+  std::map<DesignId, DesignRunner> kept_;  ///< finished designs
+  std::vector<DesignId> kept_order_;       ///< in the order in which they were put away
   std::map<EvaluationKey, Late> late_;
   std::vector<Task> tasks_;
   std::vector<EvaluationKey> dropped_;  ///< of designs that were put away
@@ -102,21 +103,21 @@ class CampaignRunner final : public WorkSource {
   bool state_recorded_ = false;
 };
 
-/// Whether somebody asked for more budget that no design was given yet.
+/// Whether a command asks for more budget that no design has been given yet.
 bool waits_for_extension(const std::vector<CommandRow>& commands);
 
-/// The designs that need nothing more: finished ones that no extension waits for. A cancelled one
-/// is played again up to its end, which costs little.
+/// The designs that need nothing more: finished designs without a pending extension. A cancelled
+/// design is not included; it is replayed up to its end, which costs little.
 std::vector<DesignId> ended_designs(const std::vector<DesignStateRow>& states,
                                     const std::vector<CommandRow>& commands);
 
-/// A store's scores and steps, sorted by design, without the designs in `finished` and without
+/// A store's scores and steps, sorted by design; without the designs in `finished`, and without
 /// scores that no race asked for (audits, later scorings).
 std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& scores,
                                            const std::vector<StoredStep>& steps,
                                            const std::vector<DesignId>& finished);
 
-/// The commands to one design that its race obeys, as a plan takes them.
+/// The commands for one design that its race carries out, in the form that a plan takes.
 std::vector<CommandRow> commands_to(DesignId design, const std::vector<CommandRow>& commands);
 
 }  // namespace swarmsmith

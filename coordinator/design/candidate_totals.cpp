@@ -10,7 +10,7 @@ namespace swarmsmith {
 void CandidateTotals::Sums::add(double score) {
   runs += 1;
   score_sum += score;
-  // Only finite numbers are stored; no result is read from squares.
+  // Only finite numbers can be stored, and no result depends on the squares.
   score_squares = std::min(score_squares + score * score, std::numeric_limits<double>::max());
 }
 
@@ -31,7 +31,7 @@ CandidateTotalsRow CandidateTotals::judge(std::int64_t number, std::int64_t pair
   if (judged_.size() < runs_.size()) judged_.resize(runs_.size());
   auto& by_pair = judged_[static_cast<std::size_t>(number - 1)];
   by_pair[pair] = score;
-  // Summed anew, in the order of the pairs: to take the old word off would round.
+  // Summed again in the order of the pairs, because subtracting an old score would round.
   Sums sums;
   for (const auto& [of, judged] : by_pair)
     sums.add(judged);

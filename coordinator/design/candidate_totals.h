@@ -8,21 +8,20 @@
 
 namespace swarmsmith {
 
-/// The sums over the runs of each candidate of a design that its race used, in the race's order.
-/// Candidates have the numbers from 1 in the order of their creation; all are known whose number is
-/// at most `count`.
+/// For each candidate of a design, the sums over the runs that its race used, in the race's order.
+/// Candidates are numbered from 1 in the order of their creation; all numbers up to `count` exist.
 class CandidateTotals {
  public:
   explicit CandidateTotals(DesignId design) : design_(design) {}
 
-  /// Those up to this number have been made.
+  /// Candidates up to this number have been created.
   void add_up_to(std::int64_t number);
   std::int64_t count() const { return static_cast<std::int64_t>(runs_.size()); }
 
-  /// The race used a run with this score; the candidate's row.
+  /// The race used a run with this score; returns the candidate's row.
   CandidateTotalsRow add_run(std::int64_t number, double score);
-  /// What a targetEvaluator said last of its run on this pair, in place of what it said before; the
-  /// candidate's row, over all such words.
+  /// A targetEvaluator gave this score for the candidate's run on this pair; it replaces an earlier
+  /// score of this run. Returns the candidate's row over all such scores.
   CandidateTotalsRow judge(std::int64_t number, std::int64_t pair, double score);
 
  private:

@@ -11,31 +11,31 @@
 
 namespace swarmsmith {
 
-/// What speaks against a command to a design, whatever its state: only races can be cancelled and
-/// extended, by experiments where the budget is in experiments, and nothing follows a cancel among
-/// the `earlier` ones.
+/// Returns an error for a command that is not possible for a design in any state: only races can be
+/// cancelled and extended, some searches cannot be extended, only a budget in experiments can be
+/// extended, and no command may follow a cancel among the `earlier` ones.
 Expected<void> check_command(const DesignPlan& plan, std::span<const CommandRow> earlier,
                              const CommandRow& command);
 
-/// The commands to one design: those that have acted, in that order, then those that wait. One with
-/// a step has acted in the store, and acts again after that very step when the design is replayed;
-/// nothing acts before it.
+/// The commands for one design: first those that have taken effect, in this order, then those that
+/// wait. A command with a step took effect earlier, according to the store, and takes effect again
+/// after exactly this step in a replay; no command can take effect before it.
 class CommandLog {
  public:
   explicit CommandLog(std::vector<CommandRow> commands);
 
-  /// One that waits from now on.
+  /// Adds a command that waits from now on.
   void add(const CommandRow& command);
-  /// The next of this kind that acts after `steps` steps, if it can act now; null if there is none.
+  /// The next command of this kind that can take effect after `steps` steps, or null.
   const CommandRow* next(CommandKind kind, std::int64_t steps) const;
-  /// One that `next` gave acts after `steps` steps; its row.
+  /// A command returned by `next` takes effect after `steps` steps; returns its row.
   CommandRow act(CommandRow command, std::int64_t steps);
 
   std::span<const CommandRow> all() const { return commands_; }
 
  private:
   std::vector<CommandRow> commands_;
-  std::size_t acted_ = 0;  ///< of them, the first ones
+  std::size_t acted_ = 0;  ///< how many of them, from the front, have taken effect
 };
 
 }  // namespace swarmsmith

@@ -64,7 +64,7 @@ Expected<void> DesignRunner::begin(std::vector<Task>& tasks) {
     return {};
   }
   recorder_.set_state(DesignState::Racing);
-  recorder_.record_state();  // its first step may take long, and people look at the store
+  recorder_.record_state();  // the first step may take long, and people look at the store
   if (auto taken = take_events(); !taken) return taken;
   want_batch(tasks);
   return {};
@@ -136,9 +136,10 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
   return {};
 }
 
-/// Not in the first estimate of max_time, which has no steps to be named. A new one waits until
-/// what is stored has been played again, and until the calls of a targetEvaluator have given the
-/// step that they are for: those that were made count.
+/// Not during the first estimate of max_time, because there is no step yet after which the cancel
+/// could be recorded. A new cancel waits until the stored part of the race has been replayed, and
+/// until the calls of a targetEvaluator have led to the step for which they were made: calls that
+/// were made count.
 bool DesignRunner::is_cancelled() const {
   const CommandRow* command = commands_.next(CommandKind::Cancel, recorder_.steps());
   if (command == nullptr || recorder_.design().iteration == 0) return false;
@@ -146,7 +147,7 @@ bool DesignRunner::is_cancelled() const {
                            !batch_.experiments().front().is_evaluation);
 }
 
-/// What came of the runs after the last step depends on who was how quick: it counts nowhere.
+/// The runs after the last step depend on how fast the workers were, so they do not count.
 void DesignRunner::cancel(std::vector<Task>& tasks) {
   std::set<EvaluationKey> unused = scores_.discard_race();
   for (const StoredScore& score : given_)
@@ -157,7 +158,7 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
   for (const EvaluationKey& key : unused) {
     if (key.purpose == Purpose::Race) recorder_.record_unused(key);
   }
-  // Tasks that were not taken yet go at once, the others are let go.
+  // Tasks that were not handed out yet are deleted; the others are released.
   std::erase_if(tasks, [&](const Task& task) {
     if (design_of(task.key.candidate) != id()) return false;
     const bool was_awaited = batch_.let_go(task.key);
@@ -217,7 +218,7 @@ void DesignRunner::test_the_given(std::vector<Task>& tasks) {
     numbers.push_back(static_cast<std::int64_t>(numbers.size()) + 1);
     add_candidate({.id = numbers.back(), .configuration = configuration});
   }
-  // A machine to compare with stands for its method as a race's winner does.
+  // A baseline machine represents its method, as the winner of a race does.
   if (!plan_.row.flavour.empty()) recorder_.set_best(numbers.front());
   tests_.test_all(std::move(numbers));
   recorder_.set_state(DesignState::Testing);
@@ -235,7 +236,7 @@ void DesignRunner::want_tests(std::vector<Task>& tasks) {
   }
 }
 
-/// Their tasks follow those of the race.
+/// The numbers of these calls follow those of the race's calls.
 void DesignRunner::want_test_calls(std::vector<Task>& tasks) {
   std::vector<Experiment> calls = tests_.calls();
   for (Experiment& call : calls)
@@ -298,7 +299,7 @@ Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experimen
           key};
 }
 
-/// The last race and the tests take candidates from anywhere.
+/// The last race and the tests may use candidates of any iteration.
 std::string DesignRunner::call_of(std::int64_t number) const {
   const auto known = call_texts_.find(number);
   return known != call_texts_.end() ? known->second
@@ -333,7 +334,7 @@ void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector
     pairs_.try_emplace(experiment->pair, *experiment);
     recorder_.record_pair(Purpose::Race, *experiment);
     const EvaluationKey key = key_of(Purpose::Race, *experiment);
-    // What was dropped may still be run by somebody, so that it is not given again either.
+    // A dropped task may still be running on a worker, so it is not handed out again.
     if (scores_.contains(key) || ahead_.contains(key)) continue;
     ahead_.add(key, experiment->bound);
     tasks.push_back(task_of(key, *experiment));
@@ -344,7 +345,7 @@ void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector
 }
 
 Expected<void> DesignRunner::tell_race() {
-  // Runs before a targetEvaluator are all used; the step comes with its word on them.
+  // A targetEvaluator's runs are all used, and the step comes after it has given their scores.
   if (!plan_.scenario.target_evaluator)
     given_.insert(given_.end(), batch_.scores().begin(), batch_.scores().end());
   search_->tell(batch_.measurements());
@@ -389,7 +390,8 @@ Expected<void> DesignRunner::take_events() {
                             event);
     if (!taken) return taken;
   }
-  // A task may take several batches (capping): nothing of it is unused before its step.
+  // With capping, a step may take several batches, and only at its end is a score known to be
+  // unused.
   if (!is_reported) return {};
   for (const StoredScore& score : std::exchange(given_, {}))
     leave_unused(score);
@@ -402,7 +404,7 @@ void DesignRunner::add_candidate(const ConfigurationSampled& sampled) {
   recorder_.record_candidate(sampled, std::move(text));
 }
 
-/// What a race needs is kept of the elites alone: memory does not grow with the budget.
+/// The race's data is kept only for the elites, so that memory does not grow with the budget.
 void DesignRunner::end_iteration(const IterationEnded& ended) {
   recorder_.record_end(ended);
   std::vector<std::int64_t> elites;
@@ -433,7 +435,7 @@ void DesignRunner::count_used(const std::vector<std::pair<std::int64_t, std::int
   }
 }
 
-/// Costs that replace those of earlier tasks.
+/// Records costs that replace those of earlier evaluator calls.
 void DesignRunner::count_judged() {
   SWARMSMITH_ASSERT(batch_.scores().size() == batch_.experiments().size(), "each call has a word");
   for (std::size_t i = 0; i < batch_.experiments().size(); ++i) {
@@ -445,7 +447,7 @@ void DesignRunner::count_judged() {
   }
 }
 
-/// The race may want it again, in a later iteration.
+/// The race may want the score again in a later iteration.
 void DesignRunner::leave_unused(const StoredScore& score) {
   recorder_.record_unused(score.key);
   scores_.keep(score);

@@ -25,107 +25,109 @@
 
 namespace swarmsmith {
 
-/// One iterated race and the tests of its elites: gives tasks, takes outcomes, gives rows. A pure
-/// state machine (docs/architecture.md, "A design's life"). Starts by replaying what the store
-/// knows: known scores are not asked for again, and the rows that led to the last stored step are
-/// not given again.
+/// One iterated race and the tests of its elites: hands out tasks, takes outcomes, and produces
+/// rows. A pure state machine (docs/architecture.md, "A design's life"). At the start it replays
+/// the stored part of the race: known scores are not evaluated again, and the rows up to the last
+/// stored step are not produced again.
 ///
-/// Commands (docs/irace.md, "More budget, and an early end") act between two batches, and their
-/// rows get the number of the race's step after which they did; replayed, they act there again. A
-/// "cancel" acts as soon as it can: the design stops, and what was evaluated after that step counts
-/// nowhere. An "extend" acts when the race and its tests are over: the race goes on from its end,
-/// and its new elites are tested.
+/// Commands (docs/irace.md, "More budget, and an early end") take effect between two batches, and
+/// their rows contain the number of the last step before that; in a replay they take effect there
+/// again. A "cancel" takes effect as soon as possible: the design stops, and evaluations after that
+/// step do not count. An "extend" takes effect when the race and its tests are over: the race
+/// continues from its end, and its new elites are tested.
 class DesignRunner {
  public:
-  /// Fails when the scenario does not fit the space (budget too small: the smallest that works).
+  /// Fails if the scenario does not fit the space; if the budget is too small, the error gives the
+  /// smallest sufficient one.
   static Expected<DesignRunner> start(DesignPlan plan, StoredDesign stored);
 
-  /// Appends the tasks that became wanted to `tasks`, in canonical order, and the rows that became
-  /// due to `rows`. An error: the replay came to another step than the store has, so that the store
-  /// was written by another engine or is damaged.
+  /// Appends the newly wanted tasks to `tasks`, in canonical order, and the rows that are due to
+  /// `rows`. Error: the replay gave a different step than the store has, so the store was written
+  /// by another engine or is damaged.
   Expected<void> advance(std::vector<Task>& tasks, std::vector<Row>& rows);
 
-  /// The task of an evaluation in the race or the tests that was asked for; nothing for others.
+  /// The task of an evaluation that the race or the tests have asked for; none for others.
   std::optional<Task> task_of(const EvaluationKey& key) const;
 
-  /// A wanted task's outcome, or that of one that was given ahead; its row goes to `rows`. Call
-  /// `advance` after one or more of these.
+  /// The outcome of a task that was wanted or handed out ahead; its row is appended to `rows`. Call
+  /// `advance` after one or more of these calls.
   void tell(const Outcome& outcome, std::vector<Row>& rows);
 
-  /// Appends at most `count` tasks that the race may want after what it waits for, on the next
-  /// `pairs` pairs (Task::ahead; orchestration facts, 10); none is given twice. Which are given,
-  /// and whether they are ever told, changes no row of the answer: their scores are stored without
-  /// an iteration until the race asks for them. One that is wanted before its outcome is there
-  /// comes by `advance`, as any other.
+  /// Appends at most `count` tasks that the race may want after its current batch, on the next
+  /// `pairs` pairs (Task::ahead; orchestration facts, 10); no task is handed out twice. These tasks
+  /// and their outcomes change no row of the answer: their scores are stored without an iteration
+  /// until the race asks for them. A task that the race wants before its outcome has come is handed
+  /// out again by `advance`, like any other.
   void look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,
                   std::vector<Row>& rows);
-  /// Tasks that were given and are no longer needed. Outcomes that come all the same are
-  /// taken.
+  /// Tasks that were handed out and are no longer needed. Their outcomes are still accepted.
   std::vector<EvaluationKey> take_dropped() { return ahead_.take_dropped(); }
-  /// Tasks that were given without being wanted and have no outcome, with their bounds: what may
-  /// still come when the design is over.
+  /// Tasks without an outcome that were handed out although the race did not want them, with their
+  /// bounds: their outcomes may still come when the design is over.
   std::vector<std::pair<EvaluationKey, double>> outstanding() const { return ahead_.outstanding(); }
-  /// Since the last call, if an iteration has ended.
+  /// The candidates that are out of the race, if an iteration has ended since the last call.
   std::optional<PassedCandidates> take_passed() { return std::exchange(passed_, std::nullopt); }
-  /// How many tasks it waits for: the design with the fewest is the nearest to a barrier.
+  /// The number of tasks that the design waits for; the design with the fewest is nearest to a
+  /// barrier.
   std::size_t awaited() const { return batch_.n_awaited(); }
 
-  /// A further command; `advance` carries it out when it can act. Its row goes to `rows` now when
-  /// it cannot act yet. Errors: what cannot be asked of this design as it stands, and why.
+  /// Takes a command; `advance` carries it out when it can take effect. If it cannot take effect
+  /// yet, its row is appended to `rows` now. Errors: the command is not possible in the design's
+  /// current state; the message says why.
   Expected<void> command(const CommandRow& command, std::vector<Row>& rows);
 
   DesignState state() const { return recorder_.design().state; }
   DesignId id() const { return plan_.row.id; }
   std::int64_t used() const { return recorder_.design().used; }
   const std::string& source() const { return plan_.source; }
-  /// Stored scores that the race has not asked for (yet), those that were computed ahead included.
+  /// Stored scores that the race has not asked for (yet), including those that were computed ahead.
   const StoredDesign& unasked() const { return scores_.unasked(); }
 
  private:
   DesignRunner(DesignPlan plan, StoredDesign stored, std::unique_ptr<Search> search);
 
-  // From state to state.
+  // Transitions between states.
   Expected<void> go_on(std::vector<Task>& tasks);
-  /// From waiting on to what is to be evaluated first.
+  /// From Waiting to the first evaluations.
   Expected<void> begin(std::vector<Task>& tasks);
-  /// Races on until something is awaited or the race is over.
+  /// Continues the race until evaluations are awaited or the race is over.
   Expected<void> go_on_racing(std::vector<Task>& tasks);
-  /// To the tests of the elites; or to an end without, when every configuration was rejected.
+  /// Starts the elites' tests; ends the design without tests if all configurations were rejected.
   Expected<void> finish_race(std::vector<Task>& tasks);
-  /// The tests' outcomes are there: true when nothing is left to be tested.
+  /// All outcomes of the tests have come; returns true if there is nothing left to test.
   bool finish_tests(std::vector<Task>& tasks);
-  /// A cancel that acts now.
+  /// Whether a cancel takes effect now.
   bool is_cancelled() const;
   void cancel(std::vector<Task>& tasks);
-  /// The race goes on with more budget, if that was asked for.
+  /// Continues the race with more budget, if an extension was requested.
   Expected<bool> extend(std::vector<Task>& tasks);
 
-  // What is evaluated.
+  // Evaluations.
   void want_batch(std::vector<Task>& tasks);
-  /// In place of a race.
+  /// Instead of a race, tests the given configurations.
   void test_the_given(std::vector<Task>& tasks);
   void want_tests(std::vector<Task>& tasks);
-  /// A targetEvaluator's word on the tests that were run.
+  /// Asks a targetEvaluator for the scores of the test runs.
   void want_test_calls(std::vector<Task>& tasks);
-  /// Takes the experiment's score from what is known, or makes a task of it.
+  /// Takes the experiment's score from the known scores, or makes a task for it.
   void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
             std::vector<Task>& tasks);
   EvaluationKey key_of(Purpose purpose, const Experiment& experiment) const;
   Task task_of(const EvaluationKey& key, const Experiment& experiment) const;
   std::string call_of(std::int64_t number) const;
 
-  // What the race says of it.
+  // Events of the race.
   Expected<void> tell_race();
   Expected<void> take_events();
   void add_candidate(const ConfigurationSampled& sampled);
   void end_iteration(const IterationEnded& ended);
-  /// The race used these (configuration, pair), in this order.
+  /// The race used these runs (configuration, pair), in this order.
   void count_used(const std::vector<std::pair<std::int64_t, std::int64_t>>& used);
   void count_judged();
   void leave_unused(const StoredScore& score);
 
   DesignPlan plan_;
-  std::unique_ptr<Search> search_;  ///< null when only given configurations are tested
+  std::unique_ptr<Search> search_;  ///< null if only given configurations are tested
   CommandLog commands_;
   KnownScores scores_;
   Batch batch_;
@@ -134,13 +136,13 @@ class DesignRunner {
   EliteTests tests_;
   RowRecorder recorder_;
 
-  /// What the race was told and has not said that it used, in the order in which it asked for it.
+  /// Scores that the race has not reported as used yet, in the order of its requests.
   std::deque<StoredScore> given_;
-  std::map<std::int64_t, Experiment> pairs_;  ///< of the race, as somebody was first tried on them
-  /// Texts for workers, by number, of those in the race.
+  std::map<std::int64_t, Experiment> pairs_;  ///< the race's pairs, as they were first used
+  /// The texts that workers get for the candidates in the race, by number.
   std::map<std::int64_t, std::string> call_texts_;
   std::optional<PassedCandidates> passed_;
-  std::optional<Error> fault_;  ///< of the store, found while the race was played again
+  std::optional<Error> fault_;  ///< a fault of the store that the replay found
 };
 
 }  // namespace swarmsmith

@@ -24,8 +24,8 @@ void EliteTests::test_all(std::vector<std::int64_t> given) {
   elites_.push_back(std::move(given));
 }
 
-/// The seeds of tests are a stream of their own, so that they meet no pair of the race but by
-/// chance.
+/// The seeds of tests come from a separate random stream, so that they coincide with pairs of the
+/// race only by chance.
 Experiment EliteTests::run(std::int64_t candidate, std::int64_t pair) const {
   SWARMSMITH_ASSERT(plan_.count > 0 && pair >= 1, "tests count from 1");
   const std::int64_t test = (pair - 1) % plan_.count + 1;

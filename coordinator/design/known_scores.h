@@ -10,24 +10,24 @@
 
 namespace swarmsmith {
 
-/// Names an evaluation among those of its design and purpose.
+/// Identifies an evaluation among those of the same design and purpose.
 constexpr std::uint64_t packed_key(const EvaluationKey& key) {
   return (static_cast<std::uint64_t>(number_of(key.candidate)) << 32U) |
          static_cast<std::uint64_t>(key.pair);
 }
 
-/// What a store knows of one design, for replay; scores by `packed_key`.
+/// The stored data of one design, for a replay; scores by `packed_key`.
 struct StoredDesign {
   std::unordered_map<std::uint64_t, StoredScore> race_scores;
-  /// Those under further profiles have other pairs.
+  /// Includes the runs under further profiles, whose pairs have other numbers.
   std::unordered_map<std::uint64_t, StoredScore> test_scores;
-  /// Of a targetEvaluator: the pair is a task.
+  /// Scores of a targetEvaluator; their pairs are task numbers.
   std::unordered_map<std::uint64_t, StoredScore> evaluator_scores;
-  /// Digest of step n at index n - 1.
+  /// The digest of step n is at index n - 1.
   std::vector<std::uint64_t> step_digests;
 };
 
-/// Those that hold what was made for the purpose; null for one that no design asks for.
+/// The map for scores of this purpose; null for a purpose that no design asks for.
 template <class Design>
 auto* scores_of(Design& design, Purpose purpose) {
   using Replay = PurposeFacts::Replay;
@@ -45,30 +45,31 @@ auto* scores_of(Design& design, Purpose purpose) {
   return decltype(&design.race_scores)(nullptr);
 }
 
-/// Scores that are there before a design asks for them. One of the race is here or with the race,
-/// never both: `take` hands it over, and `keep` takes it back when the race did not use it. One of
-/// a test stays once it was asked for: who is tested again after an extension is not run again.
+/// Scores that exist before a design asks for them. A score of the race is either here or in the
+/// race, never in both: `take` moves it to the race, and `keep` returns it if the race did not use
+/// it. A score of a test stays here after it was taken: a candidate that is tested again after an
+/// extension is not run again.
 class KnownScores {
  public:
   explicit KnownScores(StoredDesign stored) : stored_(std::move(stored)) {}
 
-  /// One of the store that was not asked for; null if there is none.
+  /// A stored score that was not asked for; null if there is none.
   const StoredScore* stored(const EvaluationKey& key) const;
-  /// The score, if it is known.
+  /// The score, if it is known. Scores of the race are handed over.
   std::optional<StoredScore> take(const EvaluationKey& key);
-  /// One of the race that no iteration uses, or one of a test.
+  /// Adds a score of the race that no iteration uses, or a score of a test.
   void keep(StoredScore score);
-  /// Whether `take` would give one of the race.
+  /// Whether `take` would return a score of the race for this key.
   bool contains(const EvaluationKey& key) const;
-  /// The stored ones of the race are no longer needed; their keys.
+  /// Deletes the stored scores of the race; returns their keys.
   std::set<EvaluationKey> discard_race();
 
-  /// Scores of the store that were not asked for (yet), those computed ahead included.
+  /// Stored scores that were not asked for (yet), including those that were computed ahead.
   const StoredDesign& unasked() const { return stored_; }
 
  private:
   StoredDesign stored_;
-  /// Of the race: computed ahead, or wanted by it and not used.
+  /// Scores of the race that were computed ahead, or were wanted by it and not used.
   std::unordered_map<std::uint64_t, StoredScore> unused_;
   std::unordered_map<std::uint64_t, StoredScore> tested_;
 };

@@ -12,10 +12,10 @@
 namespace swarmsmith {
 namespace {
 
-/// Shared by the plans of one method, which may outlive each other.
+/// Shared by all plans of a method, which may be destroyed at different times.
 using SharedSpace = std::shared_ptr<const MethodSpace>;
 
-/// Given control software, in place of a search.
+/// Uses the given control software instead of a search.
 Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
   if (method.baseline.empty()) return {};
   plan.only_test = true;
@@ -26,7 +26,7 @@ Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
     plan.initial = {std::move(*drawn)};
     return {};
   }
-  // It need not be a point of the space: a person need not keep to its ranges.
+  // It need not be in the method's space: a person may go beyond the space's ranges.
   const auto flavour = flavour_of(method);
   if (!flavour) return Unexpected(flavour.error());
   const auto given = parse_controller(method.baseline, **flavour);

@@ -14,14 +14,14 @@
 
 namespace swarmsmith {
 
-/// How the elites are judged after the race, outside of its budget.
+/// The tests of the elites after the race, outside its budget.
 struct TestPlan {
   std::int64_t count = 0;  ///< pairs
-  /// Pair n is test instance n; else fresh seeds on the training instances in turn.
+  /// Pair n is test instance n; otherwise a fresh seed on a training instance, in turn.
   bool on_test_instances = false;
-  std::int64_t elites = 1;       ///< how many of the last iteration
-  bool every_iteration = false;  ///< as many of each other iteration too
-  /// Names of further profiles, under which the tests are run again; each is a source.
+  std::int64_t elites = 1;       ///< number of elites of the last iteration that are tested
+  bool every_iteration = false;  ///< test the same number of elites of every other iteration too
+  /// Names of further profiles under which the tests are repeated; each name is a source.
   std::vector<std::string> profiles{};
 };
 
@@ -33,20 +33,19 @@ struct DesignPlan {
   ParameterSpace space;
   Scenario scenario;  ///< with the design's seed and budget
   SearchOptions search;
-  /// Of annealing; none where it changes one parameter at a time.
+  /// For annealing; none if it changes one parameter at a time.
   std::optional<search::Neighbourhood> neighbourhood;
   std::function<CandidateText(const Configuration&)> describe;
   TestPlan tests;
   std::string source;                    ///< the simulator profile's name; "command" for programs
-  std::vector<Configuration> initial{};  ///< that the first race begins with
-  Repair repair{};                       ///< of sampled configurations; empty for none
+  std::vector<Configuration> initial{};  ///< the configurations with which the first race begins
+  Repair repair{};                       ///< repairs sampled configurations; empty for none
   bool only_test = false;                ///< no race: the initial configurations are tested
-  /// "cancel" and "extend" of this design, by number, as the store has them; see CommandLog.
+  /// The "cancel" and "extend" commands for this design, by number, as stored; see CommandLog.
   std::vector<CommandRow> commands{};
 };
 
-/// The designs of a campaign, ready to run, in the order of their ids. Fails when a method's space
-/// cannot be built.
+/// The plans of all designs of a campaign, sorted by id. Fails if a method's space cannot be built.
 Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign);
 
 }  // namespace swarmsmith

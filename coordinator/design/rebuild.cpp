@@ -17,7 +17,8 @@ using Digests = std::map<std::pair<DesignId, std::int64_t>, std::uint64_t>;
 
 using Scores = std::unordered_map<std::uint64_t, StoredScore>;
 
-/// Of no iteration, so that the race says anew which ones it uses. Returns how many it had used.
+/// Resets the iterations of all scores, so that the replay determines again which ones the race
+/// uses. Returns how many had been used.
 std::int64_t forget_iterations(Scores& scores) {
   std::int64_t used = 0;
   for (auto& [packed, score] : scores)
@@ -30,7 +31,7 @@ bool is_use(const Row& row) {
   return evaluation != nullptr && evaluation->iteration != 0;
 }
 
-/// The first step that the scores give otherwise than it was found.
+/// Reports the first step that differs from the recovered one.
 void compare_steps(const std::vector<Row>& rows, const Digests& found,
                    std::vector<std::string>& complaints) {
   for (const Row& row : rows) {

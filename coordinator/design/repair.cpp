@@ -11,7 +11,7 @@ namespace swarmsmith {
 namespace {
 
 std::string how_it_failed(const ProcessEnd& end) {
-  // The shell gives the signal that killed the program as 128 more.
+  // If a signal kills the program, the shell's exit code is the signal plus 128.
   constexpr int kShells = 128;
   constexpr int kMostSignals = 64;
   const bool is_shells = end.exit_code > kShells && end.exit_code <= kShells + kMostSignals;
@@ -20,7 +20,7 @@ std::string how_it_failed(const ProcessEnd& end) {
   return "the program ended with exit status " + std::to_string(end.exit_code) + ", which is not 0";
 }
 
-/// The end of what a program wrote, for messages.
+/// The end of a program's output, for messages.
 std::string excerpt(const Captured& captured) {
   constexpr std::size_t kMost = 500;
   const std::string& text = captured.text;
@@ -44,7 +44,7 @@ Repair repair_by(const std::string& program, const std::string& folder,
     const ParameterSpace& parameters = space->parameters();
     const auto table = print_configurations_file(parameters, std::span(&given, 1));
     if (!table) return Unexpected(table.error());
-    // Programs have no input but what a shell gives them.
+    // `run_process` gives programs no input, so a shell pipes the configuration in.
     const ProcessCall call{
         .words = {"/bin/sh", "-c", R"(printf '%s' "$1" | "$0")", program, *table},
         .folder = folder};

@@ -8,11 +8,11 @@
 
 namespace swarmsmith {
 
-/// Repairs configurations by a program (irace's repairConfiguration, which is an R function there).
-/// The program gets a configurations file (irace facts, 23.4) of two lines on its standard input,
-/// names and values, and prints one of the same form. It runs in `folder` and must be a pure
-/// function: a race that is played again asks it again. A program that fails, prints anything else
-/// or a configuration that is not in the space is an error.
+/// Repairs configurations with a program (irace's repairConfiguration, which in irace is an R
+/// function). The program reads a configurations file (irace facts, 23.4) of two lines, names and
+/// values, from its standard input, and prints one in the same format. It runs in `folder` and must
+/// be a pure function, because a replay of the race calls it again. Errors: the program fails, or
+/// prints other text or a configuration that is not in the space.
 Repair repair_by(const std::string& program, const std::string& folder,
                  std::shared_ptr<const MethodSpace> space);
 

@@ -47,7 +47,7 @@ void RowRecorder::record_state() {
 }
 
 void RowRecorder::record_candidate(const ConfigurationSampled& sampled, CandidateText text) {
-  // Given ones that are forbidden have a number and nothing else.
+  // Given configurations that are forbidden get a number, but no row.
   totals_.add_up_to(sampled.id);
   alive_.insert(sampled.id);
   record(CandidateRow{.id = candidate(sampled.id),
@@ -95,7 +95,7 @@ Expected<void> RowRecorder::record_step(const RaceStep& step) {
                      .qvar = step.qvar,
                      .bound = step.bound,
                      .digest = step.digest});
-  // The race after the last takes candidates from anywhere.
+  // The race after the last iteration may use candidates of any iteration.
   for (const auto& [configuration, pair] : step.evaluated)
     alive_.insert(configuration);
   for (const Elimination& elimination : step.eliminations) {
@@ -148,7 +148,7 @@ void RowRecorder::record_estimate(const TimeEstimated& estimated) {
                     {"mean", estimated.mean_time},
                     {"remaining", estimated.remaining},
                     {"bound_max", estimated.bound_max}}));
-  // After races there is nothing to count; their steps were.
+  // After races there is nothing to count here, because their steps are counted already.
   if (!estimated.evaluated.empty()) record_state();
 }
 

@@ -8,16 +8,17 @@
 
 namespace swarmsmith {
 
-/// One evaluation that the campaign wants, named as the store names it.
+/// One evaluation that the campaign wants, identified as in the store.
 struct Task : EvaluationInput {
   EvaluationKey key;
-  /// Place of the campaign among those of the coordinator, which sets it.
+  /// Index of the campaign in the coordinator, which sets it.
   std::uint32_t campaign = 0;
-  /// No design waits for it yet: it keeps a slot busy that would idle (WorkSource::take_more).
+  /// No design waits for it yet: it is for a slot that would otherwise idle
+  /// (WorkSource::take_more).
   bool ahead = false;
 };
 
-/// How a task ended, as a worker reported it.
+/// How a task ended, as reported by a worker.
 struct Outcome {
   EvaluationKey key;
   std::uint32_t campaign = 0;

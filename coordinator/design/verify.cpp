@@ -21,10 +21,11 @@ namespace {
 
 constexpr std::size_t kComplaintsPerDesign = 20;
 
-/// Rows of one design as texts. Those that hold a latest value are kept by what they describe.
+/// The rows of one design as texts. If only the latest value counts, as for totals, the rows are in
+/// a map.
 struct DesignAnswer {
   std::vector<std::string> rows;
-  /// Pairs of the race by number; the answer omits those on which no step was held.
+  /// Pairs of the race by number; pairs without a step are not part of the answer.
   std::map<std::int64_t, std::string> pairs;
   std::set<std::int64_t> stepped;
   std::map<CandidateId, std::string> totals;
@@ -81,8 +82,8 @@ void add_stepped_pairs(DesignAnswer& answer) {
   }
 }
 
-/// Candidates as rows; but those of an unfinished design that come after all that its scores give,
-/// as they stand in a recovered store, are only counted.
+/// Adds the candidates to the rows. In an unfinished design, stored candidates after the last one
+/// that its scores produce, as in a recovered store, are only counted; returns their number.
 std::int64_t add_candidates(DesignAnswer& stored, DesignAnswer& replayed, bool finished) {
   const CandidateId last =
       replayed.candidates.empty() ? CandidateId{} : replayed.candidates.rbegin()->first;
@@ -99,7 +100,7 @@ std::int64_t add_candidates(DesignAnswer& stored, DesignAnswer& replayed, bool f
   return later;
 }
 
-/// What stands in `some` and not in `all`, at most so many; both get sorted.
+/// The entries of `some` that are not in `all`, up to a limit; sorts both.
 std::vector<std::string> missing_from(std::vector<std::string>& all,
                                       std::vector<std::string>& some) {
   std::ranges::sort(all);
@@ -133,14 +134,14 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
   }
 }
 
-/// What was asked for and has not come to pass is not part of the answer.
+/// Commands that have not taken effect are not part of the answer.
 std::vector<CommandRow> acted(std::vector<CommandRow> commands) {
   std::erase_if(commands, [](const CommandRow& command) { return !command.step; });
   return commands;
 }
 
-/// Scores that count for the race or its tests, and that these did not ask for; what was computed
-/// ahead or was let go by a cancel counts nowhere.
+/// The number of scores that count for the race or its tests although the replay did not ask for
+/// them; scores that were computed ahead or released by a cancel do not count.
 std::size_t unasked_but_used(const StoredDesign& unasked) {
   std::size_t count = unasked.test_scores.size() + unasked.evaluator_scores.size();
   for (const auto& [key, score] : unasked.race_scores)
@@ -148,7 +149,7 @@ std::size_t unasked_but_used(const StoredDesign& unasked) {
   return count;
 }
 
-/// It ended, and what its scores give must be all of it.
+/// Whether the design has ended, so that its scores must produce all of its rows.
 bool is_over(const std::optional<DesignStateRow>& state, const DesignPlan& plan) {
   if (!state) return false;
   if (state->state == DesignState::Finished) return true;
@@ -202,9 +203,9 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
 
-/// Evaluations for which two workers gave different bits: a sentence each, the first few. Where the
-/// coordinator made the evaluation again, and the kept score has its bits, the other worker was
-/// wrong.
+/// Adds a sentence for each of the first evaluations for which two workers gave different bits. If
+/// the coordinator evaluated again and the kept score has the same bits, the other worker was
+/// wrong, and there is no complaint.
 void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complaints) {
   constexpr const char* kConflicts =
       "SELECT 'e' || (candidate * 100000 + pair), kept_score, other_score, other_worker"
@@ -226,7 +227,7 @@ void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complai
   if (!found) complaints.push_back(to_string(found.error()));
 }
 
-/// Coordinators say so when they find a lie, or another error, among the stored scores.
+/// Coordinators mark a campaign when they find a wrong score in its store.
 void complain_of_distrust(StoreReader& store, std::vector<std::string>& complaints) {
   for (const StoredCampaign& campaign : store.campaigns()) {
     if (campaign.state != "distrusted") continue;
@@ -237,7 +238,7 @@ void complain_of_distrust(StoreReader& store, std::vector<std::string>& complain
   }
 }
 
-/// The races of one campaign, which the reader shows as if it were alone.
+/// Checks the races of one campaign; the reader shows only this campaign.
 void verify_campaign(StoreReader& store, std::vector<DesignPlan> plans, Verification& result) {
   std::map<DesignId, DesignAnswer> stored;
   store.each_answer_row([&](const Row& row) {
@@ -262,7 +263,7 @@ std::string name_of(const StoredCampaign& campaign) {
   return fmt::format("campaign {}, {}", campaign.id, campaign.row.name);
 }
 
-/// What is wrong with a run that has a score; empty when nothing is.
+/// The error in a run that has a score; empty if it is correct.
 std::string complaint_about(StoreReader& store, const RealRunHead& head) {
   const auto rows = store.real_run(head.id);
   if (!rows) return to_string(rows.error());
@@ -273,9 +274,9 @@ std::string complaint_about(StoreReader& store, const RealRunHead& head) {
   return fmt::format("its cycles score {}, but the store has {}", again, *head.score);
 }
 
-/// Scores the control cycles of every real run again, and compares with its latest scoring, bit for
-/// bit; runs without a score (INVALID ones may have none) are left out. Returns how many were
-/// scored; adds a sentence a fault to `complaints`.
+/// Recomputes the score of every real run from its control cycles, and compares it bit by bit with
+/// its latest scoring; runs without a score (INVALID ones may have none) are skipped. Returns the
+/// number of runs with a score; adds a sentence for each error to `complaints`.
 std::int64_t verify_real_runs(StoreReader& store, std::vector<std::string>& complaints) {
   std::int64_t scored = 0;
   for (const RealRunHead& head : store.real_runs()) {

@@ -9,25 +9,26 @@
 
 namespace swarmsmith {
 
-/// What a check of a store found.
+/// The result of checking a store.
 struct Verification {
-  std::vector<std::string> complaints;  ///< a sentence each; none when the store is clean
+  std::vector<std::string> complaints;  ///< a sentence each; empty if the store is correct
   std::int64_t designs = 0;
   std::int64_t finished = 0;
   std::int64_t evaluations = 0;
-  std::int64_t real_runs = 0;  ///< that have a score
+  std::int64_t real_runs = 0;  ///< real runs that have a score
 };
 
-/// Plays every race of the store again from the stored scores, and compares what comes out with
-/// what is stored: candidates, pairs, steps, eliminations, elites, budget, winner. A design that is
-/// not finished is compared as far as it has come. Also evaluations with two different results,
-/// SQLite's own integrity check, and whether each campaign is the one of the file that the store
-/// keeps of it; and the scores of real runs, from their control cycles. Of several campaigns each
-/// is looked at as if it were alone, and so are the ids in its complaints. Imported ones have no
-/// races. Fails when a campaign cannot be played by this program at all.
+/// Replays every race of the store from the stored scores, and compares the results with the stored
+/// ones: candidates, pairs, steps, eliminations, elites, budget, winner. An unfinished design is
+/// compared up to its last step. Also checks for evaluations with two different results, runs
+/// SQLite's own integrity check, checks that each campaign agrees with the campaign file in the
+/// store, and recomputes the scores of real runs from their control cycles. If there are several
+/// campaigns, each one is checked as if it were alone, and the ids in its complaints are numbered
+/// in the same way. Imported campaigns have no races. Fails if this program cannot replay a
+/// campaign at all.
 Expected<Verification> verify(StoreReader& store);
 
-/// The designs of a store's only campaign, made from the file that it keeps.
+/// The designs of a store's only campaign, made from its stored campaign file.
 Expected<std::vector<DesignPlan>> plans_of(const CampaignRow& row);
 
 }  // namespace swarmsmith

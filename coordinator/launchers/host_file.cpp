@@ -33,7 +33,7 @@ std::vector<Word> words_of(std::string_view line) {
   return words;
 }
 
-/// Reads one file, line by line.
+/// Parses one file, line by line.
 class Reader {
  public:
   explicit Reader(std::string file) : file_(std::move(file)) {}

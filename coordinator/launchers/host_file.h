@@ -10,22 +10,24 @@
 
 namespace swarmsmith {
 
-/// A host that ssh reaches, and what is different there.
+/// A host that ssh reaches, and its settings that differ from the defaults.
 struct SshHost {
-  std::string name;        ///< as ssh takes it: host, user@host, or an alias of its configuration
+  std::string name;        ///< in the form that ssh accepts: host, user@host, or an alias from
+                           ///< ssh's configuration
   std::int64_t slots = 0;  ///< 0: the CPUs that the worker finds
-  std::filesystem::path program;      ///< empty: where this host has it
-  std::filesystem::path key;          ///< empty: where this host has it
-  std::filesystem::path coordinator;  ///< empty: where this host has it
+  std::filesystem::path program;      ///< empty: the same path as on this host
+  std::filesystem::path key;          ///< empty: the same path as on this host
+  std::filesystem::path coordinator;  ///< empty: the same path as on this host
 
   friend bool operator==(const SshHost&, const SshHost&) = default;
 };
 
-/// Hosts, or everything that is wrong with their file: `where` is file:line:column.
+/// The hosts, or all errors in their file: `where` is file:line:column.
 using HostsOrErrors = tl::expected<std::vector<SshHost>, std::vector<Error>>;
 
-/// A host file has a line a host, `host [slots=N] [program=PATH] [key=PATH] [coordinator=PATH]`,
-/// and comments from # on. A host that is named twice, and a file without hosts, are errors.
+/// A host file has one host per line, `host [slots=N] [program=PATH] [key=PATH]
+/// [coordinator=PATH]`, and comments that begin with #. Duplicate hosts and an empty file are
+/// errors.
 HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& file);
 HostsOrErrors read_hosts(const std::filesystem::path& file);
 

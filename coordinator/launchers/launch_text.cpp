@@ -11,7 +11,7 @@ constexpr std::int64_t kMostProcesses = 1000;
 constexpr std::int64_t kMostJobs = 10'000;
 constexpr std::int64_t kMostCpus = 1024;
 
-/// Digits alone, perhaps in groups (1_000), within 1 and `most`.
+/// Parses digits, optionally in groups (1_000), as a number from 1 to `most`.
 std::optional<std::int64_t> number_in(std::string_view text, std::int64_t most) {
   std::string digits(text);
   std::erase(digits, '_');

@@ -7,10 +7,10 @@
 
 namespace swarmsmith {
 
-/// Reads the value of `--workers`: auto, N, local:N, ssh:HOSTFILE, slurm or slurm:JOBSxCPUS. N
-/// workers have a slot each, so that others on a shared host keep their cores; auto takes all
-/// cores. What it does not say stays as in `defaults`, the campaign file's. Errors: BadInput
-/// without a place.
+/// Parses the value of `--workers`: auto, N, local:N, ssh:HOSTFILE, slurm or slurm:JOBSxCPUS. N
+/// workers have one slot each, so that other users of a shared host keep their cores; auto takes
+/// all cores. Settings that the value does not give keep their values from `defaults`, the campaign
+/// file's settings. Errors: BadInput without a place.
 Expected<LaunchOptions> parse_workers(std::string_view text, const LaunchOptions& defaults);
 
 }  // namespace swarmsmith

@@ -18,9 +18,9 @@ constexpr Duration kShortLife = std::chrono::seconds(5);
 constexpr Duration kFirstPause = std::chrono::milliseconds(100);
 constexpr Duration kLongestPause = std::chrono::seconds(10);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
-/// Of one worker, in a row.
+/// Of the same worker, in a row.
 constexpr int kMostFailures = 5;
-/// swarmsmith-worker's exit code for a coordinator that does not want it.
+/// The exit code of swarmsmith-worker if the coordinator refuses it.
 constexpr int kRefused = 7;
 
 }  // namespace
@@ -59,9 +59,9 @@ LocalWorkers::~LocalWorkers() {
   stop(kEndGrace);
 }
 
-/// The worker itself asks to die with its parent, and checks that the parent is still the one that
-/// it was told: so no moment is left in which it could be orphaned. Note that the kernel means the
-/// parent *thread*, which is why one thread does all of this.
+/// The worker itself asks the kernel to kill it with its parent, and then checks that its parent is
+/// still the process that started it, so it can never be orphaned. For the kernel, the parent is a
+/// *thread*, so all workers must be started by one thread.
 Expected<void> LocalWorkers::launch(Worker& worker, TimePoint now) {
   const auto started = worker.process.start(command_, ChildProcess::Streams::Inherited, variables_);
   if (!started) {
@@ -78,8 +78,8 @@ void LocalWorkers::on_ended(Worker& worker, int status, TimePoint now) {
         "the coordinator refuses its own workers (" + command_.front() + " is of another build)";
   }
   const bool lived = now - worker.started >= kShortLife;
-  // Being killed is an accident; ending by oneself, again and again, is not, whatever the code: a
-  // worker ends well only when it is asked to.
+  // A worker that is killed had an accident; one that keeps ending without a signal has failed,
+  // with whatever exit code: a worker exits normally only when it is asked to.
   const bool failed = WIFEXITED(status) && !lived;
   worker.failures = failed ? worker.failures + 1 : 0;
   if (worker.failures >= kMostFailures && trouble_.empty()) {

@@ -13,24 +13,25 @@
 namespace swarmsmith {
 
 struct LocalWorkersOptions {
-  std::string endpoint;  ///< of the coordinator
+  std::string endpoint;  ///< the coordinator's endpoint
   int processes = 1;
-  int slots = 0;  ///< of each process; 0: as many as usable processors, shared among them
-  std::filesystem::path program;       ///< empty: `find_worker_program`
-  std::vector<std::string> arguments;  ///< more of them, for the program
-  std::string secret{};                ///< by which the coordinator knows them; empty for none
+  int slots = 0;  ///< for each process; 0: the usable processors, shared among the processes
+  std::filesystem::path program;       ///< empty: the result of `find_worker_program`
+  std::vector<std::string> arguments;  ///< additional arguments for the program
+  std::string secret{};                ///< a secret by which the coordinator recognises these
+                                       ///< workers; empty: none
 };
 
-/// Worker processes of this host. They die with this process whatever happens to it. One that ends
-/// is started again, at once or, when it did not live long, after a growing pause.
+/// Worker processes of this host. They die with this process, however it ends. A worker that ends
+/// is started again, at once or, if it ran only for a short time, after a pause that grows.
 class LocalWorkers final : public Launcher {
  public:
   static Expected<LocalWorkers> start(const LocalWorkersOptions& options);
-  /// Ends them: SIGTERM, and SIGKILL when that takes too long.
+  /// Ends the workers: first SIGTERM, then SIGKILL if they take too long.
   ~LocalWorkers() override;
   LocalWorkers(LocalWorkers&&) noexcept = default;
 
-  /// Trouble: they were refused, or the program does not start.
+  /// Errors: the coordinator refused the workers, or the program does not start.
   std::string tend(TimePoint now) override;
   std::string stop(Duration grace) override;
   LauncherStatus status() const override;
@@ -43,7 +44,7 @@ class LocalWorkers final : public Launcher {
     TimePoint started;
     TimePoint start_at;
     Backoff backoff;
-    int failures = 0;  ///< ended at once by itself, well or not, in a row
+    int failures = 0;  ///< quick ends in a row, not by a signal but with any exit code
   };
 
   LocalWorkers() = default;
@@ -51,7 +52,7 @@ class LocalWorkers final : public Launcher {
   void on_ended(Worker& worker, int status, TimePoint now);
 
   std::vector<std::string> command_;
-  std::vector<std::string> variables_;  ///< of their environment
+  std::vector<std::string> variables_;  ///< environment variables for the workers
   std::vector<Worker> workers_;
   std::int64_t wanted_ = 0;
   std::string trouble_;

@@ -10,13 +10,13 @@
 namespace swarmsmith {
 namespace {
 
-/// A job that ran so long was a worker.
+/// A job that ran at least this long was a working worker.
 constexpr Duration kShortJob = std::chrono::seconds(30);
 constexpr int kMostQuickEnds = 5;
 
 enum class Phase { Pending, Running, Leaving, Cancelled, Failed, Ended };
 
-/// States as squeue(1) lists them. An unknown one is a job that is still there.
+/// States as listed in squeue(1). A job in an unknown state counts as still there.
 Phase phase_of(const std::string& state) {
   static const std::set<std::string> kPending = {"PENDING",      "CONFIGURING",  "REQUEUED",
                                                  "REQUEUE_FED",  "SUSPENDED",    "REQUEUE_HOLD",
@@ -30,7 +30,7 @@ Phase phase_of(const std::string& state) {
   return kEnded.contains(state) ? Phase::Ended : Phase::Running;
 }
 
-/// Reasons of squeue(1) that only a person ends.
+/// Reasons of squeue(1) that stay until a person acts.
 bool is_for_good(const std::string& reason) {
   static const std::set<std::string> kReasons = {
       "AccountNotAllowed", "BadConstraints",     "InvalidAccount",     "InvalidQOS",
@@ -43,7 +43,8 @@ bool is_live(Phase phase) {
   return phase == Phase::Pending || phase == Phase::Running || phase == Phase::Leaving;
 }
 
-/// Sentences of sbatch and squeue for a Slurm that is away for a while, not for a wrong request.
+/// Whether a message of sbatch or squeue means that Slurm is temporarily unavailable, and not that
+/// the request is wrong.
 bool passes_by_itself(std::string_view message) {
   static constexpr std::array<std::string_view, 7> kSigns = {"Unable to contact slurm controller",
                                                              "Socket timed out",
@@ -88,7 +89,7 @@ SlurmJobs::Action SlurmJobs::next(TimePoint now) {
   return LookAtQueue{};
 }
 
-/// Of each job that ran or has just ended.
+/// Updates the record of how long jobs ran, for jobs that are running or have just ended.
 void SlurmJobs::note_life(const std::vector<QueuedJob>& jobs, TimePoint now) {
   for (const QueuedJob& job : jobs) {
     const auto since = running_since_.find(job.id);
@@ -129,14 +130,14 @@ void SlurmJobs::count(const std::vector<QueuedJob>& jobs, TimePoint now) {
     }
     const auto before = states_.find(job.id);
     const bool was_live = before != states_.end() && is_live(phase_of(before->second));
-    // What ended before this launcher began is history.
+    // Jobs that ended before this launcher started do not count.
     const bool is_new = before == states_.end() && seen_;
     if (is_live(phase) || (!was_live && !is_new)) continue;
     if (phase == Phase::Cancelled) ++cancelled;
     if (phase == Phase::Failed) failed_job_ = job.id;
     if (phase != Phase::Cancelled) ++replaceable;
   }
-  // Slurm forgets what ended after some minutes.
+  // Slurm forgets ended jobs after some minutes.
   for (const auto& [id, state] : states_)
     replaceable += !states.contains(id) && is_live(phase_of(state)) ? 1 : 0;
   if (cancelled > 0) {

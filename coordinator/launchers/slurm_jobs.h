@@ -13,7 +13,7 @@
 
 namespace swarmsmith {
 
-/// One job as squeue lists it.
+/// A job in the format of squeue.
 struct QueuedJob {
   std::string id;      ///< "12_3" for an element of an array
   std::string state;   ///< "PENDING", "RUNNING", "CANCELLED", ...
@@ -22,27 +22,27 @@ struct QueuedJob {
   friend bool operator==(const QueuedJob&, const QueuedJob&) = default;
 };
 
-/// Lines "id|state|reason" (squeue --format="%i|%T|%r"); others are left out.
+/// Parses lines "id|state|reason" (squeue --format="%i|%T|%r"); other lines are ignored.
 std::vector<QueuedJob> parse_queue(std::string_view text);
 
 struct SlurmTimes {
-  /// Between two looks at the queue: growing while nothing changes there.
+  /// Time between two queries of the queue; it grows while nothing changes there.
   Duration first_poll = std::chrono::seconds(5);
   Duration longest_poll = std::chrono::minutes(1);
-  /// Between two submissions: doubling while jobs have to be replaced again and again.
+  /// Time between two submissions; it doubles while jobs must be replaced again and again.
   Duration first_pause = std::chrono::seconds(10);
   Duration longest_pause = std::chrono::minutes(10);
 };
 
-/// Decides when to look at Slurm's queue and how many jobs to submit. Pure: what Slurm said comes
-/// in with the time, the next thing to do comes out.
+/// Decides when to query Slurm's queue and how many jobs to submit. Pure: Slurm's answers and the
+/// time come in, the next action comes out.
 ///
-/// Nothing is submitted but on a fresh view of the queue: so jobs of an earlier coordinator of the
-/// same campaign are found and counted, and a submission whose answer got lost is not made twice.
-/// A job that ended while work is left is replaced, except when a person cancelled it: who
-/// does that wants fewer workers. Workers end well only when they are asked to: if jobs complete as
-/// soon as they run, again and again, their program is none. Jobs that a person submitted by hand
-/// under the same name count.
+/// Jobs are submitted only after a fresh query of the queue. So jobs of an earlier coordinator of
+/// the same campaign are found and counted, and a submission whose answer was lost is not repeated.
+/// A job that ended while work is left is replaced, unless a person cancelled it: that person wants
+/// fewer workers. A worker exits normally only when it is asked to: if several jobs in a row
+/// complete as soon as they run, their program is not a worker. Jobs with the same name that a
+/// person submitted by hand count too.
 class SlurmJobs {
  public:
   SlurmJobs(std::int64_t wanted, SlurmTimes times, Rng jitter);
@@ -53,18 +53,18 @@ class SlurmJobs {
     std::int64_t jobs;
   };
   using Action = std::variant<Nothing, LookAtQueue, Submit>;
-  /// What to do now. After LookAtQueue and Submit: nothing until the answer was told.
+  /// The next action. After LookAtQueue and Submit, it is Nothing until their answer has come.
   Action next(TimePoint now);
 
   void on_queue(const std::vector<QueuedJob>& jobs, TimePoint now);
-  /// squeue failed and said this.
+  /// squeue failed with this message.
   void on_no_queue(const std::string& message, TimePoint now);
   void on_submitted(std::int64_t jobs, TimePoint now);
-  /// sbatch failed and said this.
+  /// sbatch failed with this message.
   void on_refused(const std::string& message, TimePoint now);
 
-  /// Why there can be no workers at all: Slurm refused the very first jobs, or they do nothing.
-  /// Empty otherwise.
+  /// The reason why there can be no workers at all: Slurm refused the very first jobs, or the jobs
+  /// end at once. Empty otherwise.
   const std::string& trouble() const { return trouble_; }
   LauncherStatus status() const;
 
@@ -76,18 +76,19 @@ class SlurmJobs {
   std::int64_t wanted_;
   SlurmTimes times_;
   Backoff pause_;
-  std::map<std::string, std::string> states_;       ///< of each job when last seen
-  std::map<std::string, TimePoint> running_since_;  ///< of those that run, as far as was seen
+  std::map<std::string, std::string> states_;       ///< last known state of each job
+  std::map<std::string, TimePoint> running_since_;  ///< when each job was first seen running
   int quick_ends_ = 0;                              ///< jobs that completed at once, in a row
-  bool seen_ = false;                               ///< the queue was
-  bool submitted_ = false;                          ///< jobs were, by this launcher or before it
-  bool asked_ = false;                              ///< and no answer yet
+  bool seen_ = false;                               ///< whether the queue has been read
+  bool submitted_ = false;                          ///< whether jobs were submitted, by this
+                                                    ///< launcher or an earlier one
+  bool asked_ = false;                              ///< whether an answer is pending
   std::int64_t running_ = 0;
   std::int64_t pending_ = 0;
-  std::int64_t leaving_ = 0;  ///< on their way out
+  std::int64_t leaving_ = 0;  ///< jobs that are completing
   std::int64_t to_submit_ = 0;
   std::string waits_for_;
-  std::string failed_job_;  ///< the last one that Slurm calls failed
+  std::string failed_job_;  ///< the last job in a state that counts as failed
   std::string queue_note_;
   std::string submit_note_;
   std::string trouble_;

@@ -5,12 +5,12 @@
 namespace swarmsmith {
 namespace {
 
-/// A line of options. sbatch takes quotes as a shell does.
+/// A line of options. sbatch accepts quotes like a shell.
 std::string directive(const std::vector<std::string>& words) {
   return "#SBATCH " + shell_line(words) + "\n";
 }
 
-/// Slurm replaces %A and the like in names of files.
+/// Escapes %: Slurm replaces patterns such as %A in file names.
 std::string without_patterns(const std::string& path) {
   std::string text;
   for (const char letter : path) {

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// The batch script that starts one worker a job.
+/// The contents of the batch script that starts one worker per job.
 struct SlurmScript {
   std::string job_name;
   std::filesystem::path folder;      ///< for the jobs' outputs; absolute
@@ -16,9 +16,10 @@ struct SlurmScript {
   SlurmOptions options;
 };
 
-/// Its text. All that sbatch needs is in it, so that a person can submit it by hand:
-/// --requeue, a signal a minute before the time limit (to the shell, which by then *is* the worker:
-/// B: and exec), and the user's own options, which come last and win.
+/// The text of the script. It has everything that sbatch needs, so that a person can submit it by
+/// hand: --requeue; a signal one minute before the time limit, sent to the shell (B:), which the
+/// worker has replaced by then (exec); and the user's own options, which come last and have
+/// priority.
 std::string text_of(const SlurmScript& script);
 
 }  // namespace swarmsmith

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kPatience{60};
 
-/// Without the variables of a job that this process may be in itself: sbatch hands them on, and
-/// SLURM_RESTART_COUNT of the coordinator would be the workers'.
+/// Removes the variables of a job in which this process itself may be running: sbatch passes them
+/// on, and the workers would get the coordinator's SLURM_RESTART_COUNT.
 std::vector<std::string> outside_of_jobs(std::vector<std::string> words) {
   std::vector<std::string> line{"env"};
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -31,7 +31,7 @@ std::vector<std::string> outside_of_jobs(std::vector<std::string> words) {
   return line;
 }
 
-/// The program's own words, on one line and without its name.
+/// A message of the program, on one line and without the program's name.
 std::string sentence(std::string text) {
   while (text.ends_with('\n'))
     text.pop_back();
@@ -51,10 +51,10 @@ std::string user() {
 
 Expected<void> write_script(const fs::path& file, const std::string& text) {
   std::error_code failed;
-  // What workers say is written there.
+  // The workers' output is written to this folder.
   if (fs::create_directories(file.parent_path(), failed))
     fs::permissions(file.parent_path(), fs::perms::owner_all, failed);
-  // Another process may submit it right now: it is replaced as a whole.
+  // Another process may be submitting the script right now, so it is replaced atomically.
   const fs::path next = file.string() + ".new";
   std::ofstream stream(next, std::ios::binary | std::ios::trunc);
   stream << text;
@@ -118,7 +118,7 @@ Expected<SlurmWorkers> SlurmWorkers::start(SlurmWorkersOptions options) {
 }
 
 SlurmWorkers::~SlurmWorkers() {
-  // The thread of a program that still runs ends with it.
+  // Stops the program if one is running, and with it the thread that waits for it.
   if (interrupt_) interrupt_->trigger();
 }
 
@@ -171,7 +171,7 @@ std::string SlurmWorkers::tend(TimePoint now) {
 
 std::string SlurmWorkers::stop(Duration /*grace*/) {
   if (std::exchange(stopped_, true)) return {};
-  // A submission under way would be missed by the cancellation.
+  // The cancellation would miss a submission that is still under way.
   if (answer_.valid()) answer_.get();
   ask({"scancel", user(), "--name=" + options_.job_name});
   const Answer answer = answer_.get();

@@ -13,30 +13,31 @@
 namespace swarmsmith {
 namespace {
 
-/// A worker that ran so long did not fail at its start.
+/// A worker that ran at least this long did not fail at its start.
 constexpr Duration kShortConnection = std::chrono::seconds(30);
 constexpr Duration kFarewell = std::chrono::seconds(2);
-/// Ends without an error of one worker, each after a short life, in a row.
+/// Quick ends of one worker without an error, in a row.
 constexpr int kMostShortConnections = 5;
-/// Logins under way: at first and after one failed, and at most. Each one that succeeds allows one
-/// more. sshd turns newcomers away from 10 on, where nothing else is set.
+/// Limits on simultaneous logins: the value at first and after a failed login, and the largest
+/// value. Each successful login raises the limit by one. By default, sshd starts to reject
+/// connections at 10.
 constexpr int kFewLogins = 3;
 constexpr int kMostLogins = 9;
-/// A login that takes longer, such as that of a host which does not answer, is not waited for.
+/// A login that takes longer, because the host does not answer, no longer counts as under way.
 constexpr Duration kLoginTime = std::chrono::seconds(12);
-constexpr int kBuildRefused = 7;  // swarmsmith-worker: another build
-constexpr int kCannotRun = 126;   // the shell of that host
-constexpr int kNoProgram = 127;   // the same
-constexpr int kSshFailed = 255;   // ssh itself
+constexpr int kBuildRefused = 7;  // of swarmsmith-worker: it is another build
+constexpr int kCannotRun = 126;   // of the host's shell: the program cannot be executed
+constexpr int kNoProgram = 127;   // of the host's shell: there is no such program
+constexpr int kSshFailed = 255;   // of ssh itself
 
 bool is_sent_to(const SshWorkersOptions& options, const SshHost& host) {
   return !options.bundles.empty() && host.program.empty();
 }
 
-/// ssh to a host, with more options, and without a command for it.
+/// The command line of ssh to a host, with more options, up to the command.
 std::vector<std::string> words_to(const SshWorkersOptions& options, const SshHost& host,
                                   const std::vector<std::string>& more) {
-  // ssh takes the first of several values: the user's options win.
+  // ssh uses the first of several values, so the user's options have priority.
   std::vector<std::string> words{options.ssh};
   std::ranges::copy(options.options, std::back_inserter(words));
   for (const char* word : {"-T", "-a", "-x", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "-o",
@@ -49,7 +50,7 @@ std::vector<std::string> words_to(const SshWorkersOptions& options, const SshHos
   return words;
 }
 
-/// What an exit code of ssh means, for people. `sent`: the worker was.
+/// The meaning of ssh's exit code, for people. `sent`: the worker came from a bundle.
 std::string reason(int status, const std::string& said, bool sent) {
   const std::string words = said.empty() ? "" : ": " + said;
   if (!WIFEXITED(status)) return "ssh was killed";
@@ -196,7 +197,7 @@ void SshWorkers::on_lacking(Worker& worker, const WorkerBundle& bundle, TimePoin
   }
   worker.start_at = now;
   const auto sent = sent_.find(&bundle);
-  // It looked before the bundle was on another host, and the two may share a cache: it looks again.
+  // Checked before the bundle reached another host, which may share the cache: check again.
   if (sent != sent_.end() && worker.started < sent->second) return;
   worker.trouble = "the worker is sent there";
   const bool wait = sent == sent_.end() && is_sent_now(&bundle);
@@ -220,7 +221,7 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
   if (!worker.begun) most_logins_ = kFewLogins;
   worker.trouble = reason(status, worker.said, ships);
   worker.refused = code == kBuildRefused;
-  // A worker ends well only when it is asked to.
+  // A worker exits normally only when it is asked to.
   const bool quick = code == 0 && now - worker.started < kShortConnection;
   worker.quick_ends = quick ? worker.quick_ends + 1 : 0;
   if (worker.quick_ends >= kMostShortConnections) {
@@ -235,7 +236,7 @@ void SshWorkers::on_ended(Worker& worker, int status, TimePoint now) {
 
 std::string SshWorkers::tend(TimePoint now) {
   for (Worker& worker : workers_) {
-    hear(worker);  // takes what it says, so that it can go on
+    hear(worker);  // reads its output, so that it does not block
     if (const auto status = worker.ssh.ended()) {
       hear(worker);
       worker.connected = false;

@@ -26,7 +26,7 @@ Started start_local(const WorkersSetup& setup) {
     arguments.emplace_back("--key");
     arguments.push_back(setup.address.key.string());
   }
-  // Never more slots in all than were asked for.
+  // The total number of slots must not exceed the requested number.
   std::int64_t processes = setup.launch.processes;
   if (setup.launch.slots > 0) processes = std::min(processes, setup.launch.slots);
   const int each = static_cast<int>(setup.launch.slots / processes);
@@ -37,7 +37,7 @@ Started start_local(const WorkersSetup& setup) {
                                     .secret = setup.local_secret}));
 }
 
-/// Those to send; none when none shall be.
+/// The bundles to send; none if `ship` is off.
 Expected<std::vector<WorkerBundle>> bundles_of(const WorkersSetup& setup) {
   return setup.launch.ship ? find_bundles() : std::vector<WorkerBundle>();
 }

@@ -11,16 +11,16 @@
 
 namespace swarmsmith {
 
-/// What a campaign's workers need, however they are started.
+/// The settings for a campaign's workers, for every kind of launcher.
 struct WorkersSetup {
   LaunchOptions launch;
   WorkerAddress address;
-  int local_slots = 0;                 ///< of each local process; 0: the cores, shared
-  std::vector<std::string> arguments;  ///< more of them, for the worker program
-  std::string local_secret;            ///< by which the coordinator knows those of this host
+  int local_slots = 0;                 ///< for each local process; 0: the cores, shared among them
+  std::vector<std::string> arguments;  ///< additional arguments for the worker program
+  std::string local_secret;            ///< identifies the workers on this host
   std::string campaign_digest;
   std::filesystem::path store;
-  /// Where files for workers elsewhere go: all of them must see it.
+  /// A folder for the files of workers on other hosts; all these hosts must see it.
   std::filesystem::path shared_folder;
 
   bool wants_workers() const {
@@ -28,7 +28,7 @@ struct WorkersSetup {
   }
 };
 
-/// Starts them. Null when none are wanted. Errors: everything that is wrong.
+/// Starts the workers. Null if no workers are wanted. Errors: all problems that were found.
 tl::expected<std::unique_ptr<Launcher>, std::vector<Error>> start_workers(
     const WorkersSetup& setup);
 

@@ -15,18 +15,19 @@ namespace fs = std::filesystem;
 constexpr std::string_view kArchitectures[] = {"x86_64", "aarch64"};
 constexpr const char* kPlaces[] = {"../bundle", "../share/swarmsmith"};
 
-// For any shell of a person's account that hands it on to sh: no line break, no single quote. On
-// the host there need be no more than what each Linux has, so no xz.
+// Works in any login shell that passes it on to sh: no line breaks, no single quotes. It uses only
+// programs that every Linux host has, so not xz.
 
 constexpr std::string_view kCache = "${XDG_CACHE_HOME:-$HOME/.cache}/swarmsmith";
 
-/// Whether the folder $1 has all of its files as they were packed.
+/// Whether all files of the folder $1 are present and unchanged.
 constexpr std::string_view kIsWhole =
     R"(whole() { (cd "$1" && sha256sum -c SHA256SUMS) >/dev/null 2>&1; }; )";
 
-/// $1: folder in the cache; $2: folder in the archive, which is the input. A folder that another
-/// one has put there meanwhile takes this one in. Files are as old as their installation: caches
-/// are emptied by age. What a killed installation left goes after a day.
+/// $1: folder in the cache; $2: folder in the archive, which comes on the standard input. If
+/// another installation has put the folder there in the meantime, mv moves this one into it. Files
+/// get the time of the installation as their modification time, because caches are emptied by age.
+/// Leftovers of a killed installation are removed after a day.
 constexpr std::string_view kInstall =
     R"(fail() { echo "$1" | head -n 1 >&2; exit 1; }; clean() { rm -rf "$t"; }; )"
     R"(e=$(mkdir -p "$c" 2>&1) || fail "$e"; cd "$c" || exit 1; )"
@@ -43,7 +44,7 @@ std::string line(std::string_view text) {
   return std::string(text.substr(0, text.find('\n')));
 }
 
-/// Whether xz can unpack it to the end.
+/// Whether xz can decompress the whole archive.
 Expected<void> check(const fs::path& archive) {
   const Interrupt never;
   const auto end = run_process({.words = {"xz", "-tq", archive.string()}}, never);

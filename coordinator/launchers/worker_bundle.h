@@ -9,40 +9,41 @@
 
 namespace swarmsmith {
 
-/// A worker with loader and libraries of its own, for hosts where nothing is installed:
+/// A worker with its own loader and libraries, for hosts where nothing is installed;
 /// packaging/bundle makes its archive.
 struct WorkerBundle {
-  std::string architecture;       ///< as `uname -m` has it
-  std::filesystem::path archive;  ///< FOLDER/NAME.tar.xz, with the folder NAME in it
-  std::string folder;             ///< its name in caches: NAME and the begin of the SHA-256
+  std::string architecture;       ///< in the format of `uname -m`
+  std::filesystem::path archive;  ///< FOLDER/NAME.tar.xz, which contains the folder NAME
+  std::string folder;             ///< its name in caches: NAME and the beginning of the SHA-256
 
   friend bool operator==(const WorkerBundle&, const WorkerBundle&) = default;
 };
 
-/// Those of this version, one an architecture: in the folder that SWARMSMITH_BUNDLES names, else in
-/// ../bundle (of a build) or ../share/swarmsmith, seen from the folder of this program. Errors:
-/// there is none, an archive is damaged, or xz is missing.
+/// The bundles of this version, one for each architecture: in the folder given by
+/// SWARMSMITH_BUNDLES, else in ../bundle (of a build) or ../share/swarmsmith, relative to the
+/// folder of this program. Errors: no bundle is found, an archive is damaged, or xz is missing.
 Expected<std::vector<WorkerBundle>> find_bundles();
 
-/// Exit codes of `start_words`: no bundle is for that host's architecture; the one that is, by its
-/// place among them, is not in the cache, or not whole.
+/// Exit codes of `start_words`: there is no bundle for the host's architecture, or the bundle is
+/// missing or incomplete in the cache.
 constexpr int kNoBundle = 90;
-constexpr int kNotInCache = 91;  ///< and the place
+constexpr int kNotInCache = 91;  ///< plus the bundle's index
 
-/// The words that start the worker of the bundle that a host needs, from its cache
-/// (~/.cache/swarmsmith, or in XDG_CACHE_HOME), or from `cache`. If it is not there they write one
-/// line with the host's architecture, and end with one of the codes above.
+/// The command line that starts the worker of the bundle that fits the host, from the host's cache
+/// (~/.cache/swarmsmith, or in XDG_CACHE_HOME), or from `cache`. If the bundle is not there, the
+/// command prints one line with the host's architecture, and exits with one of the codes above.
 std::vector<std::string> start_words(const std::vector<WorkerBundle>& bundles,
                                      const std::filesystem::path& cache,
                                      const std::vector<std::string>& arguments);
 
-/// A line for /bin/sh that sends a bundle to what installs it, which `way` (such as ssh and a host)
-/// takes to where they run; empty: here. Installed is what has arrived as a whole, or nothing: its
-/// files are checked, and then appear at once, in place of those of a bundle that is not whole. So
-/// others may do the same at the same time. Writes the path of the cache, or one line why not.
+/// A line for /bin/sh that sends a bundle to a host and installs it there; `way` (such as ssh and a
+/// host) is the command that runs the installation on the host; empty: on this host. The
+/// installation is atomic: the files are checked and then appear all at once, and replace a bundle
+/// that is not complete, so several installations may run at the same time. The line prints the
+/// path of the cache, or one line with an error.
 std::string send_line(const WorkerBundle& bundle, const std::vector<std::string>& way);
 
-/// Does so on this host, if it is not there yet. Returns the cache.
+/// Installs the bundle on this host, unless it is installed already. Returns the cache.
 Expected<std::filesystem::path> install_here(const WorkerBundle& bundle);
 
 }  // namespace swarmsmith

@@ -14,33 +14,34 @@
 
 namespace swarmsmith {
 
-/// How much others can make a coordinator write, do and send. A stranger is a principal without
-/// an accepted result; a thousand workers of one that come at once are within all of these.
+/// Limits on how much work, disk writing and network traffic other parties can cause a coordinator.
+/// A stranger is a principal without an accepted result; a thousand workers of one principal that
+/// connect at the same time stay within all of these limits.
 struct BudgetOptions {
-  // Bytes of rows and of their lines in the log.
+  // Bytes of rows, and of their lines in the log.
   Rate rows_of_stranger{.burst = 128 << 10, .per_second = 512};
-  Rate rows_of_strangers{.burst = 256 << 10, .per_second = 1024};  ///< all together
-  Rate rows_of_known{.burst = 512 << 10, .per_second = 4096};      ///< each
+  Rate rows_of_strangers{.burst = 256 << 10, .per_second = 1024};  ///< for all strangers together
+  Rate rows_of_known{.burst = 512 << 10, .per_second = 4096};      ///< for each known principal
   Rate hellos_of_peer{.burst = 10, .per_second = 1};
   Rate hellos_of_principal{.burst = 4000, .per_second = 100};
   Rate hellos_of_strangers{.burst = 10'000, .per_second = 500};
-  /// Scenarios and statuses: many bytes for few. But of any size, one.
+  /// Scenarios and statuses are large answers to small requests. A single answer may have any size.
   Rate answers_of_peer{.burst = 20, .per_second = 2};
   Rate answer_bytes{.burst = 16 << 20, .per_second = 128 << 20};
   Rate commands{.burst = 1000, .per_second = 10};
-  /// How often an event reports what was left out.
+  /// How often an event reports how much was left out.
   Duration tell_every = std::chrono::minutes(1);
 };
 
-/// Whose doing something is.
+/// The principal that causes something.
 struct Source {
   std::string_view principal;
   bool is_stranger = true;
 };
 
-/// Keeps these budgets. What is beyond them is left out, counted by kind, and told. Rows of the
-/// answer are never asked about, nor what the coordinator decides itself, nor what is said by
-/// workers that it started. Pure.
+/// Enforces these budgets. Rows and messages beyond them are left out, counted by kind, and
+/// reported in events. There is no limit on rows of the answer, on decisions of the coordinator
+/// itself, and on its own workers. Pure.
 class Budgets {
  public:
   explicit Budgets(const BudgetOptions& options = {});
@@ -51,9 +52,10 @@ class Budgets {
   bool may_command(TimePoint now) { return commands_.take(1, now); }
 
   void leave_out(std::string_view kind);
-  /// By kind, since the start.
+  /// Counts by kind, since the start.
   const std::map<std::string, std::uint64_t, std::less<>>& left_out() const { return left_out_; }
-  /// What was left out since the last time, as events, when it is time to tell; or `now_or_never`.
+  /// Events that report how much was left out since the last events, if it is time to report or
+  /// `now_or_never` is set.
   std::vector<EventRow> take_news(TimePoint now, bool now_or_never = false);
 
  private:
@@ -69,11 +71,11 @@ class Budgets {
   TimePoint tell_again_;
 };
 
-/// About, in a store with its indexes and in the log.
+/// The approximate size of a row in a store with its indexes, plus its line in the log.
 std::size_t bytes_of(const WorkerRow& row);
 std::size_t bytes_of(const EventRow& row);
 std::size_t bytes_of(const FailureRow& row);
-/// Of a worker's row that is there already, a line.
+/// For a worker's row that exists already, the size of its log line.
 inline constexpr std::size_t kChangeBytes = 150;
 inline constexpr std::size_t kConflictBytes = 120;
 inline constexpr std::size_t kAttemptBytes = 60;

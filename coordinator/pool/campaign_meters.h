@@ -9,17 +9,18 @@
 
 namespace swarmsmith {
 
-/// How often times were how long. One set of bounds for all, from the shortest evaluation to a
-/// program of a quarter of an hour, three a decade at most: Prometheus wants them fixed.
+/// A histogram of times. All histograms have the same bounds, because Prometheus needs fixed ones:
+/// from the shortest evaluation to a program that takes a quarter of an hour, with at most three
+/// bounds per decade.
 struct Histogram {
-  /// Upper ends, in seconds; what is longer falls behind the last.
+  /// Upper bounds in seconds; longer times are counted after the last bound.
   static constexpr std::array<double, 15> kBounds = {
       0.0001, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000};
 
-  std::array<std::uint64_t, kBounds.size() + 1> counts{};  ///< each of its own bound only
+  std::array<std::uint64_t, kBounds.size() + 1> counts{};  ///< not cumulative
   double sum = 0;                                          ///< seconds
 
-  /// Less than none, of a clock that was set back, counts as none.
+  /// A negative time, from a clock that was set back, counts as zero.
   void observe(double seconds) {
     seconds = std::max(seconds, 0.0);
     const auto bound = std::ranges::lower_bound(kBounds, seconds);
@@ -36,16 +37,16 @@ struct Histogram {
   }
 };
 
-/// Numbers of one campaign for people, counted since the start of this process.
+/// Counts and times of one campaign for people, since the start of this process.
 struct CampaignMeters {
-  std::uint64_t leased = 0;  ///< tasks, each time that a worker got one
+  std::uint64_t leased = 0;  ///< leases of tasks, repeated ones included
   std::uint64_t done = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t no_score = 0;   ///< attempts that a worker said have none
+  std::uint64_t no_score = 0;   ///< attempts without a score, as reported by a worker
   std::uint64_t timed_out = 0;  ///< attempts that took too long
-  Histogram evaluation;         ///< what the worker measured
-  Histogram queue_wait;         ///< from wanted to first leased
-  Histogram round_trip;         ///< from leased to the result's arrival
+  Histogram evaluation;         ///< as measured by the worker
+  Histogram queue_wait;         ///< from when it is wanted to its first lease
+  Histogram round_trip;         ///< from the lease to the result's arrival
 };
 
 }  // namespace swarmsmith

@@ -13,54 +13,55 @@
 
 namespace swarmsmith {
 
-/// What a worker said of an evaluation, or did.
+/// A worker's statement about an evaluation, or its death during one.
 struct Said {
   enum class What {
     Score,
-    NoScore,  ///< that it fails, is to be rejected, or takes too long
-    Died,     ///< its process ended, or fell silent, while it ran alone
+    NoScore,  ///< it fails, must be rejected, or takes too long
+    Died,     ///< the worker's process ended or became silent while the task ran alone
   };
   What what = What::Score;
   WorkerNumber worker = 0;
   std::string principal;
   Measured measured{};
   std::int64_t attempt = 1;
-  bool taken = false;     ///< it is the outcome
-  bool on_trial = false;  ///< one of the first results of its principal, which waits for the word
+  bool taken = false;     ///< whether it became the outcome
+  bool on_trial = false;  ///< one of the first results of its principal, which waits for the
+                          ///< referee's ruling
 };
 
-/// An outcome that is on disk, and who gave it.
+/// An outcome on disk, and the statement from which it came.
 struct StoredWord {
   EvaluationKey key;
   Said said;
 };
 
-/// A result with other bits than the outcome.
+/// A result whose bits differ from the outcome.
 struct Dispute {
   Said kept;
   Said other;
   std::uint64_t signature = 0;  ///< of the lease of `other`
 };
 
-/// An evaluation that is before the referee, and who said what of it; no worker, when it was lost
-/// with strangers only.
+/// An evaluation that the referee must decide, with the workers' statements about it. There are
+/// none if only workers of strangers were lost with it.
 struct Case {
   Task task;
   std::vector<Said> said;
-  /// An outcome is there, and is made again to see whether its bits are right.
+  /// There is an outcome already, and the evaluation is repeated to check its bits.
   bool audit = false;
 };
 
-/// What the referee has to evaluate: the coordinator's own child, one evaluation after the other.
-/// Cases that a design waits for go before audits. Pure bookkeeping: the scheduler opens cases, and
-/// does what follows from the rulings.
+/// The evaluations for the referee, a child process of the coordinator that makes one evaluation at
+/// a time. Cases that a design waits for come before audits. Pure bookkeeping: the scheduler opens
+/// cases, and acts on the rulings.
 class Cases {
  public:
-  /// A further word when the case is open; then the case stays an audit only if this is one.
+  /// Adds the statement if the case is open; the case then stays an audit only if `audit` is set.
   void open(Task task, std::optional<Said> said, bool audit);
-  /// The next task, when the referee has nothing to do; it is out then, until `close`.
+  /// The next task, if the referee is free; the task then counts as running until `close`.
   std::optional<Task> next();
-  /// Its ruling has come. Nothing when the case was forgotten meanwhile.
+  /// The ruling on the case has come. None if the case was forgotten in the meantime.
   std::optional<Case> close(PackedKey key);
   void add(PackedKey key, Said said) { open_.at(key).said.push_back(std::move(said)); }
 
@@ -69,9 +70,9 @@ class Cases {
   bool empty() const { return open_.empty(); }
   std::size_t size() const { return open_.size(); }
   std::size_t audits() const { return audits_.size(); }
-  /// Cases without a word of a worker.
+  /// The number of cases without a worker's statement.
   std::size_t of_nobody() const;
-  /// Of a campaign that is stopped; those that were open.
+  /// Forgets the cases of a campaign that was stopped; returns those that were open.
   std::vector<Case> forget(std::uint32_t campaign);
 
  private:

@@ -7,8 +7,8 @@
 namespace swarmsmith {
 namespace {
 
-/// How many designs are looked at for urgency: one with more outstanding than so many others is not
-/// the next to a barrier, and the choice stays cheap.
+/// The number of designs that are checked for urgency: a design with more outstanding tasks than
+/// this many others is not the next one at a barrier. The limit keeps the selection cheap.
 constexpr int kNearest = 8;
 
 std::optional<PackedKey> first_of(const std::list<PackedKey>& queue,
@@ -42,8 +42,8 @@ void DesignQueues::put(Order& order, std::optional<Order::iterator>& at, bool re
   at = order.insert(std::move(node)).position;
 }
 
-/// Ranks are keys of the orders and must not change while a design is in one: so every change goes
-/// through here, and the orders and totals agree with the designs before and after it.
+/// The ranks are keys of the ordered sets and must not change while a design is in one: so every
+/// change is made by this function, before and after which the sets and totals are consistent.
 template <class Change>
 void DesignQueues::change(Design& design, const Change& make) {
   if (!design.held) {
@@ -54,8 +54,8 @@ void DesignQueues::change(Design& design, const Change& make) {
   }
   make();
   const bool is_ready = !design.held && !design.wanted.empty();
-  // A design that comes again begins where the others are: idle time gives no credit, or one that
-  // waited at a barrier would then keep all others from their turn.
+  // A design that becomes ready again starts at the level of the others: idle time gives no credit,
+  // because otherwise a design that has waited at a barrier would block all others.
   if (is_ready && !design.by_had) design.had_us = std::max(design.had_us, had_us_);
   put(by_had_, design.by_had, is_ready, design.had_us, design);
   put(by_outstanding_, design.by_outstanding, is_ready, design.outstanding(), design);
@@ -86,8 +86,8 @@ void DesignQueues::erase(Design& design, bool ahead, Place place) {
   change(design, [&] { (ahead ? design.ahead : design.wanted).erase(place); });
 }
 
-/// Look-ahead is not charged: it takes slots that would idle. `had_us_` is the virtual time of
-/// start-time fair queueing, which never goes back.
+/// Look-ahead is not charged, because it uses slots that would idle. `had_us_` is the virtual time
+/// of start-time fair queueing, which never decreases.
 void DesignQueues::on_leased(Design& design, bool ahead, std::uint64_t cost_us) {
   if (!ahead && !by_had_.empty()) had_us_ = std::max(had_us_, by_had_.begin()->rank);
   change(design, [&] {
@@ -156,8 +156,8 @@ bool DesignQueues::is_urgent(const Design& design, std::size_t free,
 
 std::optional<PackedKey> DesignQueues::next(std::size_t free, std::uint64_t allowance_us,
                                             const Fits& fits) const {
-  // Before a barrier every worker of the design's step waits for its last task, so these go first
-  // (orchestration facts, 5 "Order"); charged like all leases, they cannot starve other designs.
+  // Before a barrier, all workers of the design's step wait for its last task, so these tasks go
+  // first (orchestration facts, 5 "Order"). They are charged, so they cannot starve other designs.
   int seen = 0;
   for (auto at = by_outstanding_.begin(); at != by_outstanding_.end() && seen < kNearest;
        ++at, ++seen) {

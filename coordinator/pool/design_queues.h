@@ -14,7 +14,7 @@
 
 namespace swarmsmith {
 
-/// A design among those of all campaigns of a coordinator.
+/// A design, identified among those of all campaigns of a coordinator.
 struct PoolDesign {
   std::uint32_t campaign = 0;
   std::int64_t design = 0;
@@ -25,25 +25,26 @@ constexpr PoolDesign pool_design_of(PackedKey key) {
   return {campaign_of(key), (candidate_of(key) - 1) / kMostCandidates + 1};
 }
 
-/// Ready tasks, a queue for each design, and the choice among the designs (orchestration facts, 5
-/// "Order" and 10). Any task costs O(log designs).
+/// The ready tasks, in a queue for each design, and the selection among the designs (orchestration
+/// facts, 5 "Order" and 10). Each operation on a task costs O(log designs).
 ///
-/// First comes the design that is the nearest to a barrier: what is still queued of it fits the
-/// free places, so that the whole of its step is on its way then. Of several the one with the
-/// fewest tasks outstanding. Otherwise the design that has *had* least: start-time fair queueing
-/// (Goyal and others 1996) by time, in microseconds of evaluation as estimated when a task is
-/// leased. Time and not tasks, since campaigns of 2 ms and of 50 ms share a pool; and what was had
-/// and not what is held now, since with fewer slots than designs the last ones would wait for ever.
-/// A design that had nothing to do for a while does not save up its share. Urgency is charged like
-/// any lease, and a design that got more than `allowance_us` above the others because of it is not
-/// urgent before they have caught up.
+/// The design that is nearest to a barrier comes first: its queued tasks fit into the free places,
+/// so that its whole step is under way then. Among several such designs, it is the one with the
+/// fewest outstanding tasks. If there is none, the design that has *had* the least time comes
+/// first: start-time fair queueing (Goyal and others 1996), measured in microseconds of evaluation
+/// as estimated when a task is leased. Time counts and not the number of tasks, because campaigns
+/// with evaluations of 2 ms and of 50 ms share a pool. Past time counts and not the current leases,
+/// because with fewer slots than designs the last designs would wait for ever. A design that had
+/// nothing to do for a while does not accumulate a claim to more. Urgent tasks are charged like all
+/// leases, and a design that thereby got more than `allowance_us` above the others is not urgent
+/// until they have caught up.
 ///
-/// Look-ahead has its own queues; the one with the fewest leased tasks comes first.
+/// Look-ahead tasks have separate queues; the design with the fewest leased ones comes first.
 class DesignQueues {
  public:
   using Place = std::list<PackedKey>::iterator;
 
-  /// What a design has and had.
+  /// The tasks of a design, and the time that it has had.
   struct Design {
     PoolDesign id;
     std::list<PackedKey> wanted;
@@ -69,46 +70,46 @@ class DesignQueues {
     std::optional<Order::iterator> by_had, by_outstanding, by_ahead;
   };
 
-  /// Made when it is asked for; stays where it is until its campaign is forgotten.
+  /// Created on first use; its address does not change until its campaign is forgotten.
   Design& design(PoolDesign id);
 
   Place push_back(Design& design, bool ahead, PackedKey key);
   Place push_front(Design& design, bool ahead, PackedKey key);
   void erase(Design& design, bool ahead, Place place);
 
-  /// A task of the design is leased, at this cost; to be said before it leaves its queue.
+  /// A task of the design is leased, at this cost; call before the task leaves its queue.
   void on_leased(Design& design, bool ahead, std::uint64_t cost_us);
   void on_unleased(Design& design, bool ahead);
-  /// A leased task of look-ahead is wanted now.
+  /// A leased look-ahead task is wanted now.
   void on_promoted(Design& design);
 
-  /// Nothing more of the design is ready, or again; design 0 stands for the whole campaign, and a
-  /// design is ready when neither is held.
+  /// Holds or releases the design: its tasks are not ready while it is held. Design 0 means the
+  /// whole campaign; a design is ready if neither the design nor its campaign is held.
   void hold(PoolDesign id, bool held);
   bool is_held(PoolDesign id) const;
-  /// As they were held; design 0 stands for a campaign.
+  /// As passed to `hold`; design 0 means a whole campaign.
   const std::set<PoolDesign>& held() const { return held_; }
-  /// Its tasks must be gone.
+  /// The campaign must have no tasks left.
   void forget(std::uint32_t campaign);
 
   using Fits = std::function<bool(PackedKey)>;
-  /// The task that should be leased next, among those that fit. `free` is how many the workers have
-  /// room for.
+  /// The task to lease next, among those for which `fits` returns true. `free` is the number of
+  /// tasks for which the workers have room.
   std::optional<PackedKey> next(std::size_t free, std::uint64_t allowance_us,
                                 const Fits& fits) const;
   std::optional<PackedKey> next_ahead(const Fits& fits) const;
 
-  /// Ready ones: not of designs that are held.
+  /// The number of ready tasks: without those of designs that are held.
   std::size_t wanted() const { return wanted_; }
   std::size_t ahead() const { return ahead_; }
-  /// Held ones too; design 0 stands for the whole campaign.
+  /// Includes tasks of held designs; design 0 means the whole campaign.
   std::size_t wanted_of(PoolDesign id) const;
   const std::map<PoolDesign, Design>& all() const { return designs_; }
 
  private:
   using Order = Design::Order;
 
-  /// To be called around any change of a design.
+  /// Every change of a design must go through this function.
   template <class Change>
   void change(Design& design, const Change& make);
   static void put(Order& order, std::optional<Order::iterator>& at, bool ready, std::uint64_t rank,
@@ -116,10 +117,10 @@ class DesignQueues {
   bool is_urgent(const Design& design, std::size_t free, std::uint64_t allowance_us) const;
 
   std::map<PoolDesign, Design> designs_;
-  /// Designs with ready tasks; with ready look-ahead.
+  /// Designs with ready tasks, and designs with ready look-ahead tasks.
   Order by_had_, by_outstanding_, by_ahead_;
   std::set<PoolDesign> held_;
-  std::uint64_t had_us_ = 0;  ///< by the design that had least when a task was last leased
+  std::uint64_t had_us_ = 0;  ///< of the design that had the least time when a task was last leased
   std::size_t wanted_ = 0;
   std::size_t ahead_ = 0;
 };

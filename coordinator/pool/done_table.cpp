@@ -8,11 +8,11 @@
 namespace swarmsmith {
 namespace {
 
-/// Bits of no finite score: marks a rejected evaluation.
+/// The bits of no finite score; they mark a rejected evaluation.
 constexpr std::uint64_t kRejectedBits = 0x7ff8000000000001U;
 constexpr std::size_t kFirstSize = 1024;
 
-/// From 1, as candidates are numbered.
+/// Counted from 1, like candidates.
 DesignId design_of_key(PackedKey key) {
   return design_of(CandidateId{candidate_of(key)});
 }

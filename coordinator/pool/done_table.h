@@ -12,24 +12,24 @@
 
 namespace swarmsmith {
 
-/// What is known of an evaluation that has an outcome: enough to compare a second one bit by bit.
+/// The stored data of an evaluation with an outcome: enough to compare a second result bit by bit.
 struct DoneEntry {
   PackedKey key = 0;
   std::uint64_t score_bits = 0;
-  std::uint64_t state_digest = 0;  ///< of a rejected evaluation: kRejected
+  std::uint64_t state_digest = 0;  ///< 0 if rejected (see kRejectedBits)
 };
 
-/// The outcomes of the designs that go on, by design: 24 bytes each in one array (open addressing,
-/// linear probing, at most three quarters full), so that 100,000 take 6 MB. Of a design that is
-/// over, and of candidates that are out of their race, only that is remembered: memory grows
-/// neither with the campaign nor with a design's evaluations.
+/// The outcomes of active designs, by design: 24 bytes each in one array (open addressing, linear
+/// probing, at most three quarters full), so that 100,000 outcomes take 6 MB. For designs that are
+/// over, and for candidates that are out of their race, it remembers only that fact, so that memory
+/// grows neither with the campaign nor with a design's evaluations.
 class DoneTable {
  public:
-  /// Inserts, or returns the entry that is there already; null when the design is over. What comes
-  /// of a candidate that is out of its race, such as a test, is known until others are out.
+  /// Inserts an outcome, or returns the existing entry; null if the design is over. An outcome of a
+  /// candidate that is out of its race, such as a test, is kept until the next candidates are out.
   const DoneEntry* insert(PackedKey key, EvaluationStatus status, const Measured& measured);
   const DoneEntry* find(PackedKey key) const;
-  /// Forgets the design's outcomes: it needs no more of them, whatever comes.
+  /// Forgets the design's outcomes, because it needs no more of them.
   void close(std::uint32_t campaign, DesignId design);
   /// The same for the design's candidates that are out of its race.
   void close_candidates(std::uint32_t campaign, const PassedCandidates& passed);
@@ -52,11 +52,11 @@ class DoneTable {
     void grow();
   };
 
-  /// Null when nothing was ever known of it.
+  /// Null if the design never had an entry.
   const Outcomes* outcomes_of(PackedKey key) const;
   Outcomes& at(std::uint32_t campaign, DesignId design);
 
-  std::vector<std::vector<Outcomes>> designs_;  ///< by campaign, by design from 0
+  std::vector<std::vector<Outcomes>> designs_;  ///< by campaign, then by design from 0
 };
 
 }  // namespace swarmsmith

@@ -15,11 +15,11 @@ namespace {
 static_assert(sizeof(LeaseSecret) == crypto_shorthash_KEYBYTES);
 
 constexpr std::size_t kWord = 8;
-/// Longest name of a principal that is signed as it is.
+/// The longest part of a principal's name that is signed.
 constexpr std::size_t kMostName = 128;
-/// Of the 64 bits of a signature.
+/// How many of a signature's 64 bits are the mark.
 constexpr int kMarkBits = 16;
-/// No attempt has this number, and what is signed is longer: no draw is a signature.
+/// No attempt has this number, and signed texts are longer, so no draw equals a signature.
 constexpr std::uint64_t kDraw = ~std::uint64_t{0};
 
 void put_word(unsigned char* bytes, std::uint64_t word) {

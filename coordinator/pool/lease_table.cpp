@@ -73,7 +73,7 @@ void LeaseTable::remove(PackedKey key, WorkerNumber by) {
     for (const std::optional<Lease>* lease : {&record.second, &record.lease}) {
       if (!*lease) continue;
       end(record, **lease);
-      // The other worker runs it still: its slot is not free before it says so.
+      // The other worker is still running it: its slot is busy until the worker reports.
       if ((*lease)->worker != by) loads_.linger((*lease)->worker, key, (*lease)->renewed);
     }
     if (record.second) --copies_;
@@ -192,7 +192,7 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front)
   end(record, *lease);
   if (record.second) {
     if (lease == &*record.lease) {
-      // As the youngest of all: the copy has had its time only since it was made.
+      // It becomes the youngest, because the copy's time began only when it was made.
       record.lease = record.second;
       by_age_.splice(by_age_.end(), by_age_, record.place);
     }
@@ -206,7 +206,7 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front)
   queues_.on_unleased(*record.design, record.task.ahead);
   if (!record.task.ahead) --wanted_leased_;
   SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "leases of what is wanted are counted");
-  // At the front as a rule: of all that its race waits for it was asked for first.
+  // Normally at the front: its race asked for it before all other tasks that it waits for.
   enter_queue(record, at_front);
   return true;
 }

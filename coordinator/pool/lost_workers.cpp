@@ -9,15 +9,15 @@
 namespace swarmsmith {
 namespace {
 
-/// A worker sends this many results at most in a message, so what ran is among its first
-/// (slots + 64) leases.
+/// A worker sends at most this many results in a message, so the tasks that were running are among
+/// its first (slots + 64) leases.
 constexpr std::size_t kUnreported = 64;
 constexpr int kDeathsOfARejection = 3;
-/// Silent losses are mostly the network's: tolerated much longer.
+/// Silent losses are usually caused by the network, so many more are tolerated.
 constexpr int kLossesUntilAlone = 2;
 constexpr int kLossesUntilRuled = 12;
-/// Losses with workers that are not known yet say nothing of the task. But where no worker can
-/// prove himself, since each dies of it, the referee breaks the circle: one such task at a time.
+/// A loss with an unknown worker says nothing about the task. But if the task kills every worker
+/// before it can prove itself, only the referee can end this; it takes one such task at a time.
 constexpr int kStraysUntilRuled = 6;
 
 }  // namespace
@@ -34,19 +34,19 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
   const std::list<PackedKey>& leases = book_->leases.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
-  // What is lost with strangers, again and again, does not keep others from their turn.
+  // Tasks that are lost again and again with strangers' workers must not delay other tasks.
   const bool at_front = loss == Loss::Left || entry.principal->is_proven();
   workers_->disconnect(entry);
   book_->leases.loads().set_capacity(entry.number, 0, 0);
   trust_->go_astray(*entry.principal, keys.size(), now);
-  // From the last one, since each goes to the front of its queue: they are leased again in order.
+  // From last to first: each goes to the front of its queue, so they are leased again in order.
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *book_->leases.find(keys[i]);
-    // A task that was only queued there is not to blame, nor is the worker.
+    // A task that was only queued there did not kill the worker, and the worker did not fail at it.
     const bool may_have_run = i < suspects && loss != Loss::Left;
     if (may_have_run) book_->note_attempt(record, entry.number, AttemptOutcome::Lost, now);
-    // While another worker has it too, nothing is held against the task: if it kills, it will do so
-    // there, and there is no third copy then.
+    // While another worker has a copy, the loss does not count against the task: if the task kills
+    // workers, it will kill that one too, and then there is no third copy.
     Blame to = Blame::None;
     if (record.second) {
       record.copied = loss == Loss::Death;
@@ -77,7 +77,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
               std::nullopt, entry.principal, entry.number);
 }
 
-/// Whether the loss says something of a task that only this worker had, and that may have run.
+/// Whether the loss counts against a task that only this worker had and that may have been running.
 LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Loss loss) {
   SWARMSMITH_ASSERT(record.lease && !record.second, "only the only holder's loss says something");
   if (!entry.principal->is_proven()) {
@@ -92,14 +92,14 @@ LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Lo
   return lease.alone && record.losses >= kLossesUntilRuled ? Blame::Task : Blame::None;
 }
 
-/// Programs run nowhere but on workers. A program that goes wrong does not take its worker with it:
-/// its first death is an accident.
+/// Programs run only on workers. A failing program does not kill its worker, so the task's first
+/// loss counts as an accident.
 LostWorkers::Blame LostWorkers::blame_of_program(WorkerEntry& entry, TaskRecord& record,
                                                  Loss loss) {
   const Lease& lease = *record.lease;
   const bool is_death = loss == Loss::Death;
   if (is_death && lease.alone && lease.began) {
-    // Where there is another worker, the same one is not asked three times.
+    // If there are other workers, deaths with the same principal count only once.
     const std::string& name = entry.principal->name;
     const bool is_new = std::ranges::find(record.died_with, name) == record.died_with.end();
     if (is_new || trust_->proven_present() <= record.died_with.size()) {

@@ -9,33 +9,34 @@ namespace swarmsmith {
 
 /// How a worker was lost.
 enum class Loss {
-  Death,    ///< its connection was closed: the process ended
-  Silence,  ///< nothing was heard for too long: mostly the network's doing
-  Left,     ///< it said so, or was sent away
+  Death,    ///< its connection was closed, so the process has ended
+  Silence,  ///< no message for too long, usually because of the network
+  Left,     ///< it said goodbye or was sent away
 };
 
-/// What follows when a worker is lost: its tasks go to others, and those that may have killed it
-/// are found (orchestration facts, 5 "Poison tasks"). Only what ran can be to blame, never what was
-/// queued behind it, and no task is blamed for what a stranger's worker did.
+/// Handles the loss of a worker: its tasks go to other workers, and tasks that may have killed it
+/// are identified (orchestration facts, 5 "Poison tasks"). Only tasks that were running can be the
+/// cause, never those queued behind them, and a stranger's worker never counts against a task.
 ///
-/// Workers start tasks in the order of their leases and report 64 results at most at a time, so
-/// what ran is among the first (slots + 64) leases. After a death of a worker that has proved
-/// itself each of these is tried again *alone*, on a worker that has nothing else and says when it
-/// begins, and only a death there counts. With programs in place of the simulator three such are a
-/// rejection, and the second death is the first that makes a task run alone.
+/// Workers start tasks in the order of their leases and report at most 64 results at a time, so the
+/// tasks that were running are among the first (slots + 64) leases. After the death of a worker of
+/// a proven principal, each of these tasks is tried again *alone*, on a worker that has no other
+/// task and reports when it begins; only a death there counts. With programs instead of the
+/// simulator, a task runs alone after its second loss, and three deaths while it runs alone make it
+/// a rejection.
 class LostWorkers {
  public:
-  /// All must stay where they are.
+  /// All three must outlive this object and keep their addresses.
   LostWorkers(TaskBook& book, WorkerRegistry& workers, Trust& trust)
       : book_(&book), workers_(&workers), trust_(&trust) {}
 
-  /// The worker is not connected any more; its row says `state`. None of its leases remains.
+  /// The worker is disconnected; its row gets `state`. All of its leases end.
   void lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoint now);
-  /// The worker is back: what its disappearance counted against did not kill it.
+  /// The worker is back: the tasks that were blamed for its disappearance did not kill it.
   void take_back_charges(WorkerEntry& entry);
 
  private:
-  /// What a loss means for a task that only this worker had, and that may have run.
+  /// The conclusion about a task that was leased only to the lost worker and may have been running.
   enum class Blame { None, Task, Rejected };
   Blame blame(WorkerEntry& entry, TaskRecord& record, Loss loss);
   Blame blame_of_program(WorkerEntry& entry, TaskRecord& record, Loss loss);

@@ -27,7 +27,7 @@ std::string key_of_principal(const std::string& name) {
 bool is_named(const std::string& principal, std::string_view word) {
   const std::string_view name = principal;
   const std::size_t at = name.find('@');
-  // Of a key that is not believed from anywhere all is meant by any of its names.
+  // If a key is quarantined at all addresses, any of its names means all of them.
   if (at == std::string_view::npos) return name == word.substr(0, word.find('@'));
   return name == word || name.substr(0, at) == word || name.substr(at + 1) == word;
 }
@@ -41,7 +41,7 @@ Principal& Principals::at(const std::string& name) {
 Principal& Principals::of(const WorkerHello& hello) {
   Principal& principal = at(principal_of(hello));
   principal.local |= hello.local;
-  // A key that is not believed at all is not believed from anywhere.
+  // A key that is quarantined as a whole is quarantined at every address.
   const Principal* key = hello.client.empty() ? nullptr : find(hello.client);
   if (key != nullptr && key->quarantined && !principal.quarantined) {
     principal.quarantined = true;

@@ -1,4 +1,4 @@
-// What comes to the scheduler: tasks, and the messages of workers.
+// The scheduler's input: tasks, and the messages of workers.
 
 #include "coordinator/pool/scheduler.h"
 
@@ -24,7 +24,7 @@ void Scheduler::add(std::vector<Task> tasks) {
       book_->leases.promote(*record, book_->now);
       continue;
     }
-    // Look-ahead whose outcome was told after it became wanted and before this was said.
+    // A look-ahead task that became wanted, but its outcome came before this call.
     if (book_->done.find(key_of(task)) != nullptr) continue;
     book_->leases.add(std::move(task), book_->now);
   }
@@ -61,7 +61,7 @@ void Scheduler::on_results(const Sender& sender, std::span<const Result> results
     } else if (result.failure.empty()) {
       on_score(*entry, result, now);
     } else {
-      // A failure is reported once: for the lease under which it ran. Nothing is written, so the
+      // A failure is reported once, for the lease under which it ran. No row waits for it, so the
       // worker may forget it at once.
       acknowledged.keys.push_back(result.key);
       on_failure(*entry, result, now);
@@ -75,8 +75,8 @@ void Scheduler::on_score(WorkerEntry& entry, const Result& result, TimePoint now
     return trust_->on_score(entry, *record, result, now);
   }
   if (book_->is_done(result.key)) return trust_->on_repeated(entry, result);
-  // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
-  // it comes again.
+  // It may be wanted later: after a restart the race may not have reached it yet. It is not
+  // acknowledged, so it comes again.
   ++book_->counters.unknown;
   if (book_->is_closed(campaign_of(result.key))) {
     book_->act(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
@@ -105,7 +105,7 @@ void Scheduler::on_failure(WorkerEntry& entry, const Result& result, TimePoint n
                           .errors = result.details.errors}});
   book_->note_attempt(*record, entry.number, AttemptOutcome::Failed, now);
   if (!book_->options.evaluates_programs) return trust_->claim(entry, *record, Said::What::NoScore);
-  // A program's worker has tried again by itself, as often as the campaign allows.
+  // The worker of a program has repeated the call itself, as often as the campaign allows.
   book_->reject(*record, entry.number, result.failure, result.details);
 }
 
@@ -128,14 +128,14 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
     if (lease == nullptr) continue;
     lease->renewed = now;
     lease->began = true;
-    // Of a program the worker itself keeps the time.
+    // For a program, the worker itself limits the time.
     if (book_->options.evaluates_programs) continue;
     const auto limit = book_->policy_of(*record).task_timeout;
     if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record, now);
   }
 }
 
-/// A time never becomes a score: another try elsewhere, then one by the referee.
+/// A time-out never becomes a score: first another worker tries, and finally the referee.
 void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
   ++entry.failed;
   ++book_->counters.failed;
@@ -145,7 +145,7 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now
               record.task.campaign, entry.principal, entry.number);
   book_->note_attempt(record, entry.number, AttemptOutcome::TimedOut, now);
   record.avoid = entry.number;
-  // Two copies that hang count once.
+  // If both copies hang, that counts once.
   const bool is_last = !record.second && ++record.timeouts > book_->policy_of(record).retries;
   if (is_last) return trust_->claim(entry, record, Said::What::NoScore);
   book_->leases.requeue(record, entry.number);
@@ -171,7 +171,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   const WorkerEntry* holder = workers_->of_peer(peer);
   if (holder != nullptr && holder != entry) return;
   if (entry != nullptr && hello.incarnation <= entry->hello.incarnation) {
-    // Said twice: the welcome may have been lost. From elsewhere: a replay.
+    // A repeated hello: the welcome may have been lost. From another connection, it is a replay.
     if (holder == entry && hello.incarnation == entry->hello.incarnation) {
       book_->act(SendWelcome{peer, hello.incarnation});
     }
@@ -187,7 +187,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   }
   if (const Principal::Cause* cause = trust_->cause_against(principal, hello.identity);
       entry == nullptr && cause != nullptr) {
-    // It was said once who is in quarantine; new ids of it are not worth a row each.
+    // An event has already reported the quarantine; its new ids are not worth a row each.
     book_->act(SendReject{peer, hello.incarnation, RejectReason::Limit,
                           sentence_of_quarantine(principal, *cause)});
     return;
@@ -226,8 +226,8 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   }
 }
 
-/// Leases of the worker's last connection that it does not hold went astray; those that it holds,
-/// was given by an earlier process, and no other worker has are its own.
+/// Leases from the worker's last connection that it does not hold were lost on the way. It gets a
+/// lease of each task that it holds from an earlier process and that no other worker has.
 void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   std::unordered_set<PackedKey> held;
   if (entry.hello.same_scenario) {
@@ -249,7 +249,7 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   if (held_ || draining_ || entry.quarantined || !entry.hello.same_scenario) return;
   for (const Hold& hold : entry.hello.holds) {
     TaskRecord* record = book_->leases.find(hold.key);
-    // What must run alone is leased anew, when the worker has nothing else.
+    // A task that must run alone is leased again later, when the worker has no other task.
     if (record == nullptr || record->lease || record->alone || record->parked) continue;
     if (!was_given(hold) || !trust_->signer().is_of(hold.signature, record->task)) continue;
     book_->leases.grant(*record, entry.number, now, cost_us(record->task.campaign));
@@ -283,7 +283,8 @@ void Scheduler::on_credit(const Sender& sender, std::uint32_t tasks, TimePoint n
 void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now) {
   WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr) return;
-  // It wants none, then, even if its word about credit got lost: else they would go to and fro.
+  // The worker wants no tasks then, even if its credit message was lost; otherwise the tasks would
+  // go back and forth.
   if (sender.sequence > entry->last_sequence) {
     entry->last_sequence = sender.sequence;
     trust_->set_credit(*entry, 0);
@@ -293,7 +294,7 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
     TaskRecord* record = book_->leases.find(*key);
     if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
     book_->note_attempt(*record, entry->number, AttemptOutcome::Returned, now);
-    // It may be copied once more: no attempt has failed.
+    // It may be copied again, because no attempt has failed.
     if (record->second) record->copied = false;
     if (book_->leases.requeue(*record, entry->number)) ++book_->counters.requeued;
   }
@@ -307,7 +308,7 @@ void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
 void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered) {
   WorkerEntry* entry = workers_->of_peer(peer);
   if (entry == nullptr) return;
-  // What the worker never got did not kill it.
+  // Tasks that the worker never received did not kill it.
   for (auto key = undelivered.rbegin(); key != undelivered.rend(); ++key) {
     book_->leases.loads().settle(entry->number, *key);
     TaskRecord* record = book_->leases.find(*key);

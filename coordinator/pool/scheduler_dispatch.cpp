@@ -1,4 +1,4 @@
-// Who gets what from the scheduler, and what the passing of time does.
+// How the scheduler assigns tasks, and how it reacts to the passing of time.
 
 #include <algorithm>
 #include <map>
@@ -12,14 +12,14 @@ namespace {
 
 constexpr Duration kForgetEvery = std::chrono::minutes(1);
 constexpr int kResendsOfAProgram = 3;
-/// Programs that take less are leased one ahead for each slot.
+/// Programs that take less time than this get one task in advance for each slot.
 constexpr double kShortProgramUs = 20'000;
-/// What a task takes on the wire besides its machine.
+/// The size of a task on the network without its machine.
 constexpr std::size_t kTaskBytes = 57;
 constexpr std::size_t kAliveBytes = 8;
 
 /// Calls `what` for each worker of a set, beginning after `last` and going round once, until it
-/// says false. The set may change meanwhile.
+/// returns false. The set may change meanwhile.
 template <class What>
 void in_turn(const std::set<WorkerNumber>& workers, WorkerNumber last, const What& what) {
   for (auto at = workers.upper_bound(last); at != workers.end();) {
@@ -59,8 +59,8 @@ void Scheduler::on_tick(TimePoint now) {
   }
 }
 
-/// This process was stopped or starved, so it could hear no worker: silence is
-/// measured by its clock (orchestration facts, 5 "Heartbeats, both ways").
+/// This process was stopped or got no processor time, so it could not receive messages, and its
+/// measurement of silence is wrong (orchestration facts, 5 "Heartbeats, both ways").
 void Scheduler::pardon(TimePoint now) {
   for (auto& [number, entry] : workers_->all()) {
     if (!entry.connected) continue;
@@ -70,12 +70,13 @@ void Scheduler::pardon(TimePoint now) {
   }
 }
 
-/// Workers hold little more than they run, so a task that is neither done nor running by now never
-/// arrived, or its result did not (orchestration facts, 5 "Leases"). The worker itself is alive: it
-/// is not lost, and keeps its other leases.
+/// Workers hold few tasks besides those that they run, so a task that is neither done nor running
+/// by now never arrived, or its result was lost (orchestration facts, 5 "Leases"). The worker
+/// itself is alive: it does not count as lost, and keeps its other leases.
 void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
-  // A program is not run a second time while it may run. With a slot free, what the worker was
-  // given either runs or never came, and a result that went astray was sent again by now.
+  // A program must not run a second time while the first run may still be active. If the worker has
+  // a free slot, each of its tasks is either running or never arrived, and a lost result has been
+  // sent again by now.
   if (book_->options.evaluates_programs &&
       entry.running >= static_cast<std::size_t>(entry.hello.slots)) {
     return;
@@ -112,8 +113,8 @@ void Scheduler::drain(TimePoint now) {
   }
 }
 
-/// In the order of their worth: what a race waits for; a second try at what it waits for longest;
-/// what it may want later.
+/// In the order of importance: tasks that a race waits for; second copies of those that have been
+/// running longest; look-ahead.
 void Scheduler::dispatch(TimePoint now) {
   book_->now = now;
   if (held_ || draining_) return;
@@ -129,8 +130,8 @@ void Scheduler::dispatch(TimePoint now) {
 void Scheduler::dispatch_wanted(TimePoint now) {
   if (book_->leases.wanted_ready() == 0) return;
   // Guided self-scheduling (orchestration facts, 5 "Credit"): near the end of the work, no worker
-  // holds more than half a share of it, or a step would wait for one worker's queue. A worker that
-  // is alone may have it all: its slots share what it holds.
+  // holds more than half of its share, because otherwise a step would wait for one worker's queue.
+  // A single worker may have all tasks, because its slots share them.
   const auto remaining =
       static_cast<std::int64_t>(book_->leases.wanted_ready() + book_->leases.wanted_leased());
   const std::int64_t parts = workers_->trusted() > 1 ? 2 * workers_->slots() : workers_->slots();
@@ -139,11 +140,11 @@ void Scheduler::dispatch_wanted(TimePoint now) {
           [&](WorkerNumber number) { return fill(*workers_->of_number(number), share, now); });
 }
 
-/// Reserves workers for tasks that may have killed one, at most half of them at a time: a campaign
-/// whose every task kills must not bring all others to a stand.
+/// Reserves workers for tasks that may have killed a worker, at most half of the workers at a time:
+/// a campaign in which every task kills workers must not stop all other campaigns.
 void Scheduler::dispatch_alone(TimePoint now) {
   if (!book_->leases.has_alone()) return;
-  // A stranger's death would say nothing.
+  // The death of a stranger's worker would prove nothing.
   const bool only_proven = trust_->proven_present() > 0;
   std::size_t reserved = 0;
   for (auto& [number, entry] : workers_->all()) {
@@ -167,8 +168,9 @@ void Scheduler::dispatch_alone(TimePoint now) {
   }
 }
 
-/// What a worker may hold. A program may take hours, and what waits behind it is lost time: a
-/// worker holds what it runs, and one more for each slot when that is soon done.
+/// The number of tasks that a worker may hold. A program may take hours, and tasks that wait behind
+/// it lose time: so a worker holds only the tasks that it runs, and one more for each slot if
+/// programs are short.
 std::int64_t Scheduler::most_for(const WorkerEntry& entry, std::int64_t share) const {
   const std::int64_t wanted = std::min<std::int64_t>(entry.credit, share * entry.hello.slots);
   if (!book_->options.evaluates_programs) return wanted;
@@ -176,7 +178,7 @@ std::int64_t Scheduler::most_for(const WorkerEntry& entry, std::int64_t share) c
   return std::min<std::int64_t>(wanted, std::int64_t{short_ones ? 2 : 1} * entry.hello.slots);
 }
 
-/// For a task that must have it alone; until there is none any more.
+/// Whether the worker is kept free for a task that must run alone; ends when there is no such task.
 bool Scheduler::is_kept_free(WorkerEntry& entry) {
   if (!entry.reserved) return false;
   const std::list<PackedKey>& leases = book_->leases.leases_of(entry.number);
@@ -185,17 +187,17 @@ bool Scheduler::is_kept_free(WorkerEntry& entry) {
   return entry.reserved;
 }
 
-/// False when nothing is left that could be leased.
+/// Returns false if there is nothing left to lease.
 bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
   if (is_kept_free(entry)) return true;
-  // Look-ahead leaves when it is done, and does not keep urgent tasks away.
+  // Look-ahead does not count here, so that it does not keep urgent tasks away.
   const WorkerLoad& load = book_->leases.loads().of(entry.number);
   const auto room_of = [&] {
     return std::min(static_cast<std::int64_t>(load.room()),
                     most_for(entry, share) - static_cast<std::int64_t>(load.held() - load.ahead));
   };
   const bool elsewhere = workers_->trusted() > 1;
-  // What the whole pool does in the time of one evaluation.
+  // The work of the whole pool during one evaluation.
   const auto allowance_us =
       static_cast<std::uint64_t>(book_->estimate_us * static_cast<double>(workers_->slots()));
   SendTasks message{entry.peer, entry.hello.incarnation, {}};
@@ -212,7 +214,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
   return book_->leases.wanted_ready() > 0;
 }
 
-/// Sends what there is when a message is full.
+/// Adds a task to the message, and sends the message when it is full.
 void Scheduler::put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks& message,
                          TimePoint now) {
   SWARMSMITH_ASSERT(entry.usable(), "leases go to workers that are there and believed");
@@ -239,8 +241,8 @@ Duration Scheduler::copy_time(std::uint32_t campaign) const {
   return std::max<Duration>(book_->options.copy_floor, book_->options.copy_factor * estimate);
 }
 
-/// The oldest tasks that are out for suspiciously long, once more each: one slow, stopped or cut
-/// off worker does not hold up a step. Whichever result comes first is taken.
+/// Leases the oldest tasks that have been out suspiciously long once more, so that one slow,
+/// stopped or disconnected worker does not delay a step. The first result is accepted.
 void Scheduler::copy_stragglers(TimePoint now) {
   if (book_->leases.loads().with_idle().empty() || book_->leases.leased() == 0) return;
   Duration least = copy_time(0);
@@ -268,7 +270,7 @@ void Scheduler::copy_stragglers(TimePoint now) {
   }
 }
 
-/// A worker with an idle slot that has not got the task; null without one.
+/// A worker with an idle slot that does not have the task; null if there is none.
 WorkerEntry* Scheduler::idle_for(const TaskRecord& record) {
   WorkerEntry* found = nullptr;
   in_turn(book_->leases.loads().with_idle(), turn_, [&](WorkerNumber number) {
@@ -293,8 +295,8 @@ void Scheduler::dispatch_ahead(TimePoint now) {
           [&](WorkerNumber number) { return fill_ahead(*workers_->of_number(number), now); });
 }
 
-/// Only to slots that would idle: what is wanted next never waits behind a queue of it. False when
-/// none is left.
+/// Leases look-ahead only to slots that would idle, so that wanted tasks never wait behind it.
+/// Returns false if there is no look-ahead left.
 bool Scheduler::fill_ahead(WorkerEntry& entry, TimePoint now) {
   if (is_kept_free(entry)) return true;
   const bool elsewhere = workers_->trusted() > 1;

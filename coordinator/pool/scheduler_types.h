@@ -15,16 +15,16 @@
 
 namespace swarmsmith {
 
-/// What the scheduler sees of messages, and what it wants to be done: plain values.
+/// The scheduler's input from messages and its actions, as plain values.
 
-/// A task that a worker says it has, and the lease by which it was given.
+/// A task that a worker reports, and the lease under which it got the task.
 struct Hold {
   PackedKey key = 0;
   std::int64_t attempt = 0;
-  std::uint64_t signature = 0;  ///< LeaseSigner; 0 from workers that do not know of it
+  std::uint64_t signature = 0;  ///< of LeaseSigner; 0 from workers that do not support it
 };
 
-/// How a worker introduces itself.
+/// The information with which a worker introduces itself.
 struct WorkerHello {
   std::string identity;  ///< 16 bytes
   std::uint64_t incarnation = 0;
@@ -36,20 +36,20 @@ struct WorkerHello {
   std::int64_t pid = 0;
   std::string job;
   std::string cpu;
-  std::string client;          ///< name of its key; empty without
-  std::string address;         ///< as the transport sees it, a number without a port
-  bool local = false;          ///< this process started it
-  bool same_scenario = false;  ///< whether `holds` are of this campaign
+  std::string client;          ///< name of its key; empty without one
+  std::string address;         ///< as the transport reports it, a number without a port
+  bool local = false;          ///< whether this process started it
+  bool same_scenario = false;  ///< whether `holds` belong to this scenario
   std::vector<Hold> holds;
 };
 
-/// The referee's word: what an evaluation gives in a process of the coordinator's own.
+/// The referee's answer: the result of an evaluation in the coordinator's own child process.
 struct Ruling {
   enum class Kind {
     Score,
-    Rejected,  ///< it has no score: an exception, not a number, or the death of the process
+    Rejected,  ///< there is no score: an exception, not a number, or the death of the process
     TimedOut,  ///< it takes longer than the campaign allows
-    NoWord,    ///< the referee cannot do its work, for a reason of the host
+    NoWord,    ///< the referee cannot work, because of a problem with the host
   };
   PackedKey key = 0;
   Kind kind = Kind::Score;
@@ -62,13 +62,13 @@ struct RunningReport {
   std::int64_t elapsed_ms = 0;
 };
 
-/// What a worker says of its slots, in microseconds since its welcome.
+/// A worker's report about its slots, in microseconds since its welcome.
 struct SlotReport {
   std::int64_t slot_us = 0;
   std::int64_t busy_us = 0;
 };
 
-/// Who sent a message, and as which of its messages.
+/// The sender of a message, and the message's number.
 struct Sender {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
@@ -92,9 +92,9 @@ struct SendTasks {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
   std::vector<LeasedTask> tasks;
-  std::size_t bytes = 0;  ///< about, on the wire
+  std::size_t bytes = 0;  ///< approximate size on the network
 };
-/// The worker may forget these results: there is nothing to write for them.
+/// The worker may forget these results: no rows are written for them.
 struct SendAcknowledged {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
@@ -104,7 +104,7 @@ struct SendHeartbeat {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
 };
-/// What a person at the worker should know; it goes on.
+/// A message for the person who runs the worker; the worker continues.
 struct SendNotice {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
@@ -121,7 +121,7 @@ struct SendDrain {
 struct OutcomeAccepted {
   Outcome outcome;
 };
-/// A result that was known before, with the same bits or others.
+/// A repeated result, with the same bits as the first one or others.
 struct OutcomeRepeated {
   PackedKey key = 0;
   std::int64_t worker = 0;
@@ -139,12 +139,12 @@ struct WorkerChanged {
   WorkerRow row;
 };
 struct Noted {
-  /// None: of the pool, and for the stores of all campaigns.
+  /// None: it belongs to the pool, and the stores of all campaigns get it.
   std::optional<std::uint32_t> campaign;
   EventRow row;
-  /// The principal whose doing it is; empty: it was decided here, and is always written.
+  /// The principal that caused it; empty: a decision made here, which is always written.
   std::string source;
-  std::int64_t worker = 0;  ///< that the text names
+  std::int64_t worker = 0;  ///< the worker named in the text
 };
 struct FailureKept {
   std::uint32_t campaign = 0;
@@ -154,18 +154,18 @@ struct AttemptEnded {
   std::uint32_t campaign = 0;
   AttemptRow row;
 };
-/// Workers of the principal are in quarantine no longer.
+/// Workers of the principal are no longer in quarantine.
 struct Forgiven {
   std::string principal;
 };
-/// A campaign cannot go on.
+/// The campaign cannot go on.
 struct StopCampaign {
   std::uint32_t campaign = 0;
   std::string reason;
-  /// Scores in its store are wrong, or may be.
+  /// Scores in its store are wrong or may be wrong.
   bool distrusted = false;
 };
-/// The referee is to evaluate: the next one follows when `on_ruling` has told of this one.
+/// The referee must evaluate this task; the next one follows after `on_ruling` for this one.
 struct AskReferee {
   Task task;
   Duration timeout{};
@@ -177,13 +177,14 @@ using SchedulerAction =
                  WorkerChanged, Noted, FailureKept, AttemptEnded, StopCampaign, AskReferee,
                  SendNotice, Forgiven>;
 
-/// What a campaign says of its evaluations.
+/// A campaign's settings for its evaluations.
 struct CampaignPolicy {
   Duration task_timeout = std::chrono::seconds(30);
-  std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
-  bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
-  /// One evaluation of so many is made again by the referee, and the first ones of each principal
-  /// before they count; 0: none. Programs are not audited.
+  std::int64_t retries = 2;      ///< retries after time-outs, before the campaign stops
+  bool stop_on_failure = false;  ///< otherwise an evaluation that fails for good counts as a
+                                 ///< rejection
+  /// The referee repeats one of this many evaluations, and also the first ones of each principal
+  /// before they count; 0: none. Evaluations by programs are not audited.
   std::int64_t audit_every = 200;
 };
 
@@ -194,48 +195,49 @@ struct SchedulerOptions {
   /// A lease without progress expires after max(lease_floor, lease_factor * running estimate).
   Duration lease_floor = std::chrono::seconds(5);
   int lease_factor = 20;
-  /// A task that is out longer than max(copy_floor, copy_factor * running estimate) goes to an idle
-  /// slot elsewhere too. The floor is above what a task waits in a worker that has work for 20 ms.
+  /// A task that is leased for longer than max(copy_floor, copy_factor * running estimate) is
+  /// copied to an idle slot of another worker. The floor is longer than a task waits in a worker
+  /// that has work for 20 ms.
   Duration copy_floor = std::chrono::milliseconds(100);
   int copy_factor = 4;
-  /// A connection that breaks sooner than this after the last sign of life was closed by the death
-  /// of its process; links die silently, and the transport needs 3 s to notice.
+  /// If a connection closes sooner than this after the last sign of life, its process has died;
+  /// broken links are silent, and the transport needs 3 s to notice them.
   Duration silence = std::chrono::milliseconds(2500);
   std::vector<CampaignPolicy> campaigns{CampaignPolicy{}};  ///< Task::campaign is an index
-  /// Of all campaigns or of none: evaluations by programs: none is run a second time while a worker
-  /// that runs it is alive, a first failure is final, and two results of one evaluation may differ.
+  /// Whether programs evaluate, for all campaigns or none. Then no evaluation is repeated while a
+  /// worker that runs it is alive, the first failure is final, and two results may differ.
   bool evaluates_programs = false;
-  /// A principal that fails so often where others (with the simulator: the referee) succeed, and at
-  /// one of twenty of its evaluations, gets no more.
+  /// A principal that fails this often where others (with the simulator: the referee) succeed, and
+  /// in at least one of twenty of its evaluations, gets no more tasks.
   std::int64_t quarantine_after = 5;
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;
-  std::size_t max_workers_of_one = 5'000;  ///< that one principal answers for
+  std::size_t max_workers_of_one = 5'000;  ///< for each principal
   LeaseSecret lease_secret{};
   std::vector<Quarantine> quarantined{};  ///< by an earlier process
   int engine_version = 0;
-  std::string self_test;          ///< empty: that of the first worker
-  std::int64_t first_worker = 1;  ///< number of the first worker that comes
+  std::string self_test;          ///< empty: the value of the first worker
+  std::int64_t first_worker = 1;  ///< number for the first worker
 };
 
-/// Numbers for people, counted since the start.
+/// Counters for people, since the start.
 struct SchedulerCounters {
   std::uint64_t done = 0;
   std::uint64_t rejected = 0;
   std::uint64_t failed = 0;  ///< attempts without a score
   std::uint64_t duplicates = 0;
   std::uint64_t conflicts = 0;
-  std::uint64_t unknown = 0;   ///< results of tasks that were not asked for
-  std::uint64_t unleased = 0;  ///< results of tasks that their senders were never given
+  std::uint64_t unknown = 0;   ///< results of tasks that do not exist
+  std::uint64_t unleased = 0;  ///< results of tasks that were never leased to their senders
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
-  std::uint64_t copies = 0;       ///< second leases of stragglers
-  std::uint64_t ahead = 0;        ///< leases of look-ahead
-  std::uint64_t audited = 0;      ///< results that the referee made again, to compare
-  std::uint64_t rulings = 0;      ///< evaluations of the referee, audits included
-  std::uint64_t quarantined = 0;  ///< principals, or processes without a key
-  std::uint64_t reconnects = 0;   ///< hellos of workers that had been here before
+  std::uint64_t copies = 0;       ///< second leases because the first worker was slow
+  std::uint64_t ahead = 0;        ///< leases of look-ahead tasks
+  std::uint64_t audited = 0;      ///< results that the referee evaluated again for comparison
+  std::uint64_t rulings = 0;      ///< evaluations of the referee, including audits
+  std::uint64_t quarantined = 0;  ///< principals, or processes of principals without a key
+  std::uint64_t reconnects = 0;   ///< hellos of workers that had connected before
 };
 
 }  // namespace swarmsmith

@@ -13,26 +13,26 @@ constexpr Duration kPastEvery = std::chrono::seconds(1);
 constexpr Duration kPast = std::chrono::minutes(1);
 constexpr Duration kRateEvery = std::chrono::seconds(5);
 constexpr Duration kLongestSample = std::chrono::seconds(1);
-/// A worker's clock and ours need not agree on the length of a second, but about.
+/// A worker's clock and ours may differ in the length of a second, but only slightly.
 constexpr Duration kPatience = std::chrono::seconds(5);
 
 double seconds(Duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
-/// Why nothing is ready: look-ahead that was not taken is not work that is held back.
+/// The reason why no task is ready. Queued look-ahead does not count as work that is held back.
 IdleCause cause_without_ready(const LeaseTable& leases) {
   IdleCause cause = IdleCause::Barrier;
   for (const PoolDesign& held : leases.queues().held()) {
     if (leases.wanted_of(held) == 0) continue;
-    // The whole campaign is held for its store's sake; a design, because people said so.
+    // A whole campaign is held because of its store; a single design, because people paused it.
     if (held.design == 0) return IdleCause::Commit;
     cause = IdleCause::Held;
   }
   return cause;
 }
 
-/// Nothing: they are about to be given work. `without_ready` is the cause where nothing is ready.
+/// None if the slots are about to get work. `without_ready` is the cause if no task is ready.
 std::optional<IdleCause> cause_of(const Scheduler& scheduler, const WorkerEntry& worker,
                                   std::int64_t held, Holding holding,
                                   std::optional<IdleCause> without_ready) {
@@ -65,7 +65,7 @@ void SlotAccount::sample(const Scheduler& scheduler, Holding holding, TimePoint 
   }
   for (const auto& [number, entry] : scheduler.workers().all()) {
     if (!entry.usable()) {
-      // What it did since its last heartbeat is unknown.
+      // Its activity since the last heartbeat is unknown.
       workers_.erase(number);
       continue;
     }
@@ -75,12 +75,12 @@ void SlotAccount::sample(const Scheduler& scheduler, Holding holding, TimePoint 
       worker.mark = {.when = now, .done = entry.done};
       continue;
     }
-    // What another worker was faster with takes a slot until this one has said so.
+    // A task that another worker finished first occupies a slot until this worker reports it.
     const auto held = static_cast<std::int64_t>(leases.loads().of(number).held());
     const std::int64_t free = std::max<std::int64_t>(0, entry.hello.slots - held);
     const auto cause = cause_of(scheduler, entry, held, holding, without_ready);
     if (cause && free > 0) {
-      // A pause of this process says nothing of the slots, nor does a clock that was set back.
+      // A pause of this process, or a clock that was set back, says nothing about the slots.
       const Duration time = std::clamp(now - worker.sampled, Duration{0}, kLongestSample);
       worker.unleased[static_cast<std::size_t>(*cause)] +=
           static_cast<double>(free) * seconds(time);
@@ -96,7 +96,7 @@ void SlotAccount::sample(const Scheduler& scheduler, Holding holding, TimePoint 
 }
 
 void SlotAccount::settle(Worker& worker, const WorkerEntry& entry, TimePoint now) {
-  // A worker that lies about its time does not make more of it than there was.
+  // A worker that lies about its time cannot claim more time than has passed.
   const Duration at_most = std::max(now - worker.settled, Duration{0}) + kPatience;
   const double most = entry.hello.slots * seconds(at_most);
   const double slots = std::min(static_cast<double>(entry.slot_us - worker.slot_us) * 1e-6, most);

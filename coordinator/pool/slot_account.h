@@ -10,34 +10,35 @@
 
 namespace swarmsmith {
 
-/// Why nothing is leased at all, if so.
+/// The reason why leasing is stopped completely, if it is.
 enum class Holding { No, Commit, Other };
 
-/// What a worker's slots did lately.
+/// A worker's recent activity.
 struct WorkerRate {
   double done_per_s = 0;
   double busy = 0;  ///< share of its slots' time
 };
 
-/// Where the slots' time goes. Pure.
+/// Accounts for the time of all slots. Pure.
 ///
-/// How long slots evaluated is the worker's own measure, which its heartbeats bring. Why they did
-/// not is what the coordinator sees ten times a second: each sample finds, of the slots of a
-/// worker, those that have no lease, and their cause. From one heartbeat of a worker to the next,
-/// idle time = slot time - busy time, exactly; the causes get what the samples say, all of them
-/// shortened alike if that is more; what remains is the network's: leased, and not evaluated.
+/// Workers measure the time during which their slots evaluate, and report it in heartbeats. The
+/// coordinator finds the reasons for idle slots ten times a second: each sample counts the slots of
+/// a worker without a lease, and their cause. From one heartbeat of a worker to the next, idle time
+/// = slot time - busy time, exactly. The causes get the time found by the samples, all scaled down
+/// by the same factor if their sum is larger; the rest counts as network time: leased, and not
+/// evaluated.
 class SlotAccount {
  public:
-  /// Call it ten times a second, after leasing.
+  /// Call this ten times a second, after leasing.
   void sample(const Scheduler& scheduler, Holding holding, TimePoint now);
 
   const SlotTimes& since_start() const { return total_; }
-  /// Of about the last 60 s; of all time while that is less.
+  /// The last 60 s, approximately; all of the time if that is shorter.
   SlotTimes last_minute() const;
   WorkerRate rate_of(WorkerNumber worker) const;
 
  private:
-  /// At some time.
+  /// The values at some time.
   struct Mark {
     TimePoint when;
     std::int64_t done = 0;
@@ -48,9 +49,9 @@ class SlotAccount {
     std::uint64_t incarnation = 0;
     TimePoint sampled;
     TimePoint settled;
-    std::int64_t slot_us = 0;  ///< of the last report that was settled
+    std::int64_t slot_us = 0;  ///< in the last report that was settled
     std::int64_t busy_us = 0;
-    std::array<double, kIdleCauses> unleased{};  ///< since then, seconds
+    std::array<double, kIdleCauses> unleased{};  ///< seconds since then
     Mark mark;
     WorkerRate rate;
   };
@@ -59,7 +60,7 @@ class SlotAccount {
 
   std::map<WorkerNumber, Worker> workers_;
   SlotTimes total_;
-  std::deque<std::pair<TimePoint, SlotTimes>> past_;  ///< a second apart
+  std::deque<std::pair<TimePoint, SlotTimes>> past_;  ///< one entry per second
 };
 
 }  // namespace swarmsmith

@@ -6,15 +6,15 @@
 
 namespace swarmsmith {
 
-/// Why a slot idles (orchestration facts, 11).
+/// The reasons why a slot is idle (orchestration facts, 11).
 enum class IdleCause {
-  StartUp,  ///< the worker has not asked for work since it came
-  Barrier,  ///< nothing is wanted that is not leased already
-  Credit,   ///< the worker asked for less than it has slots
-  Network,  ///< it is leased enough and has not begun, or its result is on the way
-  Commit,   ///< nothing is leased, because a store cannot write or does not keep up
-  Held,     ///< nothing is leased, because the coordinator ends or people said so
-  Alone,    ///< the worker is kept free for a task that may have killed one
+  StartUp,  ///< the worker has not asked for work since it connected
+  Barrier,  ///< all wanted tasks are leased already
+  Credit,   ///< the worker asked for fewer tasks than it has slots
+  Network,  ///< the worker has enough leases; a task has not begun, or its result is on the way
+  Commit,   ///< leasing is stopped because a store cannot write or is too slow
+  Held,     ///< leasing is stopped because the coordinator is ending or people paused it
+  Alone,    ///< the worker is kept free for a task that may have killed a worker
 };
 inline constexpr std::size_t kIdleCauses = 7;
 /// As in metrics and JSON: "start-up", "barrier", ...

@@ -26,7 +26,7 @@ void TaskBook::note(const char* severity, const char* kind,
 
 void TaskBook::stop(std::uint32_t campaign, const std::string& reason, bool distrusted) {
   if (!stopped_.insert(campaign).second) return;
-  // What a program wrote may be long; it is in the table of failures.
+  // A program's output may be long; it is in the table of failures.
   note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}}, campaign);
   act(StopCampaign{campaign, reason, distrusted});
 }
@@ -73,7 +73,7 @@ void TaskBook::reject(TaskRecord& record, WorkerNumber worker, const std::string
                       const FailureDetails& details) {
   const EvaluationKey key = record.task.key;
   if (policy_of(record).stop_on_failure && record.task.ahead) {
-    // It may never be needed: no reason to stop before it is.
+    // The task may never be needed, so the campaign does not stop unless it is wanted.
     if (record.lease_of(worker) != nullptr) leases.requeue(record, worker);
     if (!record.lease) leases.shelve(record);
     return;
@@ -97,7 +97,7 @@ void TaskBook::learn(std::uint32_t campaign, std::int64_t wall_us) {
   SWARMSMITH_ASSERT(campaign < estimates_us_.size(), "results are of campaigns that run here");
   const auto spent_us = static_cast<double>(std::max<std::int64_t>(wall_us, 0));
   for (double* estimate : {&estimate_us, &estimates_us_[campaign]})
-    // The first time as it is, then a mean that forgets: some twenty of the latest count.
+    // The first value is taken directly; then it is an exponential mean over about the last twenty.
     *estimate += (*estimate == 0 ? 1.0 : 0.05) * (spent_us - *estimate);
 }
 

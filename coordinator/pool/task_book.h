@@ -18,9 +18,9 @@ namespace swarmsmith {
 
 struct Principal;
 
-/// Tasks from the wish to the outcome, and what is said of them: what Scheduler, Trust and
-/// LostWorkers have in common. It knows how an outcome, a rejection or the end of a campaign is
-/// recorded, and leaves to them when.
+/// The tasks from request to outcome, and the statements about them: the data shared by Scheduler,
+/// Trust and LostWorkers. It knows how to record an outcome, a rejection or the end of a campaign;
+/// the others decide when.
 class TaskBook {
  public:
   explicit TaskBook(SchedulerOptions all);
@@ -29,29 +29,30 @@ class TaskBook {
   LeaseTable leases;
   DoneTable done;
   SchedulerCounters counters;
-  TimePoint now;           ///< the latest that was said
-  double estimate_us = 0;  ///< of an evaluation's time, in all campaigns; 0 before the first
+  TimePoint now;           ///< the latest time that was passed in
+  double estimate_us = 0;  ///< running estimate of an evaluation's time, over all campaigns; 0
+                           ///< before the first
 
-  /// Of the campaign, or of all as long as none of it came back.
+  /// The campaign's estimate, or that of all campaigns until one of its evaluations has come back.
   double estimate_us_of(std::uint32_t campaign) const;
   void learn(std::uint32_t campaign, std::int64_t wall_us);
   const CampaignPolicy& policy_of(const TaskRecord& record) const {
     return options.campaigns[record.task.campaign];
   }
 
-  /// It has an outcome, or is of a design that is over.
+  /// Whether it has an outcome, or belongs to a design that is over.
   bool is_done(PackedKey key) const { return done.find(key) != nullptr || done.is_closed(key); }
-  /// The task's outcome, once; its record is gone afterwards.
+  /// Records the task's only outcome, and deletes its record.
   void accept(const Outcome& outcome);
-  /// There is no score. The record is gone afterwards, unless the campaign stops, or would have to
-  /// for a task that may never be needed.
+  /// There is no score. Deletes the record, unless the campaign stops, or would have to stop
+  /// because of a task that may never be needed.
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
 
   void stop(std::uint32_t campaign, const std::string& reason, bool distrusted = false);
   bool is_stopped(std::uint32_t campaign) const { return stopped_.contains(campaign); }
   void forget(std::uint32_t campaign);
-  /// Nothing more is wanted of the campaign, or again.
+  /// The campaign wants nothing more, or wants tasks again.
   void close(std::uint32_t campaign, bool closed) { closed_[campaign] = closed; }
   bool is_closed(std::uint32_t campaign) const {
     return campaign < closed_.size() && closed_[campaign];
@@ -67,15 +68,15 @@ class TaskBook {
             std::optional<std::uint32_t> campaign = std::nullopt, const Principal* source = nullptr,
             WorkerNumber worker = 0);
   void note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutcome outcome, TimePoint at);
-  /// A row for the copy that came second, or will; none when there is no copy.
+  /// Notes an attempt for the copy whose result comes second, if there are two copies.
   void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint at);
 
  private:
   void note_attempt(PackedKey key, const Lease& lease, AttemptOutcome outcome, TimePoint at);
 
-  std::vector<double> estimates_us_;  ///< by campaign; 0 before the first
+  std::vector<double> estimates_us_;  ///< by campaign; 0 before the first evaluation
   std::vector<bool> closed_;
-  std::set<std::uint32_t> stopped_;  ///< campaigns
+  std::set<std::uint32_t> stopped_;  ///< campaigns that were stopped
   std::vector<SchedulerAction> actions_;
 };
 

@@ -11,7 +11,7 @@ static_assert(kTestPurpose == static_cast<std::int32_t>(Purpose::Test) &&
                   kMostCandidates == kCandidatesPerDesign,
               "workers count as the store does");
 
-/// Keys of a store to one word and back; the caller has a key that came from a campaign.
+/// Packs a store's keys into one word; the key must come from a campaign.
 constexpr PackedKey pack(const EvaluationKey& key, std::uint32_t campaign = 0) {
   return pack(key.candidate.value, static_cast<std::int32_t>(key.purpose), key.pair, campaign);
 }
@@ -23,7 +23,7 @@ inline PackedKey key_of(const Outcome& outcome) {
   return pack(outcome.key, outcome.campaign);
 }
 
-/// The campaign is left out: it is the one of the store.
+/// The reverse, without the campaign, which is that of the store.
 constexpr EvaluationKey unpack(PackedKey packed) {
   return {.candidate = {candidate_of(packed)},
           .purpose = static_cast<Purpose>(packed & 7U),

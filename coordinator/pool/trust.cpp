@@ -1,4 +1,4 @@
-// Who can be believed: authority over a task, trials of newcomers, audits, strikes, quarantine.
+// Trust in workers: authority over a task, trials of new workers, audits, strikes, quarantine.
 
 #include "coordinator/pool/trust.h"
 
@@ -12,19 +12,19 @@
 namespace swarmsmith {
 namespace {
 
-/// Failing at one of so many evaluations is more than bad luck.
+/// Failing at one of this many evaluations is more than bad luck.
 constexpr std::int64_t kOneOf = 20;
-/// First results of a principal that the referee makes again before any of it counts.
+/// How many first results of a principal the referee evaluates again before any result counts.
 constexpr std::int64_t kTrial = 2;
-/// What a worker of a principal that is not known yet holds at most: enough for its trial.
+/// The most tasks that a worker of an unknown principal may hold: enough for its trial.
 constexpr std::size_t kRoomOnTrial = 64;
-/// Of a principal's n-th result, this / n is made again, until that is less than usual.
+/// A principal's n-th result is audited with probability this / n, or the usual rate if higher.
 constexpr double kDenseAtFirst = 4;
-/// Strangers that were given so much and have delivered nothing wait, while others work: races wait
-/// for what they take. Each further one makes it a second longer.
+/// Strangers that were given this many tasks and have delivered no result must wait while others
+/// work, because races wait for the tasks that they take. Each further task adds a second.
 constexpr std::int64_t kMostAstray = 32;
 constexpr std::int64_t kMostSecondsToWait = 300;
-/// Audits do not wait for the referee longer than that: later ones are left out.
+/// Audits are left out if they would wait for the referee longer than this.
 constexpr double kMostBacklogUs = 2e6;
 
 }  // namespace
@@ -73,8 +73,8 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
   return unaudited;
 }
 
-/// A lease of this process, or a signature of one: what was asked for can be told from what was
-/// guessed without remembering every lease that ever was, across a crash too.
+/// It has a lease of this process, or a signature of one: so requested results can be told from
+/// invented ones without remembering all past leases, even after a crash.
 bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
   const bool lingered = book_->leases.loads().settle(entry.number, result.key);
   TaskRecord* record = book_->leases.find(result.key);
@@ -95,7 +95,7 @@ bool Trust::is_on_trial(const WorkerEntry& entry, std::uint32_t campaign) const 
 void Trust::on_score(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
   const bool is_claim = result.rejected && !book_->options.evaluates_programs;
   if (is_claim) {
-    // Nothing will be written for its word.
+    // No row will be written for this statement.
     book_->act(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
     return claim(entry, record, Said::What::NoScore);
   }
@@ -105,9 +105,9 @@ void Trust::on_score(WorkerEntry& entry, TaskRecord& record, const Result& resul
   take(entry, record, result, now);
 }
 
-/// The result waits: for the referee's word on it, or on others of its principal. Meanwhile the
-/// task is parked: another stranger's result would have to wait as well, and who is proven is not
-/// needed for what is being ruled on.
+/// The result waits for the referee's ruling on it, or on other results of its principal. Meanwhile
+/// the task is parked: another stranger's result would have to wait too, and a proven worker is not
+/// needed for a task that is being ruled on.
 void Trust::hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
   Principal& principal = *entry.principal;
   const Case* known = cases_.find(result.key);
@@ -121,7 +121,7 @@ void Trust::hold_back(WorkerEntry& entry, TaskRecord& record, const Result& resu
   try_waiting(principal, entry.number, now);
 }
 
-/// Brings as many of its results before the referee as its trial takes.
+/// Passes as many of its results to the referee as its trial needs.
 void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now) {
   const WorkerNumber judged = principal.judged_as(worker);
   Principal::Standing& standing = principal.standing(worker);
@@ -132,7 +132,7 @@ void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now
     if (next == principal.waiting.end()) break;
     const Principal::Waiting one = std::move(principal.waiting.extract(next).mapped());
     const TaskRecord* record = book_->leases.find(one.result.key);
-    // Another worker was faster: it is compared when it is sent again.
+    // Another worker was faster: the result is compared when it is sent again.
     if (record == nullptr) continue;
     ++standing.on_trial;
     cases_.open(record->task,
@@ -147,7 +147,7 @@ void Trust::try_waiting(Principal& principal, WorkerNumber worker, TimePoint now
   if (standing.confirmed >= kTrial) take_waiting(principal, worker, now);
 }
 
-/// It is known now: what waited counts.
+/// The worker is known now, so its waiting results count.
 void Trust::take_waiting(Principal& principal, WorkerNumber worker, TimePoint now) {
   std::vector<std::pair<PackedKey, Principal::Waiting>> taken;
   for (auto at = principal.waiting.begin(); at != principal.waiting.end();) {
@@ -171,8 +171,8 @@ void Trust::take_waiting(Principal& principal, WorkerNumber worker, TimePoint no
   update_room(principal);
 }
 
-/// A later process draws the same, since only the secret and the key count: what this one drew and
-/// could not make again before it ended, the next one finds. Workers cannot tell which it is.
+/// A later process draws the same numbers, because only the secret and the key matter: it can find
+/// the audits that this process did not finish. Workers cannot predict the selection.
 bool Trust::is_drawn(PackedKey key, double share) const {
   return static_cast<double>(signer_.draw(key)) < share * 0x1p64;
 }
@@ -180,7 +180,7 @@ bool Trust::is_drawn(PackedKey key, double share) const {
 void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result) {
   const std::int64_t every = book_->policy_of(record).audit_every;
   if (every == 0 || book_->options.evaluates_programs || result.rejected) return;
-  // Where the referee already has an answer to judge, this one costs nothing more.
+  // If the referee already has a case for this evaluation, another result costs nothing.
   const bool has_word = cases_.knows(result.key);
   const double backlog_us = referee_us_ * static_cast<double>(cases_.size());
   if (!has_word && cases_.audits() > 0 && backlog_us > kMostBacklogUs) return;
@@ -208,7 +208,7 @@ void Trust::update_room(Principal& principal) {
 
 void Trust::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
   if (leases == 0 || principal.is_proven()) return;
-  // A worker that is alone does not wait: it takes no other's turn.
+  // A worker does not wait if it is the only one, because it delays no other.
   principal.astray += static_cast<std::int64_t>(leases);
   if (principal.astray < kMostAstray || proven_present() == 0) return;
   principal.waits_until =
@@ -231,8 +231,8 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
 
 void Trust::strike(Principal& principal, WorkerNumber worker, TimePoint now) {
   if (book_->options.quarantine_after == 0) return;
-  // A share, and not only a number: a worker of a long campaign fails now and then (orchestration
-  // facts, 5 "Poison workers").
+  // A share, and not only a number, because even a good worker fails now and then in a long
+  // campaign (orchestration facts, 5 "Poison workers").
   Principal::Standing& standing = principal.standing(worker);
   ++standing.strikes;
   const std::int64_t tried = standing.taken + standing.strikes;
@@ -241,9 +241,9 @@ void Trust::strike(Principal& principal, WorkerNumber worker, TimePoint now) {
   if (often) quarantine(principal, worker, "fails at evaluations that succeed elsewhere", now);
 }
 
-/// By campaign: evaluations of the convicted worker that were not made again. Without a key, a
-/// worker that has left may have been the same program under another id; workers that are here
-/// answer for themselves.
+/// For each campaign, the number of the convicted worker's evaluations that were not audited.
+/// Without a key, a worker that has left may have been the same program under another id, so its
+/// evaluations count too; workers that are connected are judged separately.
 std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,
                                                   WorkerNumber worker) const {
   std::set<WorkerNumber> others;
@@ -261,7 +261,7 @@ std::vector<std::int64_t> Trust::unchecked_beside(const Principal& principal,
   return sum;
 }
 
-/// Its word is wrong. Its earlier results that were not made again cannot be believed either.
+/// Its statement is wrong, so its earlier results that were not audited cannot be trusted either.
 void Trust::convict(Principal& principal, WorkerNumber worker, const std::string& evidence,
                     TimePoint now) {
   if (principal.quarantined) return;
@@ -310,7 +310,7 @@ void Trust::quarantine_all(Principal& principal, const std::string& reason, Time
 void Trust::quarantine_process(Principal& principal, WorkerNumber worker, const std::string& reason,
                                TimePoint now) {
   WorkerEntry* entry = workers_->of_number(worker);
-  // Of an earlier process of the coordinator only the number is known: it counts.
+  // For a worker of an earlier coordinator process, only the number is known, and it counts.
   const std::string id =
       entry != nullptr ? hexadecimal(entry->hello.identity) : "worker " + std::to_string(worker);
   const auto [liar, is_new] =
@@ -325,7 +325,7 @@ void Trust::quarantine_process(Principal& principal, WorkerNumber worker, const 
                {"made again", standing.confirmed}},
               std::nullopt, nullptr, worker);
   if (principal.liars.size() >= Principal::kMostLiars) {
-    // A worker that comes back under ever new ids would have the referee for itself.
+    // Otherwise a worker that keeps coming back under new ids would occupy the referee.
     const std::string all = std::to_string(principal.liars.size()) +
                             " of its processes are, the last one because " + reason;
     book_->note("error", "workers in quarantine", {{"who", principal.name}, {"reason", all}});
@@ -338,7 +338,7 @@ void Trust::quarantine_process(Principal& principal, WorkerNumber worker, const 
   if (workers_->trusted() == 0) book_->note("error", "no trusted worker is left", {});
 }
 
-/// Takes its leases back.
+/// Quarantines the worker, and ends its leases.
 void Trust::isolate(WorkerEntry& entry, const std::string& sentence, TimePoint now) {
   const WorkerNumber number = entry.number;
   const std::list<PackedKey>& leases = book_->leases.leases_of(number);
@@ -356,7 +356,7 @@ void Trust::isolate(WorkerEntry& entry, const std::string& sentence, TimePoint n
   if (entry.connected) book_->act(SendNotice{entry.peer, entry.hello.incarnation, sentence});
 }
 
-/// What the worker (none: any) said, and was not taken yet, is as if it had not been said.
+/// Drops the results of the worker (none: of all workers) that wait, as if they had not been sent.
 void Trust::drop_waiting(Principal& principal, std::optional<WorkerNumber> worker) {
   std::erase_if(principal.waiting, [&](const auto& each) {
     const auto& [key, one] = each;
@@ -376,7 +376,7 @@ std::vector<std::string> Trust::forgive(std::string_view word, const std::string
                                         TimePoint now) {
   book_->now = now;
   std::vector<std::string> names;
-  // A key that is not believed from anywhere is forgiven everywhere.
+  // A key that is quarantined at all addresses is forgiven at all of them.
   const std::string key = key_of_principal(std::string(word));
   const Principal* whole = principals_.find(key);
   const bool is_whole = whole != nullptr && whole->quarantined;
@@ -391,14 +391,14 @@ std::vector<std::string> Trust::forgive(std::string_view word, const std::string
     principal.quarantined = false;
     principal.cause = {};
     principal.liars.clear();
-    // What it has said so far proves nothing.
+    // Its earlier results prove nothing now.
     principal.taken = 0;
     for (auto& [worker, standing] : principal.standings) {
       standing.taken = 0;
       standing.confirmed = 0;
       standing.strikes = 0;
     }
-    // For the store before its workers, which have other states from now on.
+    // The store needs this row before those of the workers, whose states change now.
     book_->act(Forgiven{name});
     book_->note("info", "workers forgiven", {{"who", name}, {"by", by}});
     for (const WorkerNumber number : principal.workers) {
@@ -462,7 +462,7 @@ void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, T
        .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1)});
 }
 
-/// Principals that have proved themselves and are there.
+/// The number of proven principals with a usable worker.
 std::size_t Trust::proven_present() const {
   return static_cast<std::size_t>(std::ranges::count_if(principals_.all(), [&](const auto& each) {
     return each.second.is_proven() && std::ranges::any_of(each.second.workers, [&](auto number) {

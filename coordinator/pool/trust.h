@@ -18,63 +18,64 @@
 
 namespace swarmsmith {
 
-/// Who is believed, and what the referee says of the rest (docs/decisions/0019). A listed worker
-/// can lie (orchestration facts, 6), so that in a campaign of the simulator no worker's word alone
-/// rejects an evaluation, stops a campaign or, while nothing is known of who answers for the
-/// worker, becomes an outcome: that is a *case*, which the coordinator's own child process decides.
+/// Decides which workers are trusted, and handles the referee's rulings (docs/decisions/0019). A
+/// worker with a listed key can lie (orchestration facts, 6). So in a campaign of the simulator, a
+/// worker's statement alone does not reject an evaluation or stop a campaign, and while its
+/// principal is unknown, it does not become an outcome: it becomes a *case*, which the
+/// coordinator's own child process decides.
 ///
-/// A principal (principal.h)
+/// The states of a principal (principal.h); without a key, each of its processes has its own state:
 ///
 ///     stranger ──first outcome──► proven ──fails where others succeed, lies──► quarantined
 ///        ▲                                                                        │
 ///        └──────────────────────── a person forgives ─────────────────────────────┘
 ///
-/// (without a key, each of its processes by itself) is a stranger until a result
-/// of its became an outcome; with audits its first results wait until the referee has made them
-/// again. Strangers get few tasks, and their deaths do not count against a task. With programs in
-/// place of the simulator there is no referee: the holder of a lease is believed.
+/// A principal is a stranger until one of its results has become an outcome; with audits, its first
+/// results wait until the referee has evaluated them again. Strangers get few tasks, and deaths of
+/// their workers do not count against a task. With programs instead of the simulator there is no
+/// referee, and the holder of a lease is trusted.
 class Trust {
  public:
-  /// Both must stay where they are.
+  /// Both must outlive this object and keep their addresses.
   Trust(TaskBook& book, WorkerRegistry& workers);
 
   /// See Scheduler.
   std::deque<StoredWord> know(std::uint32_t campaign, std::span<const StoredScore> known,
                               const StoredTrust& trust);
   void audit_stored(Task task, Said said) { cases_.open(std::move(task), std::move(said), true); }
-  /// What is before the referee of the campaign, or waits for that, is of no use any more.
+  /// Cases of the campaign, and results that wait for a ruling, are no longer needed.
   void forget(std::uint32_t campaign);
 
-  /// Whether the worker was given the task: it has a lease of it, or the result one that is signed.
+  /// Whether the worker was given the task: it has a lease of it, or the result is signed.
   bool may_answer(const WorkerEntry& entry, const Result& result);
-  /// A score of a task without an outcome: becomes the outcome, or waits, or is a case.
+  /// A score of a task without an outcome: it becomes the outcome, waits, or becomes a case.
   void on_score(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
-  /// A score of a task that has an outcome, which may have other bits.
+  /// A score of a task that has an outcome; its bits may differ.
   void on_repeated(WorkerEntry& entry, const Result& result);
   /// See Scheduler.
   void on_disputed(PackedKey key, const std::optional<Task>& task, TimePoint now);
-  /// The holder of a lease says that there is no score, or died with it: a case, unless another
-  /// worker has the task too.
+  /// The holder of a lease reports that there is no score, or has died with it: opens a case,
+  /// unless another worker has the task too.
   void claim(WorkerEntry& entry, TaskRecord& record, Said::What what);
-  /// A queued task that was lost with strangers again and again: a case, one at a time.
+  /// A queued task was lost again and again with strangers' workers: opens a case, one at a time.
   void rule_on_stray(TaskRecord& record);
 
-  /// The next case, when the referee has nothing to do.
+  /// Starts the next case if the referee is free.
   void ask_referee();
   void on_ruling(const Ruling& ruling, TimePoint now);
 
-  /// How many tasks the worker wants; it gets as many as it may hold now.
+  /// Sets the number of tasks that the worker wants; it gets at most as many as it may hold now.
   void set_credit(WorkerEntry& entry, std::uint32_t credit);
-  /// Leases that a stranger's workers had ended without a result.
+  /// Counts leases that ended without a result at a stranger's workers.
   void go_astray(Principal& principal, std::size_t leases, TimePoint now);
-  /// Principals that have proved themselves and are there.
+  /// The number of proven principals with a usable worker.
   std::size_t proven_present() const;
-  /// Principals that may be forgotten.
+  /// Forgets principals that are no longer needed.
   void forget_idle() { principals_.forget_idle(); }
 
-  /// Who answers for the worker, new or known.
+  /// The worker's principal, new or known.
   Principal& principal_of(const WorkerHello& hello) { return principals_.of(hello); }
-  /// Why the worker gets nothing; null when it may work.
+  /// The reason why the worker gets no tasks; null if it may work.
   const Principal::Cause* cause_against(const Principal& principal,
                                         const std::string& identity) const;
   /// See Scheduler.
@@ -85,20 +86,20 @@ class Trust {
 
  private:
   // trust.cpp
-  /// Whether its results wait for what the referee says of its first ones.
+  /// Whether its results must wait for the referee's rulings on its first ones.
   bool is_on_trial(const WorkerEntry& entry, std::uint32_t campaign) const;
   void hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
   void try_waiting(Principal& principal, WorkerNumber worker, TimePoint now);
   void take_waiting(Principal& principal, WorkerNumber worker, TimePoint now);
   void drop_waiting(Principal& principal, std::optional<WorkerNumber> worker = std::nullopt);
-  /// The result becomes the outcome.
+  /// Makes the result the outcome.
   void take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
   bool is_drawn(PackedKey key, double share) const;
-  /// Opens a case when the result is one of those that are made again.
+  /// Opens a case if the result is selected for an audit.
   void audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result);
-  /// What its workers may hold now.
+  /// Updates the number of tasks that its workers may hold now.
   void update_room(Principal& principal);
-  /// `worker`: whose evaluation it was.
+  /// `worker`: the one that made the evaluation.
   void strike(Principal& principal, WorkerNumber worker, TimePoint now);
   void convict(Principal& principal, WorkerNumber worker, const std::string& evidence,
                TimePoint now);
@@ -106,11 +107,11 @@ class Trust {
   void quarantine(Principal& principal, WorkerNumber worker, const std::string& reason,
                   TimePoint now);
   void quarantine_all(Principal& principal, const std::string& reason, TimePoint now);
-  /// One process of a principal without a key; after kMostLiars of them, all of it.
+  /// Quarantines one process of a principal without a key, or all after kMostLiars of them.
   void quarantine_process(Principal& principal, WorkerNumber worker, const std::string& reason,
                           TimePoint now);
   void isolate(WorkerEntry& entry, const std::string& sentence, TimePoint now);
-  /// Whether the principal stands behind it no longer.
+  /// Whether the worker of this statement is in quarantine.
   bool is_cast_out(const Said& said) const;
 
   // trust_rulings.cpp
@@ -126,10 +127,10 @@ class Trust {
   WorkerRegistry* workers_;
   Principals principals_;
   Cases cases_;
-  /// Results with other bits than the outcome's, whose tasks are asked for.
+  /// Results that differ from the outcome; their tasks were requested from the campaigns.
   std::unordered_map<PackedKey, std::vector<Dispute>> disputed_;
   LeaseSigner signer_;
-  double referee_us_ = 0;  ///< of one of its evaluations
+  double referee_us_ = 0;  ///< running estimate of the referee's time for an evaluation
 };
 
 /// For people, at the worker and elsewhere.

@@ -1,4 +1,4 @@
-// What is brought before the referee, and what follows from its word.
+// Cases for the referee, and the consequences of its rulings.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string text_of(const Said& said) {
   return said.what == Said::What::Score ? fmt::format("{}", said.measured.score) : "no score";
 }
 
-/// Equal scores of runs whose robots ended elsewhere prove nothing without this.
+/// If the scores are equal but the final states of the runs differ, the text must say so.
 std::string text_beside(const Said& said, const Ruling& ruling) {
   const bool is_same = said.what == Said::What::Score && ruling.kind == Ruling::Kind::Score &&
                        said.measured.score == ruling.measured.score;
@@ -38,8 +38,9 @@ std::string text_beside(const Said& said, const Ruling& ruling) {
 
 }  // namespace
 
-/// The lease ends in any case. With a second copy out nothing is claimed yet: its result will show.
-/// Nor beyond kMostClaims: the referee's time is what a liar could take from all others.
+/// The lease ends in any case. If there is a second copy, no case is opened, because its result
+/// will show the truth. Above kMostClaims none is opened either, because a liar could take the
+/// referee's time from all others.
 void Trust::claim(WorkerEntry& entry, TaskRecord& record, Said::What what) {
   const Lease* lease = record.lease_of(entry.number);
   if (lease == nullptr) return;
@@ -67,7 +68,7 @@ void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
   ++book_->counters.duplicates;
   const DoneEntry* known = book_->done.find(result.key);
   const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
-  // Two runs of a program may differ, in its time at least: the first one counts.
+  // Two runs of a program may differ, at least in their time: the first one counts.
   const bool is_the_same = known == nullptr || book_->options.evaluates_programs ||
                            DoneTable::same(*known, status, result.measured);
   if (is_the_same || entry.principal->claims >= Principal::kMostClaims) {
@@ -77,9 +78,9 @@ void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
   }
 }
 
-/// Another result with other bits: of another task, when a crash took away why that one had the
-/// key; or the campaign is not deterministic, or a worker lies. That is seen when the campaign has
-/// told the task.
+/// A result with other bits may belong to another task, if the key meant another task before a
+/// crash; or the campaign is not deterministic, or a worker lies. This is decided when the campaign
+/// has returned the task.
 void Trust::dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result) {
   if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
   const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, {});
@@ -108,7 +109,7 @@ void Trust::on_disputed(PackedKey key, const std::optional<Task>& task, TimePoin
   if (!found || book_->is_stopped(campaign_of(key))) return;
   for (const Dispute& dispute : found.mapped()) {
     const Said& other = dispute.other;
-    // A campaign that is over asks for no result.
+    // A campaign that is over needs no results.
     if (task || book_->is_closed(campaign_of(key))) book_->act(OutcomeRepeated{key, other.worker});
     if (!task) {
       let_go(other);
@@ -164,12 +165,12 @@ void Trust::on_ruling(const Ruling& ruling, TimePoint now) {
   compare_with_stored(*ruled, ruling);
 }
 
-/// The outcome, where there is none yet.
+/// Records the outcome, if there is none yet.
 void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
   TaskRecord* record = book_->leases.find(ruling.key);
   if (record == nullptr) return;
   if (ruling.kind == Ruling::Kind::TimedOut) {
-    if (record->lease) return;  // the other copy tells
+    if (record->lease) return;  // the other copy will decide
     if (record->task.ahead) return book_->leases.shelve(*record);
     return book_->stop(record->task.campaign, ruling.reason);
   }
@@ -202,7 +203,7 @@ void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
        .attempt = is_of_worker ? right->attempt : std::max<std::int64_t>(record->attempts, 1)});
 }
 
-/// What follows for who said it.
+/// The consequences for the worker that made the statement.
 void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now) {
   let_go(said);
   Principal* principal = principals_.find(said.principal);
@@ -225,8 +226,8 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
   if (said.on_trial) try_waiting(*principal, said.worker, now);
 }
 
-/// It is made again by no later process, and workers that gave other bits were wrong. Who gave the
-/// kept one of a dispute is not known.
+/// A later process does not audit it again, and workers that gave other bits were wrong. For a
+/// dispute, the worker that gave the kept result is not known.
 void Trust::note_audited(const Said& said, Principal* principal, const Ruling& ruling) {
   const std::uint32_t campaign = campaign_of(ruling.key);
   if (principal != nullptr) --principal->standing(said.worker).unchecked_of(campaign);
@@ -238,7 +239,7 @@ void Trust::note_audited(const Said& said, Principal* principal, const Ruling& r
                            .outcome = AttemptOutcome::Audited}});
 }
 
-/// The outcome that counts may be the wrong one.
+/// The stored outcome may be the wrong one.
 void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
   if (ruling.kind == Ruling::Kind::TimedOut) return;
   for (const Said& said : ruled.said) {
@@ -260,7 +261,7 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
   }
 }
 
-/// It is before the referee no longer. Each word that was brought there was counted once.
+/// The referee no longer has the statement, which was counted when its case was opened.
 void Trust::let_go(const Said& said) {
   Principal* principal = principals_.find(said.principal);
   if (principal == nullptr || said.taken) return;

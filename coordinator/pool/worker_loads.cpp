@@ -67,7 +67,7 @@ void WorkerLoads::promote(WorkerNumber worker) {
 }
 
 void WorkerLoads::linger(WorkerNumber worker, PackedKey key, TimePoint since) {
-  if (of(worker).slots == 0) return;  // gone
+  if (of(worker).slots == 0) return;  // the worker has gone
   change(worker, [&](WorkerLoad& load) { load.lingering.emplace(key, since); });
 }
 

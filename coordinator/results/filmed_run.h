@@ -7,19 +7,19 @@
 
 namespace swarmsmith {
 
-/// A real run in the terms of the simulator: what it would have recorded.
+/// A real run in the simulator's types, as if the simulator had recorded it.
 struct FilmedRun {
   Mission mission;
-  Instance instance;      ///< starts as they were filmed, patches as they lay
-  Trajectory trajectory;  ///< at the control cycles
+  Instance instance;      ///< with the filmed start poses, and the patches as they lay
+  Trajectory trajectory;  ///< sampled at the control cycles
 };
 
-/// Reads the mission and puts the cycles together. Corrupt when the mission cannot be read or has
-/// movable objects, a patch has a colour that is none, or cycles are missing.
+/// Reads the mission and the cycles. Errors: Corrupt if the mission cannot be read or has movable
+/// objects, if a patch has an unknown colour, or if cycles are missing.
 Expected<FilmedRun> filmed_run(const RealRunRows& rows);
 
-/// What the run's stored cycles score, by the scoring code that simulations are judged by. -0 is 0,
-/// as in a store.
+/// The score of the run's stored cycles, computed by the same code as for simulations. -0 becomes
+/// 0, as in a store.
 double score_again(const FilmedRun& run);
 
 }  // namespace swarmsmith

@@ -6,7 +6,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The name that a word is, or that of the mission in the file that it names.
+/// If the word names a file, adds the file's mission and returns its name, else returns the word.
 OrErrors<std::string> mission_of(const std::string& word, MissionWords& words) {
   if (!names_a_file(word)) return word;
   auto entry = find_mission(word, {});

@@ -13,9 +13,9 @@
 
 namespace swarmsmith {
 
-/// What machines of elsewhere are made of and simulated in, as far as their files say it and no
-/// program knows it by name: the text `file` of the campaign that they become. It has the sections
-/// of a campaign file, but it is none: nothing was raced.
+/// The missions, profile and flavour of imported machines, if their files describe them and they
+/// are not built in. The text is stored as the `file` of the imported campaign. It has the sections
+/// of a campaign file, but it is not one, because nothing was raced.
 struct ImportedWorld {
   std::vector<MissionEntry> missions;
   std::optional<Profile> profile;
@@ -29,10 +29,10 @@ std::vector<Section> imported_sections(const ImportedWorld& world);
 /// Whether a campaign's `file` is such a text.
 bool is_imported_text(std::string_view text);
 
-/// Empty for a world without any of it; else read_imported_world gives the same bits.
+/// Empty for an empty world; otherwise read_imported_world restores it bit by bit.
 std::string imported_text(const ImportedWorld& world);
 
-/// BadInput when this version cannot read it. May name no file.
+/// BadInput if this version cannot read the text. The text must not refer to files.
 Expected<ImportedWorld> read_imported_world(std::string_view text);
 
 }  // namespace swarmsmith

@@ -13,12 +13,12 @@
 namespace swarmsmith {
 namespace {
 
-/// Logs that were converted before there were these tables lack them.
+/// Older converters did not write these tables.
 bool is_optional(const std::string& file) {
   return file == "domains.csv" || file == "instances.csv" || file == "scenario.csv";
 }
 
-/// One table, whose cells are read by column; what is wrong is gathered.
+/// Reads one table by column and collects all errors.
 class Reader {
  public:
   Reader(const std::map<std::string, std::string>& texts, const std::string& file,
@@ -45,11 +45,11 @@ class Reader {
     if (!table_.column(column)) complain(row, "there is no column " + column);
     return cell_of(table_, row, column);
   }
-  /// Of a column that older tables lack.
+  /// The cell of a column that older tables lack.
   std::string text_if_there(const CsvRow& row, const std::string& column) const {
     return cell_of(table_, row, column);
   }
-  /// NA, which is an empty cell, is 0.
+  /// An empty cell (NA) is read as 0.
   std::int64_t integer(const CsvRow& row, const std::string& column) {
     const std::string word = text(row, column);
     if (word.empty()) return 0;
@@ -64,7 +64,7 @@ class Reader {
     if (!value) complain(row, "column " + column + " wants a number, not `" + word + "`");
     return value;
   }
-  /// Infinite for a rejected run.
+  /// An infinite cost means a rejected run.
   std::optional<double> cost(const CsvRow& row) {
     const auto cost = number(row, "cost");
     if (cost && std::isfinite(*cost) && is_too_large(*cost)) {
@@ -137,7 +137,7 @@ void read_options(Reader reader, IraceLog& log) {
 }
 
 void read_configurations(Reader reader, IraceLog& log) {
-  // A parameter may be called as it likes: by position.
+  // Read by position, because parameters may have any name.
   const std::size_t columns = reader.table().columns.size();
   for (const CsvRow& row : reader.table().rows) {
     if (columns != log.parameters.size() + 2) {
@@ -165,7 +165,7 @@ void read_pairs(Reader reader, IraceLog& log) {
   }
 }
 
-/// What rows may refer to.
+/// The ids to which rows may refer.
 struct Known {
   std::set<std::int64_t> configurations;
   std::set<std::int64_t> pairs;
@@ -190,7 +190,7 @@ void read_runs(Reader reader, const Known& known, IraceLog& log) {
                .time = reader.number(row, "time").value_or(0),
                .bound = reader.number(row, "bound").value_or(0)};
     if (run.iteration < 0) reader.complain(row, "iterations count from 0");
-    // The runs that estimate a time come before the first race (irace facts, 16), and count for it.
+    // Runs that estimate the time precede the first race (irace facts, 16) and count as part of it.
     run.iteration = std::max<std::int64_t>(run.iteration, 1);
     log.runs.push_back(run);
   }
@@ -213,13 +213,13 @@ void read_tests(Reader reader, const Known& known, IraceLog& log) {
   }
 }
 
-/// Digits as R's converter writes them.
+/// With as many digits as R's converter writes.
 std::string long_text(double value) {
   if (std::isinf(value)) return value > 0 ? "Inf" : "-Inf";
   return fmt::format("{:.17g}", value);
 }
 
-/// A number that is not there is an empty cell.
+/// A missing number, stored as 0, becomes an empty cell.
 std::string cell(std::int64_t number) {
   return number == 0 ? "" : std::to_string(number);
 }

@@ -19,7 +19,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Makes the rows of one log.
+/// Makes the rows for one log.
 class Rows {
  public:
   Rows(const IraceLog& log, const IraceImport& known, DesignId design)
@@ -79,7 +79,7 @@ std::vector<Error> Rows::add_candidates() {
   for (const LogRun& run : log_.runs)
     first_ran.emplace(run.configuration, run.iteration);
   std::vector<Error> errors;
-  std::int64_t iteration = 1;  // of one that never ran: as of the one before it
+  std::int64_t iteration = 1;  // without runs: as the one before
   for (const LogConfiguration& configuration : log_.configurations) {
     if (const auto ran = first_ran.find(configuration.id); ran != first_ran.end()) {
       iteration = ran->second;
@@ -224,7 +224,7 @@ void Rows::add_elites() {
   }
 }
 
-/// The winner is the first elite of the last iteration that has any.
+/// The winner is the first elite of the last iteration that has elites.
 void Rows::add_end() {
   DesignStateRow state{.design = design_,
                        .state = DesignState::Finished,
@@ -243,12 +243,12 @@ void Rows::add_end() {
   rows_.emplace_back(std::move(state));
 }
 
-/// With what the store has no tables for, so that the log can be made again.
+/// Contains the tables for which the store has no columns, so that the log can be written again.
 std::string deciding_of(const IraceLog& log) {
   JsonObject object;
   object.add("imported", "irace log").add("irace", log.version).add("log", log.digest);
   const auto texts = print_irace_log(log);
-  // Bytes that are not UTF-8 stay, so that the files are made again as they were.
+  // Bytes that are not UTF-8 are kept, so that the files can be written again without changes.
   for (const std::string& file : irace_setting_files())
     object.add(file, JsonPiece{quoted_text(texts.at(file))});
   return object.text();

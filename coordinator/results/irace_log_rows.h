@@ -12,21 +12,21 @@
 
 namespace swarmsmith {
 
-/// What a log does not say.
+/// Information that a log does not contain.
 struct IraceImport {
-  std::string campaign;  ///< name of the campaign that it becomes
+  std::string campaign;  ///< name of the imported campaign
   std::string mission = "tuning";
   std::string method = "irace";
-  /// The configurations are machines in this flavour's grammar; nothing: parameters of a program.
+  /// The flavour if the configurations are machines in its grammar; none: parameters of a program.
   std::optional<Flavour> flavour;
-  std::vector<KnownDesign> designs;  ///< that the store has
+  std::vector<KnownDesign> designs;  ///< designs in the store
 };
 
-/// The log as a campaign of one design with the state "imported". Scores are negative costs. What
-/// the log keeps silent about is worked out from its runs: who was alive on a pair is who has a
-/// cost there, who leaves is who is not on the next one, best is who has the largest mean in the
-/// race. Its tests' statistics are not known, nor why one was dropped: markers are `?`. Errors: a
-/// configuration that is not a machine of the flavour.
+/// Converts the log to a campaign with one design and the state "imported". Scores are negative
+/// costs. Information that the log lacks is derived from its runs: a configuration is alive on a
+/// pair if it has a cost there; it is dropped if it has none on the next pair; the best one has the
+/// largest mean in the race. The statistics of the race's tests and the reasons for dropping are
+/// unknown, so markers are `?`. Errors: a configuration that is not a machine of the flavour.
 OrErrors<Addition> irace_log_addition(const IraceLog& log, const IraceImport& known);
 
 }  // namespace swarmsmith

@@ -18,7 +18,7 @@ Expected<std::vector<Cells>> rows_of(StoreReader& store, const std::string& sql)
   return rows;
 }
 
-/// Schema 4 brought them.
+/// Schema 4 added these columns.
 Expected<bool> has_names(StoreReader& store) {
   std::vector<std::string> columns;
   const auto end = store.query(

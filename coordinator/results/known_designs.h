@@ -11,20 +11,20 @@
 
 namespace swarmsmith {
 
-/// A design of a store, of any of its campaigns.
+/// A design in a store, from any of its campaigns.
 struct KnownDesign {
   DesignId id;
   std::string mission;
   std::string method;
   std::int64_t repetition = 0;
-  std::string name;     ///< as it was called where it was imported from; empty for others
-  std::string flavour;  ///< empty for the parameters of a program, and in stores of schemas 1 to 3
+  std::string name;     ///< its name in the imported file; empty for others
+  std::string flavour;  ///< empty for parameters of a program, and in stores with schemas 1 to 3
   std::int64_t campaign = 1;
   bool finished = false;
-  CandidateId best;  ///< the winner when finished
+  CandidateId best;  ///< the winner if the design is finished
 };
 
-/// In the order of their ids. Stores of older schemas lack names and flavours.
+/// Sorted by id. Stores with older schemas have no names and flavours.
 Expected<std::vector<KnownDesign>> known_designs(StoreReader& store);
 
 /// Digests of the campaigns that were imported into the store.

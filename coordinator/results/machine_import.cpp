@@ -21,7 +21,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The first of the columns that the table has; nothing when it has none.
+/// The first of these columns that the table has; none if it has none.
 std::optional<std::string> first_column(const CsvTable& table,
                                         std::initializer_list<const char*> names) {
   for (const char* name : names) {
@@ -34,7 +34,7 @@ std::optional<std::string> machine_column(const CsvTable& table) {
   return first_column(table, {"fsm", "fsm_config", "machine"});
 }
 
-/// The next repetition of a mission and method.
+/// Counts the repetitions of each mission and method.
 class Repetitions {
  public:
   explicit Repetitions(const std::vector<KnownDesign>& known) {
@@ -51,7 +51,7 @@ class Repetitions {
   std::map<std::pair<std::string, std::string>, std::int64_t> last_;
 };
 
-/// What is wrong with a design's own words.
+/// The error in a design's mission or method, if there is one.
 std::optional<std::string> complaint_about(const std::string& mission, const std::string& method,
                                            bool is_known) {
   if (mission.empty()) {
@@ -83,16 +83,15 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
   return std::nullopt;
 }
 
-/// The worlds of an import, put together: one mission a name, one profile.
+/// Collects the worlds of all machines: one mission per name, and one profile.
 class Worlds {
  public:
-  /// What the machine's mission is, whose name here is `name`; nothing for what the name alone
-  /// says.
+  /// The description of the machine's mission, here called `name`; none if the name is enough.
   static std::optional<MissionEntry> entry_of(const MachineText& from, const std::string& name,
                                               const MissionWords& words) {
     if (const MissionEntry* of_file = words.of_file(name)) return *of_file;
     const auto built_in = built_in_mission(name);
-    // Given the name of a built-in one, it is that.
+    // A mission that is renamed to a built-in one becomes the built-in one.
     if (!from.described || (built_in && from.mission != name)) return std::nullopt;
     MissionEntry entry = *from.described;
     entry.mission.name = name;
@@ -100,7 +99,7 @@ class Worlds {
     return entry;
   }
 
-  /// A sentence when the machine's world is not that of those before.
+  /// Returns an error if the machine's mission or profile differs from earlier ones.
   std::optional<std::string> add(const MachineText& from, const std::string& name,
                                  const MissionWords& words) {
     auto entry = entry_of(from, name, words);
@@ -119,7 +118,7 @@ class Worlds {
     return std::nullopt;
   }
 
-  /// What each program would not know: `rvr` is what is simulated when nothing else is said.
+  /// The parts that are not built in: without a profile, machines are simulated with `rvr`.
   ImportedWorld world() const {
     ImportedWorld world;
     for (const auto& [name, entry] : missions_) {
@@ -131,11 +130,11 @@ class Worlds {
   }
 
  private:
-  std::map<std::string, std::optional<MissionEntry>> missions_;  ///< by their names here
+  std::map<std::string, std::optional<MissionEntry>> missions_;  ///< by name here
   std::optional<Profile> profile_;
 };
 
-/// A mission file for all designs is wrong for those of two missions.
+/// The error if a mission file is given for all machines but the machines name two missions.
 std::optional<Error> complaint_about_two(const std::vector<MachineText>& machines,
                                          const MissionWords& words) {
   if (!words.all_of_file) return std::nullopt;
@@ -152,7 +151,7 @@ std::optional<Error> complaint_about_two(const std::vector<MachineText>& machine
   return std::nullopt;
 }
 
-/// As a campaign's row has it: texts of TOML in JSON.
+/// In the form of a campaign's row: TOML texts in JSON.
 std::string deciding_json(const MachineImport& known, std::size_t machines,
                           const ImportedWorld& world) {
   JsonObject object;
@@ -251,7 +250,7 @@ Expected<Flavour> flavour_of(const std::vector<MachineText>& machines,
                              const std::optional<Flavour>& said) {
   std::optional<Flavour> flavour = said;
   for (const MachineText& machine : machines) {
-    // A table has the name alone of a flavour that a file describes.
+    // A table contains only the name of a flavour that a file describes.
     const bool is_named =
         machine.own_flavour == nullptr && flavour && machine.flavour == flavour->name;
     if (machine.flavour.empty() || is_named) continue;
@@ -292,7 +291,7 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
   for (const MachineText& from : machines) {
     const std::string mission = known.missions.name_of(from.mission);
     const std::string method = from.method.empty() ? known.method : from.method;
-    // A person may keep a name by renaming it to itself.
+    // Renaming a mission to itself keeps its name.
     const bool is_known =
         from.described || known.missions.of_file(mission) != nullptr ||
         built_in_mission(mission).has_value() || known.missions.renamed.contains(from.mission) ||
@@ -337,7 +336,7 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
   ImportedWorld world = worlds.world();
   world.own_flavour = kept_flavour(known.flavour);
   std::string file = imported_text(world);
-  if (!file.empty()) digest.add(file);  // imports without one keep their digests
+  if (!file.empty()) digest.add(file);  // imports without one keep their old digests
   addition.campaign = CampaignRow{.name = known.campaign,
                                   .digest = digest.hex(),
                                   .deciding = deciding_json(known, machines.size(), world),

@@ -17,49 +17,50 @@
 
 namespace swarmsmith {
 
-/// A machine that was designed elsewhere, as a file has it.
+/// A machine that was designed elsewhere, as read from a file.
 struct MachineText {
   std::string name;                       ///< may be empty
-  std::string mission;                    ///< as the file calls it; may be empty
+  std::string mission;                    ///< the mission's name in the file; may be empty
   std::string method;                     ///< may be empty
-  std::string flavour;                    ///< as its head says; may be empty
-  const Flavour* own_flavour = nullptr;   ///< of its head, see kept_flavour; null: built in
-  std::string text;                       ///< of the grammar
+  std::string flavour;                    ///< from the file's head; may be empty
+  const Flavour* own_flavour = nullptr;   ///< from the head, see kept_flavour; null: built in
+  std::string text;                       ///< a text of the grammar
   std::string place;                      ///< file:line
-  std::optional<MissionEntry> described;  ///< the mission that its head holds
-  std::optional<Profile> profile;         ///< of its head
+  std::optional<MissionEntry> described;  ///< the mission that the file's head describes
+  std::optional<Profile> profile;         ///< from the file's head
 };
 
-/// The machines of a file as sim/files/machine_file.h reads it.
+/// Reads the machines of a file with sim/files/machine_file.h.
 OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
                                                       const std::string& file);
 
-/// Columns `fsm`, `fsm_config` or `machine`; `fsm_id` or `name`, `mission`, `method` and `flavour`
-/// may be missing or empty.
+/// Reads the columns `fsm`, `fsm_config` or `machine`; `fsm_id` or `name`, `mission`, `method` and
+/// `flavour` are optional and may be empty.
 OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table);
 
-/// The flavour of all of them: what their heads say, and `said` of those without one; `said` may be
-/// nothing. BadInput when they do not agree, or when it is not given.
+/// The flavour that all machines share: that of their heads, and `said`, if given, for machines
+/// without one. BadInput if they differ, or if there is no flavour.
 Expected<Flavour> flavour_of(const std::vector<MachineText>& machines,
                              const std::optional<Flavour>& said);
 
-/// Whether a table's columns are those of machines.
+/// Whether a table's columns describe machines.
 bool has_machines(const CsvTable& table);
 
 struct MachineImport {
-  std::string campaign;  ///< name of the campaign that they become
+  std::string campaign;  ///< name of the imported campaign
   Flavour flavour;
   MissionWords missions;
-  std::string method;                ///< of machines without one
-  std::vector<KnownDesign> designs;  ///< that the store has
+  std::string method;                ///< for machines that name none
+  std::vector<KnownDesign> designs;  ///< designs in the store
 };
 
-/// A campaign with the state "imported": each machine a finished design with one candidate, its
-/// winner. Designs are numbered after those of the store; a design of a mission and method that the
-/// store has is a further repetition. Missions, profile and flavour that heads or files describe
-/// are the campaign's `file` (imported_world.h), unless each program knows them by their names. The
-/// campaign's digest is one over names, missions, methods, flavour and machines, so that the same
-/// file is known again. All that is wrong, with its line.
+/// Makes a campaign with the state "imported": each machine becomes a finished design whose only
+/// candidate is its winner. Design ids continue after those of the store; a design with a mission
+/// and method that the store already has becomes a further repetition. Missions, profile and
+/// flavour that heads or files describe are stored in the campaign's `file` (imported_world.h),
+/// unless they are built in under the same names. The campaign's digest covers names, missions,
+/// methods, flavour and machines, so that importing the same file again is recognised. Errors: all
+/// problems, each with its line.
 OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
                                    const MachineImport& known);
 

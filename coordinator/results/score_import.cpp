@@ -20,14 +20,14 @@ constexpr std::array<std::string_view, 16> kColumns{
     "candidate", "design", "fsm_id", "name",     "mission", "method", "repetition", "score",
     "cost",      "source", "seed",   "instance", "time",    "note",   "purpose",    "pair"};
 
-/// An id with or without its letter; nothing when it is none.
+/// An id with or without its letter; none if the text is not an id.
 std::optional<std::int64_t> id_in(std::string text, char letter) {
   if (text.starts_with(letter)) text.erase(0, 1);
   const auto value = integer_in(text);
   return value && *value > 0 ? value : std::nullopt;
 }
 
-/// What a row says once its cells are read.
+/// The values of a row.
 struct Score {
   ScorePlace place;
   double score = 0;
@@ -77,12 +77,12 @@ class Importer {
     return put(row, std::move(*read));
   }
 
-  /// The one design that agrees with all that the row says.
+  /// The only design that agrees with all cells of the row.
   Expected<const KnownDesign*> design_of_row(const CsvRow& row) const;
   Expected<CandidateId> candidate_of(const CsvRow& row, const KnownDesign& design) const;
   Expected<Score> read_values(const CsvRow& row, const std::string& mission) const;
   Expected<double> read_score(const CsvRow& row, const std::string& mission) const;
-  /// The integer of a cell, at least `least`; nothing when it is empty.
+  /// The integer in a cell, at least `least`; none if the cell is empty.
   Expected<std::optional<std::int64_t>> read_integer(const CsvRow& row, std::string_view column,
                                                      std::int64_t least) const;
   Expected<void> put(const CsvRow& row, Score read);
@@ -93,7 +93,7 @@ class Importer {
   ImportedScores result_;
   std::vector<Error> errors_;
   std::map<std::pair<CandidateId, std::string>, std::int64_t> unseeded_;
-  std::map<EvaluationKey, std::string> lines_;  ///< where a score of this table stands
+  std::map<EvaluationKey, std::string> lines_;  ///< the line of each score in this table
 };
 
 Expected<const KnownDesign*> Importer::design_of_row(const CsvRow& row) const {

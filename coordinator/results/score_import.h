@@ -14,39 +14,39 @@
 
 namespace swarmsmith {
 
-/// Scores of a CSV table, made elsewhere: of robots, or of another simulator. Columns, in any
-/// order:
+/// Imports scores that were obtained elsewhere, with robots or another simulator, from a CSV table.
+/// Columns, in any order:
 ///
-/// - who: `candidate` (c812 or 812), `design` (d3 or 3: its winner), `fsm_id` or `name` (of an
-///   imported machine), or `mission`, `method`, `repetition`, as many as it takes to name one
-///   design. Where several are given, they must agree;
+/// - the candidate: `candidate` (c812 or 812), `design` (d3 or 3: its winner), `fsm_id` or `name`
+///   (of an imported machine), or as many of `mission`, `method` and `repetition` as are needed to
+///   select one design. If several are given, they must agree;
 /// - `score` (larger is better) or `cost` (smaller is better: the score is -cost);
-/// - `source`, `seed`, `instance`, `time` (of the run, >= 0) and `note`, which may be missing or
-///   empty. Without a seed, a candidate's rows of one source are its runs 1, 2, ...
+/// - `source`, `seed`, `instance`, `time` (of the run, >= 0) and `note`, all optional and possibly
+///   empty. Rows without a seed count as runs 1, 2, ... of their candidate and source.
 
-/// What the rows are read against.
+/// The data that the import needs besides the table.
 struct ScoreImport {
   MissionWords missions;
-  std::string source;                 ///< of rows without one; may be empty
-  std::vector<std::string> costs_of;  ///< missions (as called here) whose `score` is a cost
-  bool replace = false;               ///< another score for a known place is taken
+  std::string source;                 ///< for rows that name none; may be empty
+  std::vector<std::string> costs_of;  ///< missions (by their names here) whose `score` is a cost
+  bool replace = false;               ///< accept a different score for a known place
   std::vector<KnownDesign> designs;
-  std::function<bool(CandidateId)> has_candidate;  ///< asked for candidates that won nothing
+  std::function<bool(CandidateId)> has_candidate;  ///< called for candidates that did not win
 };
 
-/// What the table comes to.
+/// The result of importing a table.
 struct ImportedScores {
   Addition addition;
   std::int64_t added = 0;
   std::int64_t replaced = 0;
-  std::int64_t known = 0;             ///< were there before, with the same score
-  std::vector<std::string> not_read;  ///< columns that say nothing to an import
+  std::int64_t known = 0;             ///< already in the store, with the same score
+  std::vector<std::string> not_read;  ///< columns that an import ignores
 };
 
-/// Whether a table's columns are those of scores.
+/// Whether a table's columns contain scores.
 bool has_scores(const CsvTable& table);
 
-/// All that is wrong, with the line of each.
+/// Errors: all problems, each with its line.
 OrErrors<ImportedScores> import_scores(const CsvTable& table, const ScoreImport& known,
                                        ScoreLedger ledger);
 

@@ -10,8 +10,8 @@
 namespace swarmsmith {
 namespace {
 
-// Tests first: where both know a place, the test is what counts, and the first stays. Real runs
-// have no pair, and are at no place.
+// Tests first: if both have a score for the same place, the test counts, because the first one
+// stays. Real runs have no pair, and are not in this ledger.
 std::string select_scores() {
   return "SELECT candidate, purpose, pair, instance, seed, source, score, state_digest"
          " FROM v_evaluations WHERE purpose IN " +
@@ -43,7 +43,7 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
       std::int64_t& last = ledger.last_pair_[design];
       last = std::max(last, known.key.pair);
     }
-    if (row[6].type == StoreReader::Cell::Type::Null) return;  // rejected: there is no score
+    if (row[6].type == StoreReader::Cell::Type::Null) return;  // rejected: no score
     ledger.scores_.emplace(Place{candidate, source, seed, known.instance}, known);
   };
   constexpr std::int64_t kAll = 1'000'000'000;

@@ -15,36 +15,37 @@ namespace swarmsmith {
 
 /// A score that a candidate got outside of its race.
 struct LedgerScore {
-  EvaluationKey key;  ///< a test's, or a later score's
+  EvaluationKey key;  ///< of a test or of a later score
   std::int64_t instance = 0;
-  Measured measured{};  ///< digest 0: not made by this simulator
+  Measured measured{};  ///< digest 0: not computed by this simulator
 };
 
-/// On what a score was made. No seed (0): a run that no seed describes, such as one of robots; then
-/// the instance tells such runs apart, from 1.
+/// The conditions of a score. Seed 0: a run without a seed, such as one with robots; such runs are
+/// distinguished by the instance, counted from 1.
 struct ScorePlace {
   CandidateId candidate;
   std::string source;                    ///< a profile's name, `real`, ...
-  std::optional<std::int64_t> instance;  ///< nothing: whichever the seed was used with
+  std::optional<std::int64_t> instance;  ///< none: the instance with which the seed was used
   std::int64_t seed = 0;
 };
 
-/// The scores that a store holds outside of the races, and the pairs for new ones. A pair of
-/// purpose Score has a number within its design and stands for one (source, instance, seed), so
-/// that candidates of a design meet on the same pairs.
+/// The scores in a store that do not come from races, and the pairs for new ones. Each pair with
+/// purpose Score has a number within its design and represents one (source, instance, seed), so
+/// that all candidates of a design share the same pairs.
 class ScoreLedger {
  public:
   ScoreLedger() = default;
   static Expected<ScoreLedger> read(StoreReader& store);
 
-  /// What is known there, tests included; null for nothing. With a seed and no instance: the first.
+  /// The known score at this place, tests included; null if there is none. With a seed and without
+  /// an instance: the first score with this seed.
   const LedgerScore* find(const ScorePlace& place) const;
 
-  /// The key of a score that is not known there, and is from now on. A new pair is added to `rows`.
-  /// Instance 1 when the place has none.
+  /// Adds a score that is not known yet, and returns its key. A new pair is added to `rows`. The
+  /// instance is 1 if the place has none.
   EvaluationKey add(const ScorePlace& place, const Measured& measured, std::vector<Row>& rows);
 
-  /// The score that `find` gives, which must be there, gives way to another, made elsewhere.
+  /// Replaces the score that `find` returns, which must exist, by a score measured elsewhere.
   void replace(const ScorePlace& place, double score);
 
  private:

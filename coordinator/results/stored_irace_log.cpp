@@ -25,10 +25,10 @@ namespace {
 using Cell = StoreReader::Cell;
 using LogCells = std::vector<Cell>;
 
-/// The layout of the log, for functions of irace that look at its version; they drop the last word.
+/// The log's layout, for functions of irace that check its version; they ignore the last part.
 constexpr const char* kLayout = "4.2.0.swarmsmith";
 
-/// NULL is 0.
+/// NULL becomes 0.
 std::int64_t number_of_candidate(const Cell& cell) {
   const std::int64_t id = cell.integer();
   return id == 0 ? 0 : number_of(CandidateId{id});
@@ -67,7 +67,7 @@ void add_instances(bool test, const std::vector<std::string>& names, IraceLog& l
   }
 }
 
-/// What the campaign's file says of the design.
+/// Adds the design's settings from the campaign's file.
 Expected<void> add_settings(const Campaign& campaign, const DesignRow& design, IraceLog& log) {
   const auto method = std::ranges::find(campaign.methods, design.method, &Method::name);
   if (method == campaign.methods.end()) {
@@ -83,7 +83,7 @@ Expected<void> add_settings(const Campaign& campaign, const DesignRow& design, I
   if (!space) return Unexpected(space.error());
   auto setup = irace_setup(campaign, design);
   if (!setup) return Unexpected(setup.error());
-  // A log has what was used, also where it was not given.
+  // A log contains the options that were used, even if they were not given.
   setup->race.test_type = test_type_of(setup->race);
   setup->race.capping = uses_capping(setup->race);
   for (const Parameter& parameter : space->parameters().parameters())
@@ -91,7 +91,7 @@ Expected<void> add_settings(const Campaign& campaign, const DesignRow& design, I
   add_instances(false, setup->training, log);
   add_instances(true, setup->test, log);
   for (auto& [option, value] : irace_options(*setup)) {
-    // Those of the log itself; a program where R has a function; what is not there.
+    // Left out: options that are in the log itself, a program for R's function, and empty options.
     const bool apart = option == "seed" || option == "maxExperiments" ||
                        option == "repairConfiguration" || value == "\"\"";
     if (!apart) log.options.emplace_back(option, std::move(value));
@@ -104,7 +104,7 @@ Expected<void> add_settings(const Campaign& campaign, const DesignRow& design, I
   return {};
 }
 
-/// Reads the rows of one design.
+/// Reads the rows of one design and builds its log.
 class Reading {
  public:
   Reading(StoreReader& store, DesignId design, const std::function<void(std::int64_t)>& on_row)
@@ -125,8 +125,8 @@ class Reading {
 
  private:
   struct Costs {
-    std::int64_t task = 0;       ///< of the targetEvaluator that said it
-    std::int64_t iteration = 0;  ///< of that task
+    std::int64_t task = 0;       ///< the targetEvaluator's task that gave the cost
+    std::int64_t iteration = 0;  ///< the task's iteration
     double cost = 0;
   };
 
@@ -169,14 +169,14 @@ class Reading {
   DesignRow row_;
   std::int64_t campaign_ = 1;
   IraceLog log_;
-  std::optional<Scenario> capping_;                     ///< of a race that bounds its runs
-  std::map<std::int64_t, std::size_t> configurations_;  ///< place in the log, by id
-  /// Numbers of the race's pairs by instance and seed, which is how evaluators know them.
+  std::optional<Scenario> capping_;                     ///< of a race with capping
+  std::map<std::int64_t, std::size_t> configurations_;  ///< index in the log, by id
+  /// Numbers of the race's pairs by instance and seed, by which evaluators identify them.
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> pairs_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> test_pairs_;
   std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> tasks_;  ///< of the evaluator
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> steps_;  ///< by iteration and pair
-  /// Configuration and pair (negative: of the tests) to what the evaluator said last.
+  /// The evaluator's last cost for each configuration and pair (negative: a test's pair).
   std::map<std::pair<std::int64_t, std::int64_t>, Costs> judged_;
 };
 
@@ -212,7 +212,7 @@ Expected<void> Reading::read_settings() {
   const auto campaign = store_.campaign_of(design_);
   if (!campaign) return Unexpected(campaign.error());
   if (campaign->state == "imported") return read_imported_settings();
-  // R keeps no larger whole number; the seed of the design itself has 64 bits.
+  // R cannot represent larger integers exactly; the design's own seed has 64 bits.
   constexpr std::int64_t kLargest = std::int64_t{1} << 53U;
   log_.seed = campaign->row.seed < kLargest ? campaign->row.seed : 0;
   const auto parsed = parse_campaign(campaign->row.file, "campaign.toml");
@@ -221,7 +221,7 @@ Expected<void> Reading::read_settings() {
   return add_settings(*parsed, row_, log_);
 }
 
-/// As irace_log_addition kept them.
+/// Reads the settings that irace_log_addition kept.
 Expected<void> Reading::read_imported_settings() {
   std::string columns = "json_extract(deciding, '$.imported'), json_extract(deciding, '$.irace')";
   for (const std::string& file : irace_setting_files())
@@ -371,7 +371,7 @@ Expected<void> Reading::read_runs() {
   return {};
 }
 
-/// A race that caps does not count what programs print, but what it makes of it, and so does a log.
+/// A race with capping uses its own capped costs instead of the printed ones, and so does a log.
 Expected<void> Reading::cap() {
   if (!capping_) return {};
   double bound_max = capping_->bound_max;
@@ -383,7 +383,7 @@ Expected<void> Reading::cap() {
   for (LogRun& run : log_.runs) {
     const auto judged = judged_.find({run.configuration, run.pair});
     const bool ran_in_task = judged == judged_.end() || judged->second.iteration == run.iteration;
-    // Runs before the first race had larger bounds, up to which nothing was cut off.
+    // Runs before the first race had larger bounds, up to which costs are not capped.
     const double most = std::max(bound_max, run.bound);
     if (!std::isfinite(*run.cost)) continue;
     run.cost = capped_cost(*capping_, most, *run.cost, run.time, ran_in_task ? run.bound : most);
@@ -391,7 +391,7 @@ Expected<void> Reading::cap() {
   return {};
 }
 
-/// The largest bound of the races' runs, which the first runs lower where a time is given.
+/// The largest bound of the races' runs; with a time budget, the first runs lower it.
 Expected<double> Reading::read_lowered_bound() {
   double lowered = std::numeric_limits<double>::infinity();
   const auto read = each(
@@ -399,7 +399,7 @@ Expected<double> Reading::read_lowered_bound() {
       "WHERE kind = 'time estimated' AND json_extract(text, '$.design') = '" +
           to_string(design_) + "' ORDER BY seq DESC LIMIT 1",
       [&](const LogCells& cells) {
-        // Said before the first race, it is not the last word yet.
+        // If the first race has not begun, this estimate is not final yet.
         lowered =
             log_.elites.empty() ? std::min(cells[0].real(), 2 * cells[1].real()) : cells[0].real();
       });
@@ -407,12 +407,12 @@ Expected<double> Reading::read_lowered_bound() {
   return lowered;
 }
 
-/// As irace runs: step by step, the elites of the iteration before first.
+/// In irace's order: step by step, with the elites of the previous iteration first.
 void Reading::sort_runs() {
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> ranks;
   for (const LogElite& elite : log_.elites)
     ranks.emplace(std::pair{elite.iteration + 1, elite.configuration}, elite.rank);
-  // Runs before the first race come before its steps, those of a step that is not over last.
+  // Runs before the first race come before its steps; runs of an unfinished step come last.
   constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
   const std::int64_t without_step = log_.completed == "Incomplete" ? kLast : 0;
   std::ranges::stable_sort(log_.runs, {}, [&](const LogRun& run) {
@@ -423,7 +423,7 @@ void Reading::sort_runs() {
   });
 }
 
-/// As irace tests: the elites of the first iteration, then those of the next that are new.
+/// In irace's order: first the elites of the first iteration, then those of the next that are new.
 void Reading::sort_tests() {
   std::map<std::int64_t, std::size_t> turns;
   for (const LogElite& elite : log_.elites)
@@ -435,7 +435,7 @@ void Reading::sort_tests() {
   });
 }
 
-/// Where an evaluator says the costs, runs have none.
+/// If an evaluator gives the costs, the runs themselves have none.
 void Reading::judge() {
   if (judged_.empty()) return;
   const auto said = [&](std::int64_t configuration, std::int64_t pair, double cost) {

@@ -13,11 +13,12 @@
 
 namespace swarmsmith {
 
-/// The stores of a service's campaigns, in the campaigns' order, and what their writers' threads
-/// say, for the loop's thread: every member but the listener is called from there.
+/// The stores of a service's campaigns, in the order of the campaigns, and the news from their
+/// writer threads. All members are called from the loop's thread, except the listener that the
+/// writer threads call.
 class CampaignStores {
  public:
-  /// Takes the stores' listeners over; `wakeup` is notified of whatever they say.
+  /// Installs its own listener in each store; `wakeup` is notified whenever a writer reports news.
   CampaignStores(const std::vector<ServiceCampaign>& campaigns, Wakeup& wakeup);
   ~CampaignStores();
   CampaignStores(const CampaignStores&) = delete;
@@ -27,23 +28,23 @@ class CampaignStores {
   const std::string& name(std::size_t campaign) const { return entries_[campaign].name; }
 
   std::uint64_t append(std::size_t campaign, std::vector<Row> rows);
-  /// Those that can write; the others would wait for ever.
+  /// Flushes the stores that can write; a flush of the others would never return.
   void flush();
 
-  /// What a writer has said last, once.
+  /// The latest news of the store's writer, if there is any since the last call.
   std::optional<WriterNews> take_news(std::size_t campaign);
-  /// Whether the store's trouble is another than before.
+  /// Records the store's current trouble; returns whether it has changed.
   bool update_trouble(std::size_t campaign, const std::string& trouble);
-  /// Of the first store that cannot write; empty when all can.
+  /// The trouble of the first store that cannot write; empty if all stores can.
   std::string trouble() const;
 
-  /// The file of a store is lost; its trouble says how.
+  /// Marks that the store's file is lost; the store's trouble says what happened to it.
   void set_lost(std::size_t campaign) { entries_[campaign].is_lost = true; }
   bool any_lost() const;
-  /// Of each store, the trouble of one that is lost; empty for the others.
+  /// For each store, its trouble if the store is lost; empty for the others.
   std::vector<std::string> lost() const;
 
-  /// The length of a store's write-ahead log, for each that has a file.
+  /// Calls `on_bytes` for each store with a file: its index, and the length of its write-ahead log.
   void each_log(const std::function<void(std::size_t, std::int64_t)>& on_bytes) const;
 
  private:
@@ -58,7 +59,7 @@ class CampaignStores {
   Wakeup* wakeup_;
   std::vector<Entry> entries_;
   std::mutex mutex_;
-  std::vector<std::optional<WriterNews>> news_;  ///< under the mutex
+  std::vector<std::optional<WriterNews>> news_;  ///< guarded by the mutex
 };
 
 }  // namespace swarmsmith

@@ -25,7 +25,7 @@ google::protobuf::ArenaOptions arena_options() {
   return options;
 }
 
-/// A scenario with pictures has megabytes, so there is one of it.
+/// A scenario with pictures takes megabytes, so only one copy is kept.
 PoolFacts facts_of(std::string scenario) {
   const std::uint64_t digest = digest_of_scenario(scenario);
   return {.campaign_digests = {}, .scenario = std::move(scenario), .scenario_digest = digest};
@@ -55,7 +55,7 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   }
 }
 
-// What peers send: who may say what, and who is not listened to any more.
+// Messages from peers: which peer may send what, and which peers are refused.
 
 bool Coordinator::is_refused(PeerId peer, TimePoint now) {
   if (faults_.empty()) return false;
@@ -72,7 +72,7 @@ void Coordinator::on_malformed(const Peer& peer, const Error& error, TimePoint n
   if (error.kind == ErrorKind::Conflict) {
     send(peer.id, frame_of(SendReject{peer.id, 0, RejectReason::Protocol, error.message}));
   }
-  // Connections come and go; the memory of their faults is bounded.
+  // Connections come and go, so the memory for their faults has a limit.
   if (faults_.size() >= kMaxFaults) faults_.clear();
   Fault& fault = faults_[peer.id];
   if (++fault.count < options_.malformed_limit) return;
@@ -104,7 +104,7 @@ void Coordinator::on_message(const Peer& peer, const pb::ToCoordinator& message,
   const auto forbidden = [&] {
     const std::string sentence = "the key \"" + std::string(peer.client) + "\" has a role that " +
                                  "does not allow this; `role` in clients.toml says which it is";
-    // A client with a listed key gets the reason; strangers never come so far.
+    // A client whose key is listed gets the reason; unknown clients never get this far.
     send(peer.id,
          frame_of(SendReject{peer.id, message.incarnation(), RejectReason::Protocol, sentence}));
     on_malformed(peer, {ErrorKind::BadInput, sentence, "role"}, now);
@@ -147,7 +147,7 @@ void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, Ti
       scheduler_.on_goodbye(sender, now);
       return;
     case pb::ToCoordinator::kWantScenario:
-      // A worker asks again.
+      // A worker repeats its request.
       if (scheduler_.on_sign_of_life(sender, now) &&
           budgets_.may_be_sent(peer.id, facts_.scenario.size(), now)) {
         send(peer.id, scenario_reply_of(facts_, sender.incarnation));
@@ -161,7 +161,7 @@ void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, Ti
   }
 }
 
-/// One that is not heard is said again, on another connection.
+/// A worker whose hello was not answered sends it again, on another connection.
 void Coordinator::on_hello(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
   const bool is_local = same_secret(message.hello().secret(), options_.local_secret);
   if (!is_local) {
@@ -179,7 +179,7 @@ void Coordinator::on_hello(const Peer& peer, const pb::ToCoordinator& message, T
 }
 
 void Coordinator::on_results(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
-  // Of another campaign that ran here before: they are not needed.
+  // Results of a campaign that ran here earlier are not needed.
   if (message.results().scenario() != facts_.scenario_digest) {
     on_malformed(peer, {ErrorKind::BadInput, "results of another campaign", "campaign"}, now);
     return;
@@ -210,8 +210,8 @@ void Coordinator::on_tick(TimePoint now) {
   sample_due_ = true;
 }
 
-// What people ask of running campaigns. Commands are rows, and the client gets an answer when they
-// are on disk: what was confirmed outlives a crash.
+// Commands of people to running campaigns. A command is stored as a row, and the client gets its
+// answer when the row is on disk: a confirmed command survives a crash.
 
 void Coordinator::on_command(const Peer& peer, const pb::Command& command, TimePoint now) {
   if (!budgets_.may_command(now)) {
@@ -262,7 +262,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   return name + " gets " + std::to_string(row.budget) + " experiments more";
 }
 
-/// Of the pool: every store has the rows, and the first one's commit is what is waited for.
+/// A command to the pool: every store gets the rows, and the answer waits for the first commit.
 Expected<std::string> Coordinator::forgive(const pb::Command& command, TimePoint now) {
   const std::vector<std::string> names = scheduler_.forgive(command.whom(), command.who(), now);
   if (!names.empty()) return sentence_of_forgiven(names);
@@ -272,7 +272,8 @@ Expected<std::string> Coordinator::forgive(const pb::Command& command, TimePoint
   return not_in_quarantine(command.whom(), known);
 }
 
-/// Pauses or resumes; asking twice changes nothing. What runs already ends, and counts.
+/// Pauses or resumes designs; repeating a command changes nothing. Evaluations that are already
+/// running finish, and count.
 Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& command) {
   Campaign& campaign = campaigns_[index];
   const std::vector<DesignId> unfinished = campaign.source->unfinished();
@@ -292,7 +293,7 @@ Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& 
   return sentence_of_pause(command.kind, *rows);
 }
 
-/// A campaign that waits for a person says so, once.
+/// Reports once that all designs of a campaign are paused, so that it waits for a person.
 void Coordinator::note_if_all_is_paused(Campaign& campaign) {
   bool all = !campaign.paused.empty() && !campaign.stopped;
   if (all) {
@@ -309,7 +310,7 @@ void Coordinator::note_if_all_is_paused(Campaign& campaign) {
   campaign.all_paused = all;
 }
 
-// What the scheduler decided, and what the campaigns want.
+// Decisions of the scheduler, and work that the campaigns want.
 
 bool Coordinator::finished() const {
   const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
@@ -363,8 +364,8 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
           },
           [&](const WorkerChanged& a) { pool_rows_.put_worker(a.row, now); },
           [&](FailureKept& a) {
-            // Why a program failed is never left out: its worker is believed, and people look
-            // there.
+            // The reason why a program failed is never left out: its worker is trusted, and people
+            // look for the reason there.
             const bool is_due = options_.scheduler.evaluates_programs;
             if (!is_due && !pool_rows_.may_name(a.row.worker, "failure", bytes_of(a.row), now))
               return;
@@ -431,9 +432,9 @@ bool Coordinator::progress(TimePoint now) {
   return more;
 }
 
-/// Brings stored scores before the referee that an earlier process chose. Their designs are opened
-/// one after the other, so one is looked at a time, and all when the campaign is over: what cannot
-/// be told any more is of a design that has ended.
+/// Sends the stored scores to the referee that an earlier process chose for an audit. Designs are
+/// opened one after another, so each call looks at one score, or at all of them when the campaign
+/// is over: a score that cannot be found even then belongs to a design that has ended.
 void Coordinator::audit_stored(std::uint32_t index) {
   Campaign& campaign = campaigns_[index];
   std::deque<StoredWord>& words = campaign.unaudited;
@@ -457,7 +458,7 @@ void Coordinator::audit_stored(std::uint32_t index) {
   words.clear();
 }
 
-/// Asks the campaigns in turn for work for slots that would idle. False when there is none.
+/// Asks the campaigns in turn for look-ahead work for idle slots. Returns false if there is none.
 bool Coordinator::look_ahead() {
   std::size_t idle = scheduler_.idle_slots();
   const auto slots = static_cast<std::size_t>(scheduler_.workers().slots());
@@ -486,7 +487,7 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     }
     scheduler_.dispatch(now);
   } while (progress(now));
-  // Once: what this leaves idle is filled when something happens.
+  // Only once: slots that stay idle now are filled when something happens.
   if (look_ahead()) {
     do {
       scheduler_.dispatch(now);
@@ -503,12 +504,12 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     scheduler_.close(index, on_disk && campaign.source->finished());
   }
   pool_rows_.clear();
-  // After leasing: slots that are about to be given work are not idle.
+  // After leasing, so that slots that are about to get work do not count as idle.
   if (std::exchange(sample_due_, false)) slots_.sample(scheduler_, holding_, now);
   return std::exchange(actions_, {});
 }
 
-// What becomes of outcomes: rows for the stores, tickets, and acknowledgements when all is on disk.
+// Outcomes: rows for the stores, tickets, and acknowledgements once everything is on disk.
 
 void Coordinator::put_event(Noted& noted, TimePoint now) {
   if (!pool_rows_.may_note(noted, now)) return;
@@ -516,7 +517,7 @@ void Coordinator::put_event(Noted& noted, TimePoint now) {
   campaigns_[*noted.campaign].own_rows.emplace_back(std::move(noted.row));
 }
 
-/// What was left out for want of room.
+/// Events about messages and rows that were left out because they were over budget.
 void Coordinator::put_news(TimePoint now, bool now_or_never) {
   for (EventRow& row : budgets_.take_news(now, now_or_never))
     pool_rows_.put(std::move(row));
@@ -574,7 +575,7 @@ void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
   acknowledge(keys);
 }
 
-/// On disk already: acknowledged now. Else with the first copy.
+/// Acknowledges a repeated outcome at once if it is on disk, else together with the first copy.
 void Coordinator::repeat(const OutcomeRepeated& action) {
   const auto at = waiting_.find(action.key);
   if (at == waiting_.end()) {

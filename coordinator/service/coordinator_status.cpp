@@ -1,4 +1,4 @@
-// What a coordinator says of itself.
+// The part of Coordinator that reports its status.
 
 #include <algorithm>
 #include <chrono>

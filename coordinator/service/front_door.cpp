@@ -8,7 +8,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A storm of strangers makes a line a reason in this time.
+/// At most one log line for each reason in this time, however many strangers connect.
 constexpr Duration kSayAgain = std::chrono::seconds(10);
 
 }  // namespace
@@ -33,7 +33,7 @@ Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options)
         "campaign, send results and give commands",
         {{"address", options.bind}});
   }
-  // The last words of a campaign send its workers home.
+  // Leaves time to send the final messages of a campaign, which tell its workers to end.
   options.socket.linger = std::chrono::milliseconds{200};
   const bool has_keys = options.keys.has_value();
   auto socket = ServerSocket::bind(options.bind, options.socket, std::move(options.keys));

@@ -12,11 +12,11 @@
 
 namespace swarmsmith {
 
-/// Listens as the options say, whose `bind` and `insecure_plaintext` are then what holds. Errors:
-/// as Service::open.
+/// Opens the listening socket described by the options, and sets their `bind` and
+/// `insecure_plaintext` to the values actually used. Errors: as Service::open.
 Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options);
 
-/// Says who was kept out, seldom.
+/// Logs which connections were refused, at a limited rate.
 class RefusalLog {
  public:
   void say(const Refusals& refusals, TimePoint now);

@@ -23,7 +23,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Closes a descriptor.
+/// Closes a file descriptor at the end of its scope.
 class Closer {
  public:
   explicit Closer(int fd) : fd_(fd) {}

@@ -18,12 +18,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ports after the first one that are tried.
+/// How many ports after the first one are tried.
 constexpr int kMorePorts = 100;
 
-/// Of threads that answer: a race never waits for who looks at it.
+/// Niceness of the threads that answer, so that a race never waits for viewers.
 constexpr int kNice = 10;
-/// For answers that take their time, or are long.
+/// Time limits for answers that take long to compute or are long.
 constexpr std::chrono::milliseconds kAnswerTime{20'000};
 constexpr std::chrono::milliseconds kExportTime{90'000};
 
@@ -102,9 +102,9 @@ class Pages final : public HttpServer {
   bool is_known(const httplib::Request& request) const {
     return options_.token.empty() || has_token_of(request, options_.token);
   }
-  /// Whether a user of this host asks who may not: without a token those may look who run this
-  /// process, and root. A client that knows the secret of acts is trusted, whatever the kernel
-  /// says.
+  /// Whether the request comes from a user of this host who may not read: without a token, only
+  /// root and the user who runs this process may. A client that knows the acts' token is trusted,
+  /// whatever the kernel reports.
   bool is_other_user(const httplib::Request& request) const {
     return options_.token.empty() && !is_of_same_user(PageServer::socket_of_request()) &&
            !has_token_of(request, options_.act_token);
@@ -138,7 +138,7 @@ class Pages final : public HttpServer {
     return Handled::Handled;
   }
 
-  /// Who may ask for what.
+  /// Checks whether the client may make this request.
   Handled gate(const httplib::Request& request, httplib::Response& response) {
     const auto no = [&](int status, const char* kind, const std::string& why) {
       return refuse(request, response, status, kind, why);
@@ -176,7 +176,7 @@ class Pages final : public HttpServer {
                   "open to all who have the token");
   }
 
-  /// For the store's list of commands.
+  /// The client's name, for the store's list of commands.
   static std::string name_of_asker() {
     const int socket = PageServer::socket_of_request();
     const auto user = user_of_peer(socket);
@@ -188,7 +188,7 @@ class Pages final : public HttpServer {
     const bool open = site.is_open(request.path);
     if (!open && !is_known(request)) return ask_for_token(request, response);
     if (is_other_user(request)) return refuse_other_user(request, response);
-    // Pictures of a page elsewhere would let this program compute, too.
+    // Otherwise a page elsewhere could embed pictures from here and make this program compute.
     if (site.is_api(request.path) && is_of_other_page(request))
       return refuse(request, response, 403, "other_origin", "a page of another origin may not ask");
     if (is_act) {
@@ -213,7 +213,7 @@ class Pages final : public HttpServer {
     return Handled::Handled;
   }
 
-  /// Whether a browser says that a page sends this which is none of ours.
+  /// Whether the browser's headers show that the request comes from another site's page.
   static bool is_of_other_page(const httplib::Request& request) {
     const std::string site = request.get_header_value("Sec-Fetch-Site");
     if (!site.empty() && site != "same-origin" && site != "none") return true;
@@ -228,7 +228,7 @@ class Pages final : public HttpServer {
     return false;
   }
 
-  /// Why no work can be done now; empty when it can.
+  /// The reason why no work can be done now; empty if work can be done.
   std::string obstacle() const {
     const auto now = published();
     if (!now) return "starting";
@@ -260,7 +260,7 @@ class Pages final : public HttpServer {
   HttpOptions options_;
   std::string host_name_;
   PageServer http_;
-  mutable std::mutex mutex_;  ///< held to copy a pointer, no longer
+  mutable std::mutex mutex_;  ///< held only to copy a pointer
   std::shared_ptr<const Published> published_;
 };
 

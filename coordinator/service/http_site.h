@@ -11,15 +11,15 @@
 
 namespace swarmsmith {
 
-/// What a client that may ask asks for.
+/// A request from a client that has passed the access checks.
 struct SiteRequest {
-  bool acts = false;   ///< POST; the token was there
-  std::string path{};  ///< "/api/v1/live"
+  bool acts = false;   ///< POST; its token was checked
+  std::string path{};  ///< such as "/api/v1/live"
   std::map<std::string, std::string> parameters{};
-  std::string peer{};  ///< who acts: "anna@127.0.0.1"
-  std::string etag{};  ///< of what the asker has already
+  std::string peer{};  ///< the person who acts, such as "anna@127.0.0.1"
+  std::string etag{};  ///< of the version that the client already has
   bool accepts_gzip = false;
-  /// Whether the client has disconnected since; empty: is never asked.
+  /// Whether the client has disconnected in the meantime; empty: cannot be checked.
   std::function<bool()> is_gone{};
 };
 
@@ -30,21 +30,21 @@ struct SiteAnswer {
   std::vector<std::pair<std::string, std::string>> headers{};
 };
 
-/// Pages that an HttpServer shows besides its own, to clients it lets in. Many threads at once.
+/// Other pages that an HttpServer serves, to clients with access. Called by many threads at once.
 class HttpSite {
  public:
   virtual ~HttpSite() = default;
 
-  /// Whether each client that names the right host may have it: it holds nothing private.
+  /// Whether any client that names the right host may read this path: it has nothing private.
   virtual bool is_open(std::string_view path) const = 0;
-  /// Whether errors of this path are JSON, as its answers are.
+  /// Whether errors of this path are JSON, like its answers.
   virtual bool is_api(std::string_view path) const = 0;
-  /// Paths that may be asked for by POST.
+  /// Whether this path may be requested by POST.
   virtual bool is_act(std::string_view path) const = 0;
   virtual SiteAnswer answer(const SiteRequest& request) = 0;
-  /// `{"v":1,"error":{...}}` of what is refused.
+  /// The body `{"v":1,"error":{...}}` for a request that is refused.
   virtual std::string error_json(std::string_view kind, std::string_view message) const = 0;
-  /// New numbers of the coordinator's loop; `status` outlives the next call.
+  /// Publishes a new status of the coordinator's loop; `status` stays valid until the next call.
   virtual void publish(const LiveStatus& status) = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 template <class T, class Of>
 concept Like = std::same_as<std::remove_const_t<T>, Of>;
 
-// Each visits the fields by their names in JSON, to write and to read them.
+// Each of these functions visits the fields with their JSON names, for both writing and reading.
 
 template <class Visit>
 void each_field(Like<WorkerStatus> auto& worker, const Visit& visit) {
@@ -32,7 +32,8 @@ void each_field(Like<WorkerStatus> auto& worker, const Visit& visit) {
   visit("last_heard_s", worker.last_heard_s);
 }
 
-/// Without its state, which depends on its campaign's, and what an iterated race has not.
+/// Leaves out the state, which depends on the campaign's state, and the fields that an iterated
+/// race does not have.
 template <class Visit>
 void each_field(Like<DesignStatus> auto& design, const Visit& visit) {
   visit("id", design.id.value);
@@ -70,7 +71,7 @@ void each_field(Like<LauncherStatus> auto& launcher, const Visit& visit) {
   visit("note", launcher.note);
 }
 
-/// Without its sums and designs.
+/// Leaves out the sums and the designs.
 template <class Visit>
 void each_field(Like<CampaignStatus> auto& campaign, const Visit& visit) {
   visit("name", campaign.name);
@@ -127,7 +128,7 @@ JsonObject object_of(const Status& status) {
   return object;
 }
 
-/// What an earlier version does not say stays as it is.
+/// Fields that an earlier version does not write keep their values.
 template <class Status>
 void read(const nlohmann::json& json, Status& status) {
   each_field(status, [&](const char* name, auto& value) {
@@ -185,7 +186,7 @@ CampaignStatus campaign_of(const nlohmann::json& json) {
   for (std::size_t i = 0; i < campaign.designs.size(); ++i) {
     const nlohmann::json& one = json.at("designs")[i];
     DesignStatus& design = campaign.designs[i];
-    // A word of another version says nothing.
+    // The name of a state that only another version knows is read as Waiting.
     design.state =
         design_state_of(one.at("state").get<std::string>()).value_or(DesignState::Waiting);
     design.stage = one.value("stage", "");

@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Fields with room for their keys.
+/// Log fields that own their keys.
 using Fields = std::vector<std::pair<std::string, LogValue>>;
 
 LogLevel level_of(const std::string& severity) {
@@ -19,7 +19,7 @@ LogLevel level_of(const std::string& severity) {
   return severity == "warning" ? LogLevel::Warning : LogLevel::Info;
 }
 
-/// On a terminal, `run` says most of it in its own words.
+/// On a terminal, `run` shows most of this itself, so it is logged at debug level.
 LogLevel shown_as(LogLevel level) {
   return log_is_asked_for() ? level : LogLevel::Debug;
 }
@@ -32,7 +32,7 @@ void write(LogLevel level, std::string_view event, const Fields& fields) {
   log_event(shown_as(level), "coordinator", event, views);
 }
 
-/// Whole numbers as such, others as in the event's text.
+/// Whole numbers as integers, others as in the event's text.
 LogValue log_value(double number) {
   constexpr double kMostExact = 1e15;
   if (std::abs(number) < kMostExact && number == std::floor(number))
@@ -51,7 +51,7 @@ Fields fields_of(const EventRow& event) {
   return fields;
 }
 
-/// Empty for none.
+/// The id as text; empty if there is no id.
 template <class Id>
 std::string name_or_nothing(Id id) {
   return id ? to_string(id) : std::string();
@@ -111,7 +111,7 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                    write(level_of(event.severity), event.kind, fields);
                  },
                  [&](const WorkerRow& worker) {
-                   // Of a lost one there is an event.
+                   // A lost worker already has an event.
                    if (worker.state != WorkerState::Lost) write_worker(worker);
                  },
                  [&](const DesignStateRow& state) {

@@ -13,20 +13,20 @@
 
 namespace swarmsmith {
 
-/// Writes lines of the log about rows as they come: what happened to workers, designs and races.
+/// Logs rows as they are written: events of workers, designs and races.
 class RowLog {
  public:
-  /// The searches of each campaign: their words are not those of races.
+  /// `searches`: those of each campaign; the log uses other words for them than for races.
   explicit RowLog(std::vector<Searches> searches = {}) : searches_(std::move(searches)) {}
 
-  /// `campaign` is its place among those of the coordinator; none: the row is of the pool.
+  /// `campaign` is its index in the coordinator; none: the row belongs to the pool.
   void add(std::optional<std::size_t> campaign, const std::string& name, const Row& row);
 
  private:
   const SearchWords& words_of_design(std::optional<std::size_t> campaign, DesignId design) const;
 
   std::vector<Searches> searches_;
-  /// Of a design: a race tells it after each step, and only another one is news.
+  /// The last state of each design: a race repeats it after each step, and only a change is logged.
   std::map<std::pair<std::size_t, DesignId>, DesignState> states_;
 };
 

@@ -66,7 +66,7 @@ void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out)
 }
 
 std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat) {
-  // Ten years for every slot that a worker may have: what is more is not true.
+  // Ten years for each slot that a worker may have: larger numbers cannot be true.
   constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;
   if (!heartbeat.has_slot_us() || heartbeat.slot_us() > kMost) return std::nullopt;
   return SlotReport{

@@ -12,17 +12,17 @@
 
 namespace swarmsmith {
 
-/// Messages of workers as the scheduler's plain values, and its actions as frames. Messages come
-/// from `decode_to_coordinator`, so their keys are valid and their numbers within limits.
+/// Converts messages of workers to the scheduler's plain values, and its actions to frames.
+/// Messages come from `decode_to_coordinator`, so their keys and numbers are valid.
 
 WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
 void results_of(const pb::Results& results, std::vector<Result>& out);
 void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out);
-/// Nothing of a worker that does not say it.
+/// None for a worker that does not report its slots' time.
 std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat);
 std::vector<PackedKey> keys_of(const pb::Returned& returned);
 
-/// What a worker gets to know about the campaigns.
+/// What a worker is sent about the campaigns.
 struct PoolFacts {
   std::vector<std::string> campaign_digests;
   std::string scenario;  ///< serialised
@@ -42,11 +42,11 @@ std::string frame_of(const SendDrain& action);
 std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation);
 std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation);
 
-/// What people's programs ask, as rows have it: Unknown for what this version does not know.
+/// The kind of a command as rows store it; Unknown for kinds that this version does not know.
 CommandKind command_kind_of(pb::Command_Kind kind);
-/// The same back; not of Unknown.
+/// The reverse; not for Unknown.
 pb::Command_Kind message_kind_of(CommandKind kind);
-/// Answers to them.
+/// Answers to commands and to requests for the status.
 std::string command_reply_of(bool done, const std::string& sentence);
 std::string status_reply_of(const std::string& json);
 

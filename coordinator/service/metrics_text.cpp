@@ -62,13 +62,13 @@ struct Metric {
   std::function<void(const LiveStatus&, Samples&)> write;
 };
 
-/// One number of the whole coordinator.
+/// One number for the whole coordinator.
 template <class Field>
 auto plain(Field LiveStatus::*field) {
   return [field](const LiveStatus& status, Samples& out) { out.add({}, status.*field); };
 }
 
-/// One number, or histogram, a campaign.
+/// One number or histogram for each campaign.
 template <class Get>
 auto of_campaigns(Get get) {
   return [get](const LiveStatus& status, Samples& out) {
@@ -78,7 +78,7 @@ auto of_campaigns(Get get) {
   };
 }
 
-/// One number a design.
+/// One number for each design.
 template <class Get>
 auto of_designs(Get get) {
   return [get](const LiveStatus& status, Samples& out) {

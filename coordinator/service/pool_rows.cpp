@@ -58,7 +58,7 @@ void PoolRows::put_worker(const WorkerRow& row, TimePoint now) {
   const bool is_local = principal != nullptr && principal->local;
   const bool is_new = !written_.contains(row.id);
   const bool is_quarantined = row.state == WorkerState::Quarantined;
-  // One such row of a principal, or one of each process that is blamed, tells a later process.
+  // A later process needs only one such row for each principal, or for each process that is blamed.
   if (const auto quarantine = quarantine_of(row)) {
     const auto told = std::ranges::count_if(
         told_in_quarantine_, [&](const auto& each) { return each.first == row.principal; });
@@ -97,7 +97,7 @@ void PoolRows::write_late_workers(TimePoint now) {
   if (late_.empty() || now - wrote_late_ < kWriteLate) return;
   wrote_late_ = now;
   for (const auto& [number, row] : std::exchange(late_, {})) {
-    // Forgotten meanwhile: it did nothing.
+    // Skip a worker that is forgotten by now: it did nothing.
     if (principal_of_worker(number) != nullptr) put_worker(row, now);
   }
 }

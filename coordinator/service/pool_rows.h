@@ -14,10 +14,10 @@
 
 namespace swarmsmith {
 
-/// Rows for the stores of all campaigns: workers, and events that are of no campaign. The row of a
-/// worker comes before every row that names the worker, in whatever campaign. A row that is
-/// somebody else's doing needs room in the budget of that principal: without it, it is counted and
-/// left out, or, of a worker, comes later.
+/// Rows for the stores of all campaigns: workers, and events that belong to no campaign. A worker's
+/// row comes before every row of any campaign that names the worker. A row that a principal causes
+/// needs room in the principal's budget; without room it is counted and left out, or, if it is a
+/// worker's row, written later.
 class PoolRows {
  public:
   /// Both must outlive it.
@@ -25,27 +25,28 @@ class PoolRows {
       : scheduler_(scheduler), budgets_(budgets) {}
 
   void put(Row row) { rows_.push_back(std::move(row)); }
-  /// The row of a worker comes later when there is no room for it: before anything that names the
-  /// worker, or as it is then. Of one that left without having done anything it never comes.
+  /// If the budget has no room for a worker's row, it is written later, with the worker's state at
+  /// that time: before a row that names the worker, or when there is room. A worker that left
+  /// without having done anything never gets a row.
   void put_worker(const WorkerRow& row, TimePoint now);
-  /// Before the rows of the workers that it lets work again.
+  /// To be called before the rows of the workers that may work again.
   void put_forgiven(const std::string& principal);
-  /// Rows of workers for which there was no room; at most once a second.
+  /// Writes rows of workers for which there was no room earlier; at most once a second.
   void write_late_workers(TimePoint now);
 
-  /// Whether a row of this size that names the worker may be written; its own row then comes first.
+  /// Whether a row of this size that names the worker may be written; puts the worker's row first.
   bool may_name(WorkerNumber worker, std::string_view kind, std::size_t bytes, TimePoint now);
-  /// The same of an event, which may name one.
+  /// The same for an event, which may name a worker.
   bool may_note(const Noted& noted, TimePoint now);
-  /// The worker's row comes now, unless it has.
+  /// Puts the worker's row now, if it has not been put yet.
   void name_worker(WorkerNumber worker);
 
-  /// What was put since `clear`.
+  /// The rows that were put since `clear`.
   const std::vector<Row>& rows() const { return rows_; }
   void clear() { rows_.clear(); }
 
  private:
-  /// Whether a row that is the principal's doing may be written; else it is counted.
+  /// Whether a row caused by the principal may be written; if not, it is counted.
   bool may_write(const std::string& principal, std::string_view kind, std::size_t bytes,
                  TimePoint now);
   void write_worker(const WorkerRow& row);
@@ -54,9 +55,9 @@ class PoolRows {
   const Scheduler& scheduler_;
   Budgets& budgets_;
   std::vector<Row> rows_;
-  std::unordered_set<WorkerNumber> written_;  ///< those whose row is in the stores
+  std::unordered_set<WorkerNumber> written_;  ///< workers whose row is in the stores
   std::map<WorkerNumber, WorkerRow> late_;    ///< rows for which there was no room
-  /// Principals, and which of their processes, or none for all.
+  /// Principals, each with the identity of a quarantined process, or an empty one for all.
   std::set<std::pair<std::string, std::string>> told_in_quarantine_;
   TimePoint wrote_late_;
 };

@@ -106,7 +106,7 @@ void ProgressModel::add(DesignProgress& progress, const Row& row) {
     progress.best = step->best;
     progress.best_mean = step->mean_best;
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-    // What was evaluated ahead has no iteration until a step asks for it.
+    // An evaluation made ahead has no iteration until a step asks for it.
     progress.in_step += evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0;
     add_test(progress, *evaluation);
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
@@ -141,7 +141,7 @@ void ProgressModel::add(const TestedDesign& tested) {
 
 void ProgressModel::add_command(DesignProgress& progress, const CommandRow& row) {
   if (is_of_leases(row.kind)) progress.paused = row.kind == CommandKind::Pause;
-  // Its row comes twice: when it is asked for, and when it acts.
+  // The row of an extension comes twice: when it is requested, and when it takes effect.
   if (row.kind != CommandKind::Extend || !row.step || !extensions_.insert(row.number).second)
     return;
   progress.budget += row.budget;
@@ -154,7 +154,7 @@ void ProgressModel::add_state(DesignProgress& progress, const DesignStateRow& ro
   progress.in_step = 0;
   progress.iteration = row.iteration;
   progress.reason = row.reason;
-  if (!row.best || row.used == 0) return;  // no race has said how good it is
+  if (!row.best || row.used == 0) return;  // no race has measured how good it is
   progress.best = row.best;
   progress.best_mean = row.best_mean;
 }

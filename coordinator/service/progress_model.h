@@ -16,41 +16,43 @@
 
 namespace swarmsmith {
 
-/// How far a design is, as every output says it: of a campaign that runs, or from its store.
+/// The progress of a design, as every output shows it, for a running campaign or from its store.
 struct DesignStatus {
   DesignId id;
   std::string mission{};
   std::string method{};
   std::int64_t repetition = 0;
   DesignState state = DesignState::Waiting;
-  std::int64_t used = 0;     ///< experiments, as of its race's last step
-  std::int64_t in_step = 0;  ///< evaluated since then: the next step counts them as used
-  std::int64_t budget = 0;   ///< with what was given to it later
+  std::int64_t used = 0;     ///< experiments, up to its race's last step
+  std::int64_t in_step = 0;  ///< evaluated since the last step: the next step counts them as used
+  std::int64_t budget = 0;   ///< includes later extensions
   std::int64_t iteration = 0;
   CandidateId best{};
   double best_mean = 0;  ///< in the race
-  double test_mean = 0;  ///< of the winner's tests on fresh seeds, once the design is finished
+  double test_mean = 0;  ///< mean of the winner's tests on fresh seeds, once the design is finished
   std::int64_t test_runs = 0;
-  bool paused = false;   ///< nothing of it is leased until a person resumes it
+  bool paused = false;   ///< its tasks are not leased until a person resumes it
   std::string reason{};  ///< why it ended
-  /// Where its search is, as people read it, and the search's name (irace_core/search/stage.h);
-  /// empty for an iterated race, and then not in the JSON.
+  /// The stage of its search in words for people, and the search's name
+  /// (irace_core/search/stage.h); both are empty for an iterated race, and then not in the JSON.
   std::string stage{};
   std::string search{};
 
-  /// What its race may still use. One that is over uses no more, whatever its budget has left.
+  /// The budget that its race may still use. A race that is over uses no more, even if its budget
+  /// is not used up.
   std::int64_t left() const;
-  /// How good the best is: as its tests say, since the race's pairs chose it; before them the race.
+  /// How good the best candidate is: the mean of its tests if there are any, because the race's
+  /// pairs are biased towards the candidate that they selected; before that, the mean in the race.
   bool is_tested() const { return state == DesignState::Finished && test_runs > 0; }
   double told_mean() const { return is_tested() ? test_mean : best_mean; }
 };
 
-/// Sums over designs: of a campaign, or of several. The only place where they are made.
+/// Sums over the designs of one or several campaigns. They are computed only here.
 struct CampaignTotals {
   std::int64_t designs = 0;
   std::int64_t finished = 0;
   std::int64_t stopped = 0;
-  std::int64_t paused = 0;  ///< that are not over
+  std::int64_t paused = 0;  ///< designs that are paused and not over
   std::int64_t used = 0;
   std::int64_t in_step = 0;
   std::int64_t budget = 0;
@@ -61,51 +63,52 @@ struct CampaignTotals {
 };
 CampaignTotals totals_of(std::span<const DesignStatus> designs);
 
-/// What is known of a design while its rows pass: besides its status, the point of its search.
+/// The progress of a design as its rows come in: besides its status, the stage of its search.
 struct DesignProgress : DesignStatus {
   std::int64_t iterations = 0;  ///< as planned when the iteration began
   std::int64_t configurations = 0;
   std::int64_t alive = 0;
-  /// None for an iterated race; SearchPoint has the others.
+  /// None for an iterated race; SearchPoint describes the other searches.
   std::optional<SearchOptions> options{};
-  bool is_final = false;         ///< the iteration is the final stage
-  std::int64_t extensions = 0;   ///< that have acted: each follows a final stage
+  bool is_final = false;         ///< whether the iteration is the final stage
+  std::int64_t extensions = 0;   ///< extensions that have taken effect; each follows a final stage
   std::int64_t wanted = 0;       ///< runs of the iteration
-  std::int64_t used_before = 0;  ///< by the iterations before it
+  std::int64_t used_before = 0;  ///< runs used by the iterations before it
   std::int64_t step = 0;
   std::map<CandidateId, TestedDesign> tests{};
-  bool has_evaluator = false;  ///< another program says what the tests' scores are
+  bool has_evaluator = false;  ///< another program computes the scores of the tests
 };
 
-/// As the words of irace_core/search/stage.h take it; only of designs with a search of their own.
+/// For the functions of irace_core/search/stage.h; only for designs with another search than irace.
 SearchPoint point_of(const DesignProgress& progress);
-/// Where the search is; empty for an iterated race, and before the first iteration.
+/// The stage of the search; empty for an iterated race, and before the first iteration.
 std::string stage_of(const DesignProgress& progress);
-/// The state as people read it: nothing races where nothing is tested.
+/// The state in words for people: a search without tests is not called a race.
 std::string_view shown_state(const DesignProgress& progress, DesignState state);
 
-/// How far a campaign is, kept up from its rows: those that its store has, states and commands,
-/// then all that are written. Rows of designs that it was not made with are left out. Pure.
+/// The progress of a campaign, updated from its rows: first the states and commands in its store,
+/// then all rows as they are written. Rows of designs that were not passed to the constructor are
+/// ignored. Pure.
 class ProgressModel {
  public:
-  /// With `costs` programs evaluate, and people want to see the costs that they print.
+  /// `costs`: programs evaluate, and people want to see the costs that they print.
   explicit ProgressModel(std::span<const DesignRow> designs, bool costs = false,
                          const Searches& searches = {});
 
   void add(const Row& row);
-  /// Tests from before this process: their rows do not come again.
+  /// Adds tests that were run before this process; their rows do not come again.
   void add(const TestedDesign& tested);
-  /// The process ends: what steps had begun counts when they are done.
+  /// The process ends: evaluations of unfinished steps count only when their steps are done.
   void drop_open_steps();
 
   bool shows_costs() const { return costs_; }
-  /// By id.
+  /// Sorted by id.
   const std::map<DesignId, DesignProgress>& by_design() const { return designs_; }
   const DesignProgress& design(DesignId id) const { return designs_.at(id); }
   CampaignTotals totals() const;
-  /// By id, each with its stage.
+  /// Sorted by id, each with its stage.
   std::vector<DesignStatus> designs() const;
-  /// The first design that is not over, else the last one: what the status line tells about.
+  /// The first design that is not over, or else the last one; the status line shows it.
   const DesignProgress* current() const;
 
  private:
@@ -117,7 +120,7 @@ class ProgressModel {
 
   std::map<DesignId, DesignProgress> designs_;
   bool costs_;
-  std::set<std::int64_t> extensions_;  ///< numbers of those that have acted
+  std::set<std::int64_t> extensions_;  ///< numbers of the commands that have taken effect
 };
 
 }  // namespace swarmsmith

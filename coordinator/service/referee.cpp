@@ -28,13 +28,13 @@ namespace {
 
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// For the start of the process and its self test, on a host that is busy.
+/// Limit for the start of the process and its self test, on a busy host.
 constexpr auto kReadyWithin = std::chrono::seconds(120);
 constexpr int kTries = 3;
-/// Deaths by its own fault that are the evaluation's.
+/// After this many deaths by its own fault, the evaluation is to blame.
 constexpr int kFaults = 2;
 
-/// Raised by what a program does, and not by another process.
+/// Whether the program's own fault raises this signal, as opposed to another process.
 bool is_fault(int signal) {
   return signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE ||
          signal == SIGILL || signal == SIGTRAP || signal == SIGSYS;
@@ -77,7 +77,7 @@ class ProcessReferee final : public Referee {
   }
 
  private:
-  /// What one try gave: a ruling, or how the process ended.
+  /// The result of one try: a ruling, or how the process ended.
   struct Try {
     std::optional<Ruling> ruling{};
     bool began = false;
@@ -85,9 +85,9 @@ class ProcessReferee final : public Referee {
     std::string trouble{};
   };
 
-  /// A thread of its own: it waits for the process, and the process dies with it.
+  /// Runs in its own thread, because it waits for the process, which dies with this thread.
   void work() {
-    // A process that has ended is found by what is written to it.
+    // The end of the process is then noticed by an error of write, instead of by SIGPIPE.
     sigset_t pipes;
     sigemptyset(&pipes);
     sigaddset(&pipes, SIGPIPE);
@@ -169,7 +169,7 @@ class ProcessReferee final : public Referee {
       return {.trouble = "the referee's process sent an unknown message"};
     }
     const Result result = result_of((*message)->results().results(0));
-    // The host's trouble, and not the evaluation's.
+    // Lack of memory is a problem of the host, not of the evaluation.
     if (result.failure == std::bad_alloc().what()) {
       end_child();
       return {.trouble = "this host has too little memory for it"};
@@ -188,7 +188,7 @@ class ProcessReferee final : public Referee {
                       " s, on this host itself too: raise task_timeout_s"};
   }
 
-  /// A process that waits for tasks.
+  /// Makes sure that a process is running and waits for tasks.
   Expected<void> be_ready() {
     if (child_.runs()) return {};
     std::filesystem::path program = options_.program;
@@ -232,7 +232,7 @@ class ProcessReferee final : public Referee {
            (*message)->hello().self_test() == options_.self_test;
   }
 
-  /// Of a process that says nothing any more.
+  /// The result of a try whose process sends nothing any more.
   Try ended(bool began) {
     const std::scoped_lock lock(mutex_);
     std::optional<int> status;
@@ -255,7 +255,7 @@ class ProcessReferee final : public Referee {
   }
 
   RefereeOptions options_;
-  std::mutex mutex_;  ///< guards the next ones, and the start and the end of the child
+  std::mutex mutex_;  ///< guards the members below, and the start and the end of the child
   std::condition_variable asked_;
   std::deque<AskReferee> asks_;
   std::vector<Ruling> rulings_;

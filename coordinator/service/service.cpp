@@ -22,14 +22,14 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kTick{100};
-/// For the last words of workers when all is done.
+/// Time for the last messages of workers when everything is done.
 constexpr Duration kFarewell = std::chrono::seconds(5);
-/// The length of write-ahead logs is looked up this often.
+/// How often the lengths of the write-ahead logs are read.
 constexpr Duration kLookAtLogs = std::chrono::seconds(1);
-/// Outcomes that may wait for a disk that does not keep up; some seconds' worth at the highest
-/// rates. Nothing is leased until half of them are written.
+/// The number of outcomes that may wait for a slow disk: some seconds' worth at the highest rates.
+/// Above it, leasing stops until half of them are written.
 constexpr std::int64_t kMostUncommitted = 500'000;
-/// Frames that are read before the campaign moves on and answers go out.
+/// The number of frames read before the campaigns progress and answers are sent.
 constexpr int kFramesAtOnce = 256;
 
 std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& campaigns) {
@@ -47,7 +47,7 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
   return all;
 }
 
-/// UTC, as stores have times.
+/// In UTC, in the stores' time format.
 std::string time_before(double seconds) {
   const auto then = std::chrono::system_clock::now() -
                     std::chrono::duration_cast<std::chrono::system_clock::duration>(
@@ -109,7 +109,7 @@ class Loop final : public Service {
     if (!more_frames_) coordinator_.on_all_read(now);
     hear_referee(now);
     hear_news();
-    // After the frames: what waited in the socket is a sign of life too.
+    // After the frames, because a message that waited in the socket is a sign of life too.
     if (now >= next_tick_ && !more_frames_) {
       look_at_the_door(now);
       coordinator_.on_tick(now);
@@ -159,7 +159,7 @@ class Loop final : public Service {
       coordinator_.on_committed(index, news->committed);
       telemetry_.on_committed(index, news->committed, clock_.now());
       if (!stores_.update_trouble(index, news->trouble)) continue;
-      // The others' results find their place on disk.
+      // The other campaigns can still write their results.
       coordinator_.hold(index, !news->trouble.empty());
       telemetry_.set_trouble(index, news->trouble);
       if (news->is_lost) {
@@ -175,7 +175,7 @@ class Loop final : public Service {
     coordinator_.hold(holding());
   }
 
-  /// Of a store that cannot write, its campaign alone is held.
+  /// A store that cannot write holds only its own campaign, so it does not count here.
   Holding holding() {
     const std::int64_t most = too_slow_ ? kMostUncommitted / 2 : kMostUncommitted;
     too_slow_ = status_.uncommitted > most;
@@ -203,11 +203,11 @@ class Loop final : public Service {
     telemetry_.on_frame_out(send.frame.size());
     switch (socket_->send(send.peer, send.frame)) {
       case SendStatus::Sent:
-      // A scenario: who wants it asks again.
+      // A scenario that could not be sent: the worker asks again.
       case SendStatus::Later:
         return;
       case SendStatus::Gone:
-      // Reads too slowly, and was cut off: it will say hello again.
+      // The peer reads too slowly and was disconnected: it will say hello again.
       case SendStatus::Full:
         coordinator_.on_unreachable(send);
         return;
@@ -226,7 +226,7 @@ class Loop final : public Service {
     const TimePoint now = clock_.now();
     const std::span<const Row> rows(append.rows);
     tell(append.campaign, rows.first(rows.size() - append.of_pool), now);
-    // Every store has them; here they are logged once.
+    // Every store gets the rows of the pool, but they are logged once.
     if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool), now);
     const std::uint64_t ticket = stores_.append(append.campaign, std::move(append.rows));
     telemetry_.on_appended(append.campaign, ticket, now);
@@ -242,7 +242,7 @@ class Loop final : public Service {
   }
 
   void answer(const AnswerStatus& answer) {
-    // Many may ask; it is written out once between two ticks.
+    // Many clients may ask; the JSON is made only once between two ticks.
     if (status_json_.empty()) status_json_ = to_json(status_).text();
     send({answer.peer, status_reply_of(status_json_), {}});
   }
@@ -292,7 +292,8 @@ class Loop final : public Service {
     carry_out();
     stores_.flush();
     hear_news();
-    // A worker that did not hear of the end would look for the coordinator until a person stops it.
+    // A worker that is not told that the campaigns have ended would search for the coordinator
+    // until a person stops it.
     const TimePoint until = clock_.now() + kFarewell;
     while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
       step();
@@ -336,9 +337,9 @@ class Loop final : public Service {
   RowLog row_log_;
   RefusalLog refusal_log_;
   LiveStatus status_;
-  std::string status_json_;  ///< of it; empty until a client asks
+  std::string status_json_;  ///< `status_` as JSON; empty until a client asks
   TimePoint looked_;
-  bool too_slow_ = false;  ///< the disk
+  bool too_slow_ = false;  ///< whether the disk is too slow
   TimePoint next_tick_{};
   bool more_frames_ = false;
   bool stopping_ = false;

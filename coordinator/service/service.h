@@ -22,78 +22,80 @@ namespace swarmsmith {
 
 struct ServiceOptions {
   CoordinatorOptions coordinator;
-  /// Port * takes a free one. Empty: "tcp://127.0.0.1:*". Beyond loopback only with keys, or with
-  /// `insecure_plaintext`.
+  /// The port * chooses a free port. Empty: "tcp://127.0.0.1:*". An address beyond loopback needs
+  /// keys or `insecure_plaintext`.
   std::string bind;
   SocketOptions socket;
   std::optional<ServerKeys> keys{};
-  /// Clients need no key, though other hosts can connect.
+  /// Clients need no key, although other hosts can connect.
   bool insecure_plaintext = false;
-  /// A new list of clients when there is one; asked ten times a second, and must not wait.
+  /// Returns a new list of clients if there is one; called ten times a second, and must not wait.
   std::function<std::optional<std::vector<ListedClient>>()> new_clients{};
-  /// Makes the referee for a scenario; it calls the function, from any thread, when it has ruled.
-  /// Empty: there is none, so that nothing is audited, and what needs one stops its campaign.
+  /// Makes the referee for a scenario; the referee calls the given function, from any thread, after
+  /// each ruling. Empty: there is no referee, so nothing is audited, and a result that needs a
+  /// ruling stops its campaign.
   std::function<std::unique_ptr<Referee>(const std::string& scenario, std::function<void()>)>
       make_referee{};
-  /// How long running evaluations are waited for when the campaign is interrupted.
+  /// How long to wait for running evaluations when the campaign is interrupted.
   Duration grace = std::chrono::seconds(5);
 };
 
-/// A campaign that is to be run; both must outlive the service.
+/// A campaign to run; the store and the source must outlive the service.
 struct ServiceCampaign {
   std::string digest;
-  Store* store = nullptr;  ///< its listener is taken over
+  Store* store = nullptr;  ///< the service installs its own listener
   WorkSource* source = nullptr;
-  // For people.
+  // For display only.
   std::string name{};
   std::vector<DesignRow> designs{};
-  std::filesystem::path file{};  ///< of the store; empty for none
+  std::filesystem::path file{};  ///< the store's file; empty for none
   Searches searches{};
-  double max_time = 0;  ///< as CampaignStatus has it
-  bool costs = false;   ///< the same
+  double max_time = 0;  ///< as in CampaignStatus
+  bool costs = false;   ///< as in CampaignStatus
 };
 
 struct ServiceHooks {
-  /// Rows of a campaign, just before they are appended to its store; rows of the pool, which every
-  /// store has, without a campaign and once.
+  /// Gets the rows of a campaign just before they are appended to its store. Rows of the pool,
+  /// which every store gets, come once and without a campaign.
   std::function<void(std::optional<std::size_t> campaign, std::span<const Row>)> on_rows;
-  /// Ten times a second. May add what this process alone knows: `launcher`.
+  /// Called ten times a second. May fill in `launcher`, which only the caller knows.
   std::function<void(LiveStatus&)> on_status;
 };
 
 struct ServiceEnd {
   enum class How {
-    Finished,     ///< everything that was wanted is done and on disk
-    Interrupted,  ///< asked to stop; what was accepted is on disk
-    Stopped,      ///< the same, but some campaigns could not go on
+    Finished,     ///< everything that the campaigns wanted is done and on disk
+    Interrupted,  ///< stopped on request; everything that was accepted is on disk
+    Stopped,      ///< as Finished or Interrupted, but some campaigns could not go on
   };
   How how = How::Finished;
-  /// Of each campaign, why it could not go on; empty where it could.
+  /// For each campaign, why it could not go on; empty if it could.
   std::vector<std::string> reasons{};
-  /// Of each campaign, what became of its store's file, where it was lost; empty where it was not.
+  /// For each campaign, what happened to its store's file if it was lost; else empty.
   std::vector<std::string> lost{};
-  /// Of each, whether it stopped because its stored scores are wrong, or may be.
+  /// For each campaign, whether it stopped because its stored scores are wrong or may be wrong.
   std::vector<bool> distrusted{};
-  /// Of each, evaluations that were used and that its store could not write.
+  /// For each campaign, the number of used evaluations that its store could not write.
   std::vector<std::int64_t> unwritten{};
 };
 
-/// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.
+/// The coordinator's event loop: socket, clock and stores around a Coordinator. Everything runs in
+/// the thread that calls `run`.
 class Service {
  public:
   /// Errors: BadInput (no address, or one beyond loopback without keys), Conflict (the port is
-  /// taken), Unavailable. The order of `campaigns` is that of the scenario and of the scheduler's
+  /// taken), Unavailable. `campaigns` must have the same order as the scenario and the scheduler's
   /// policies.
   static Expected<std::unique_ptr<Service>> open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns);
   virtual ~Service() = default;
 
-  /// Where workers find it, with the real port.
+  /// The address where workers connect, with the real port.
   virtual const std::string& endpoint() const = 0;
 
-  /// Until all campaigns are over or `stop` is requested: then nothing more is leased, running
-  /// evaluations have the grace time, and the stores are flushed. When a store's file is lost, at
-  /// once. Call once.
+  /// Runs until all campaigns are over or `stop` is requested. Then it leases nothing more, gives
+  /// running evaluations the grace time, and flushes the stores. If a store's file is lost, it ends
+  /// at once. Call only once.
   virtual ServiceEnd run(const std::stop_token& stop, const ServiceHooks& hooks) = 0;
 };
 

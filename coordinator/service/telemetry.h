@@ -18,12 +18,12 @@
 
 namespace swarmsmith {
 
-/// How fast a count grows.
+/// The rate at which a count grows.
 class RateWindow {
  public:
   explicit RateWindow(Duration window) : window_(window) {}
 
-  /// Growth a second over the window, or over less while it is not full; 0 for the first point.
+  /// Growth per second over the window, or over a shorter time at first; 0 for the first point.
   double update(TimePoint now, std::int64_t count);
 
  private:
@@ -31,21 +31,21 @@ class RateWindow {
   std::deque<std::pair<TimePoint, std::int64_t>> points_;
 };
 
-/// What a campaign is when it starts.
+/// A campaign as it starts.
 struct TelemetryCampaign {
   std::string name;
   std::vector<DesignRow> designs;
-  // Of its store.
+  // From its store.
   std::vector<DesignStateRow> states;
   std::vector<TestedDesign> tested{};
   std::vector<CommandRow> commands{};
   Searches searches{};
-  double max_time = 0;  ///< as CampaignStatus has it
-  bool costs = false;   ///< the same
+  double max_time = 0;  ///< as in CampaignStatus
+  bool costs = false;   ///< as in CampaignStatus
 };
 
-/// The live numbers that a coordinator's loop adds to those of the Coordinator: they come from
-/// rows, frames and commits as they pass. Time comes in, so that it can be tested.
+/// The live numbers that the event loop adds to the Coordinator's own numbers: it counts rows,
+/// frames and commits. Callers pass the time in, so that tests can control it.
 class Telemetry {
  public:
   Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint start);
@@ -53,17 +53,17 @@ class Telemetry {
   void on_frame_in(std::size_t bytes) { bytes_in_ += static_cast<std::int64_t>(bytes); }
   void on_frame_out(std::size_t bytes) { bytes_out_ += static_cast<std::int64_t>(bytes); }
   void on_rows(std::size_t index, std::span<const Row> rows, TimePoint now);
-  /// A unit of rows got its ticket from the writer.
+  /// The writer has given a unit of rows its ticket.
   void on_appended(std::size_t index, std::uint64_t ticket, TimePoint now);
   void on_committed(std::size_t index, std::uint64_t ticket, TimePoint now);
   void set_wal_bytes(std::size_t index, std::int64_t bytes);
-  /// Empty: well again.
+  /// An empty `trouble` means that all is well again.
   void set_trouble(std::size_t index, const std::string& trouble);
 
-  /// Units of rows that no writer has committed.
+  /// The number of row units that are not committed yet.
   std::size_t queued_units() const;
-  /// The coordinator's status with everything in it; the lists are renewed once a second, or when
-  /// `all` of it is asked for.
+  /// The coordinator's status, with all numbers filled in. The lists are refreshed once a second,
+  /// or on every call with `all`.
   LiveStatus status(const Coordinator& coordinator, TimePoint now, bool all = false);
 
  private:

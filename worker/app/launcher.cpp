@@ -1,6 +1,6 @@
-// What stands for each program in the archives of packaging/bundle: starts the program of its own
-// name in lib/ with the loader and the libraries that lie there. It is linked statically, so that
-// it runs where nothing is installed, not even a libc.
+// The archives of packaging/bundle contain this small program instead of the real ones: it starts
+// the program with its own name in lib/, with the loader and the libraries in that folder. It is
+// linked statically, so that it runs on hosts where nothing is installed, not even a libc.
 
 #include <sys/auxv.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ namespace {
   std::exit(127);
 }
 
-/// A file of the archive.
+/// The path of a file in the archive.
 struct Place {
   char path[PATH_MAX];
 
@@ -33,13 +33,13 @@ struct Place {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // As this program was called, through links; /proc may not be there.
+  // The path by which this program was called, with links resolved; /proc may not be mounted.
   char self[PATH_MAX];
   const auto* called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   if (called == nullptr || realpath(called, self) == nullptr) {
     fail(argc > 0 ? argv[0] : "swarmsmith", "cannot find its folder", "");
   }
-  // lib/ lies beside this program, or beside its folder bin/.
+  // lib/ is beside this program, or beside the folder bin/ that contains it.
   char folder[PATH_MAX];
   std::memcpy(folder, self, sizeof folder);
   char* const slash = std::strrchr(folder, '/');
@@ -50,15 +50,15 @@ int main(int argc, char** argv) {
   const Place libraries(folder, "lib");
   const Place loader(libraries.path, "ld.so");
   const Place program(libraries.path, name);
-  // Libraries of this system need its libc, which is another one.
+  // Libraries of this system need its own libc, which differs from ours.
   unsetenv("LD_PRELOAD");
   unsetenv("LD_AUDIT");
-  // The program takes this path for its own (base/program_path.h): /proc/self/exe is the loader.
+  // The program takes this path as its own (base/program_path.h): /proc/self/exe is the loader.
   std::vector<const char*> words{loader.path,    "--inhibit-cache", "--library-path",
                                  libraries.path, "--argv0",         self,
                                  program.path};
   if (argc > 1) words.insert(words.end(), argv + 1, argv + argc);
   words.push_back(nullptr);
-  execv(loader.path, const_cast<char**>(words.data()));  // execv's signature; it changes nothing
+  execv(loader.path, const_cast<char**>(words.data()));  // execv changes nothing
   fail(name, "cannot start ", loader.path);
 }

@@ -1,4 +1,4 @@
-// swarmsmith-worker: evaluates for one coordinator until it is sent home.
+// swarmsmith-worker: evaluates tasks for one coordinator until it is drained.
 
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@
 namespace swarmsmith {
 namespace {
 
-// Signal handlers reach nothing else.
+// The only data that signal handlers use.
 std::atomic<bool> g_drain{false};
 std::atomic<bool> g_out_of_time{false};
 Wakeup* g_wakeup = nullptr;
@@ -48,7 +48,7 @@ void on_signal(int) {
   if (g_wakeup != nullptr) g_wakeup->notify();
 }
 
-/// Comes again with each second of processor time.
+/// Called again after each further second of processor time.
 void on_processor_limit(int) {
   g_out_of_time = true;
   g_drain = true;
@@ -65,7 +65,7 @@ void handle_signals(Wakeup& wakeup) {
   sigaction(SIGXCPU, &action, nullptr);
 }
 
-/// The parent may have died before the wish was known: then it is another one by now.
+/// The parent may have died before the kernel got this request: then the parent is another process.
 void die_with_parent(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (parent > 0 && getppid() != parent) std::_Exit(static_cast<int>(WorkerExit::Interrupted));
@@ -85,10 +85,10 @@ struct Arguments {
   bool referee = false;
 };
 
-/// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
-/// the process does not have to wait for it.
+/// Drains when standard input ends. A separate thread waits for that and does nothing else, so that
+/// a signal that ends the process is not delayed.
 void watch_input() {
-  // The reader at the other end has gone first: no reason not to drain.
+  // The launcher's end may close first: a write must not kill this process before it drains.
   std::signal(SIGPIPE, SIG_IGN);
   std::thread([] {
     std::array<char, 256> ignored{};
@@ -119,11 +119,11 @@ int fail(const Error& error) {
   return static_cast<int>(WorkerExit::Usage);
 }
 
-/// What the socket and the simulator need, and each slot.
+/// Checks the resources needed by the socket, the simulator and each slot.
 Expected<void> check_limits(const Arguments& arguments, int slots) {
   constexpr std::int64_t kDescriptors = 24;
   constexpr std::int64_t kDescriptorsOfProgram = 4;
-  // Measured; a thread's stack alone takes 8 MiB of address space.
+  // Measured values; a thread's stack alone takes 8 MiB of address space.
   constexpr std::uint64_t kSpace = std::uint64_t{96} << 20U;
   constexpr std::uint64_t kSpaceOfSlot = std::uint64_t{12} << 20U;
   constexpr std::uint64_t kMemory = std::uint64_t{16} << 20U;
@@ -140,8 +140,9 @@ void tell_launcher(bool connected) {
   std::cout << (connected ? kWorkerConnected : kWorkerAlone) << '\n' << std::flush;
 }
 
-/// How the coordinator is found, again before each try to connect. What a person must mend first is
-/// said at once; a coordinator's file that is not there yet is waited for.
+/// How to find the coordinator; used again before each attempt to connect. Problems that a person
+/// must solve are reported at once; if the coordinator's file does not exist yet, the worker waits
+/// for it.
 Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
   const CoordinatorSearch search{.endpoint = arguments.connect,
                                  .file = arguments.coordinator,
@@ -195,11 +196,11 @@ int run(const Arguments& arguments) {
               {{"reason", "this process has used the processor time that it may use (ulimit -t)"}});
     std::_Exit(128 + SIGXCPU);
   }
-  // Slots that still run have missed the grace time; their results are not awaited.
+  // Slots that are still running have exceeded the grace time; their results are dropped.
   std::_Exit(static_cast<int>(end.code));
 }
 
-/// For scripts, as swarmsmith itself answers them (console/program.h); false: no such words.
+/// Answers requests of scripts, like swarmsmith itself (console/program.h); false if none.
 bool answer_scripts(const CLI::App& app, std::span<const std::string> words) {
   if (words.empty()) return false;
   const std::vector<DeclaredOption> options = declared_options(app);
@@ -281,7 +282,7 @@ int run_command_line(int argc, char** argv) {
     std::ostringstream errors;
     const int code = app.exit(error, out, errors);
     std::cout << out.str();
-    std::cerr << as_shown(errors.str());  // with the words that it was given
+    std::cerr << as_shown(errors.str());  // contains the user's arguments
     return code == 0 ? 0 : static_cast<int>(WorkerExit::Usage);
   }
   if (!arguments.connect.empty()) {

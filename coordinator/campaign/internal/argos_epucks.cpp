@@ -20,9 +20,9 @@
 namespace swarmsmith {
 namespace {
 
-/// Where the original keeps a mission, and ours that is the same.
+/// The loop functions of a mission in the original software, and our equal mission.
 struct LoopFunctions {
-  std::string_view mission;  ///< the text of its file
+  std::string_view mission;  ///< the text of our mission file
   std::string_view library;
   std::string_view label;
   std::string_view repository;
@@ -39,8 +39,8 @@ constexpr std::array<LoopFunctions, 5> kLoopFunctions = {
      {kRtGridMission, "libgrid_exploration.so", "grid_exploration", kOfTransferability},
      {kNaXor2Mission, "libaggregation_xor2.so", "aggregation_xor2", kLoopFunctionsOfAll}}};
 
-/// The original's mission that this one is, whatever it is called, however long, with however many
-/// robots, with whatever light and range of the radio: those the file can say.
+/// Finds the original mission that equals this one, except for name, duration, number of robots,
+/// light and radio range, which the file can set.
 Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
   for (const LoopFunctions& known : kLoopFunctions) {
     auto original = parse_mission(known.mission, "mission.toml");
@@ -60,12 +60,12 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
       "oc-sca, na-xor2)");
 }
 
-/// How control software of an architecture is named there.
+/// The original's names for the control software of an architecture.
 struct Program {
   std::string_view controller;
   std::string_view library;
   std::string_view option;
-  const Flavour* flavour;  ///< with the numbers of its modules
+  const Flavour* flavour;  ///< whose module numbers it uses
 };
 
 Expected<Program> program_of(const Controller& controller) {
@@ -82,8 +82,8 @@ Expected<Program> program_of(const Controller& controller) {
       "trees");
 }
 
-/// Devices of the published files with the profile's noise. That of the radio's range is misspelled
-/// there, and does nothing (epuck facts, section 3.4).
+/// The devices of the published files, with the profile's noise. The attribute for the noise of the
+/// radio's range is misspelled there and has no effect (epuck facts, section 3.4).
 std::string controllers_text(const ArgosExperiment& experiment, const Program& program,
                              const std::string& text) {
   const Profile& profile = experiment.profile;
@@ -117,11 +117,11 @@ std::string controllers_text(const ArgosExperiment& experiment, const Program& p
       program.option, text);
 }
 
-/// The loop functions move the robots. They are called epuck0, epuck1, ...: the original reads the
-/// identifier that a robot sends out of its name, and with other names takes all for one (epuck
+/// The loop functions move the robots. They are called epuck0, epuck1, ... because the original
+/// reads a robot's id from its name; with other names, all robots would have the same id (epuck
 /// facts, section 4.1).
 std::string arena_text(const Mission& mission) {
-  // Without a light of ours there is one that does not shine: the original's sensors want one.
+  // If the mission has no light, a dark one is added, because the original's sensors need one.
   const Light dark{.x_m = 0, .y_m = -1.25, .z_m = 0.75, .intensity_cd = 0};
   const Light& light = mission.arena.lights.empty() ? dark : mission.arena.lights.front();
   return fmt::format(

@@ -9,22 +9,22 @@
 
 namespace swarmsmith {
 
-/// Elements of an experiment file that both stacks have.
+/// Elements of an experiment file that the stacks of both robots use.
 
-/// Seed and duration.
+/// The seed and the duration.
 std::string argos_framework(const ArgosExperiment& experiment);
 
-/// The twelve walls of the thesis' dodecagon, which is that of the e-puck's missions, too (epuck
+/// The twelve walls of the thesis' dodecagonal arena, which the e-puck's missions use too (epuck
 /// facts, section 6.1).
 std::string argos_walls();
 
-/// The file for the e-puck's stack. Errors: BadInput.
+/// The experiment file for the e-puck's stack. Errors: BadInput.
 Expected<std::string> argos_experiment_of_epucks(const ArgosExperiment& experiment);
 
-/// Errors: what the original AutoMoDe cannot run, of the flavour that has its modules.
+/// Fails if the original AutoMoDe, whose modules `flavour` contains, cannot run this.
 Expected<void> check_for_argos(const Controller& controller, const Flavour& flavour);
 
-/// For a comment of XML, where two hyphens must not meet.
+/// Makes a text safe for an XML comment, which must not contain two hyphens in a row.
 std::string argos_comment(std::string_view text);
 
 }  // namespace swarmsmith

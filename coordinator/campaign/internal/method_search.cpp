@@ -17,7 +17,7 @@ struct Preset {
   SearchKind search;
 };
 
-/// The methods of the literature (docs/methods.md).
+/// Methods from the literature (docs/methods.md).
 constexpr std::array kPresets = {
     Preset{"random", Architecture::Machine, SearchKind::Random},
     Preset{"vanilla", Architecture::Machine, SearchKind::FRace},
@@ -37,7 +37,7 @@ std::vector<std::string> search_names() {
   return names;
 }
 
-/// The architecture and the search, by preset or one by one.
+/// Reads the architecture and the search, given as a preset or separately.
 void read_pair(TableReader& table, Method& method, bool is_file) {
   std::vector<std::string> presets;
   presets.reserve(std::size(kPresets));
@@ -113,7 +113,7 @@ class OptionReader {
   TableReader& table_;
 };
 
-/// The same keys as lines.
+/// Writes the same keys as lines.
 class OptionLines {
  public:
   std::vector<SectionLine> lines;
@@ -135,7 +135,7 @@ class OptionLines {
   }
 };
 
-/// [method.evolution] and so on: only that of the method's own search.
+/// [method.evolution] and so on: only the table of the method's own search is allowed.
 void read_numbers(TableReader& table, Method& method) {
   const SearchKind own = kind_of(method.search);
   for (const SearchKind kind : all_searches()) {

@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The modules of `names`, in the order of the flavour's table.
+/// The modules named in `names`, in the order of the flavour's table.
 std::vector<const ModuleSpec*> chosen(const std::vector<ModuleSpec>& table,
                                       const std::vector<std::string>& names) {
   std::vector<const ModuleSpec*> modules;
@@ -60,7 +60,7 @@ void ModuleParameters::add_fixed(std::string name, const std::string& token, int
   add(std::move(name), token, Categorical{{std::to_string(value)}}, std::move(condition));
 }
 
-/// A module as a value of the space.
+/// A module as a value in the space.
 std::string ModuleParameters::word_of(const ModuleSpec& module) const {
   return words_ == Wording::Names ? module.id : std::to_string(module.number);
 }
@@ -93,7 +93,7 @@ std::vector<ModuleSlot> ModuleParameters::add_modules(const std::vector<const Mo
   return slots;
 }
 
-/// The parameter's name without state and transition.
+/// The parameter's name without the suffix for state and transition.
 std::string ModuleParameters::name_of(const ModuleSpec& module,
                                       const ParameterSpec& parameter) const {
   const SearchRange own{parameter.low, parameter.high};
@@ -114,14 +114,14 @@ bool ModuleParameters::is_shared(const ParameterSpec& parameter) const {
   return users > 1;
 }
 
-/// What is searched: the flavour's own range or the method's.
+/// The domain that is searched: the flavour's own range, or the method's.
 Domain ModuleParameters::domain_of(const ModuleSpec& module, const ParameterSpec& parameter) const {
   const SearchRange range = range_of(method_, module, parameter);
   if (parameter.type == ParameterSpec::Type::Real) return Real{range.lower, range.upper};
   return Integer{range.lower, range.upper};
 }
 
-/// `chooser` has chosen one of the modules with a parameter of this name.
+/// The condition that `chooser` has chosen one of the modules with a parameter of this name.
 Expression ModuleParameters::users_chosen(const std::vector<const ModuleSpec*>& modules,
                                           const std::string& name,
                                           const std::string& chooser) const {
@@ -142,7 +142,7 @@ std::vector<double> values_of(const Configuration& configuration, const ModuleSl
   for (std::size_t i = 0; i < slot.parameters.size(); ++i) {
     double value = configuration[slot.parameters[i]];
     if (slot.spec->parameters[i].type == ParameterSpec::Type::Label) {
-      // A label's number becomes the enumerator's index, which is what modules are made from.
+      // The label's number becomes the index of its enumerator, from which modules are made.
       const auto& labels = flavour.floor.labels;
       const auto found = std::ranges::find(labels, static_cast<int>(value), &LabelSpec::number);
       SWARMSMITH_ASSERT(found != labels.end(), "a flavour has every label of its search range");
@@ -162,7 +162,7 @@ std::size_t put_module(Module module, const std::vector<double>& parameters,
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     double value = parameters[i];
     if (slot->spec->parameters[i].type == ParameterSpec::Type::Label) {
-      // The enumerator's index becomes the label's number.
+      // The index of the enumerator becomes the label's number.
       const auto label = static_cast<ColorLabel>(static_cast<int>(value));
       const auto& labels = flavour.floor.labels;
       const auto found = std::ranges::find(labels, label, &LabelSpec::label);

@@ -13,37 +13,37 @@
 
 namespace swarmsmith {
 
-/// Where a parameter would be that is left out.
+/// The index of a parameter that is left out.
 inline constexpr std::size_t kNoParameter = std::numeric_limits<std::size_t>::max();
 
-/// How a space's values are written.
+/// How the values of a space are written.
 enum class Wording {
-  Names,    ///< modules by name, nothing that has one value alone
-  Grammar,  ///< as the text grammar wants them
+  Names,    ///< modules by name, without parameters that have only one value
+  Grammar,  ///< as in the text grammar
 };
 
-/// Where one module's parameters are: indices into the space, in the order of `parameters_of`.
+/// The indices of one module's parameters in the space, in the order of `parameters_of`.
 struct ModuleSlot {
   const ModuleSpec* spec = nullptr;
   std::vector<std::size_t> parameters;
 };
 
-/// The parameters of a space that is put together from a flavour's modules, added one by one.
+/// Builds the parameters of a space from a flavour's modules, one by one.
 class ModuleParameters {
  public:
   ModuleParameters(const Method& method, const Flavour& flavour, Wording words);
 
-  /// Adds one parameter; returns where it is.
+  /// Adds one parameter; returns its index.
   std::size_t add(std::string name, const std::string& token, Domain domain,
                   std::optional<Expression> condition = std::nullopt);
-  /// What has one value alone is for the text grammar only.
+  /// Adds a parameter with only one value, which only the text grammar needs.
   void add_fixed(std::string name, const std::string& token, int value,
                  std::optional<Expression> condition);
-  /// A choice among modules.
+  /// A categorical domain with the modules as values.
   Categorical choice_of(const std::vector<const ModuleSpec*>& modules) const;
-  /// The parameters of the modules among which `chooser` chooses. Modules share a parameter of the
-  /// same symbol (P of all conditions with a probability) as long as their ranges agree; one with a
-  /// range of its own gets a parameter of its own (P_black_floor0x1).
+  /// Adds the parameters of the modules among which `chooser` chooses. Modules share a parameter
+  /// with the same symbol (P of all conditions with a probability) if their ranges are equal; a
+  /// module with a different range gets its own parameter (P_black_floor0x1).
   std::vector<ModuleSlot> add_modules(const std::vector<const ModuleSpec*>& modules,
                                       const std::string& chooser, const std::string& suffix);
 
@@ -70,13 +70,14 @@ class ModuleParameters {
 /// The condition `parameter > value`.
 Expression more_than(const std::string& parameter, int value);
 
-/// A parameter's value, or `otherwise` where it is left out or inactive.
+/// A parameter's value, or `otherwise` if it is left out or inactive.
 double value_or(const Configuration& configuration, std::size_t index, double otherwise);
 
-/// The module's parameters in a configuration, as make_behaviour and make_condition take them.
+/// The module's parameters in a configuration, as arguments of make_behaviour and make_condition.
 std::vector<double> values_of(const Configuration& configuration, const ModuleSlot& slot,
                               const Flavour& flavour);
-/// The other way: which of the slots has the module, for its chooser; its values go into `values`.
+/// The reverse: returns the index of the slot for the module, as the chooser's value, and writes
+/// the module's parameters to `values`.
 std::size_t put_module(Module module, const std::vector<double>& parameters,
                        const std::vector<ModuleSlot>& slots, const Flavour& flavour,
                        Configuration& values);

@@ -12,11 +12,11 @@
 
 namespace swarmsmith {
 
-/// Whether some method races: for others all of [race] but the budget means nothing.
+/// Whether any method races: for other searches, [race] has no meaning except the budget.
 bool has_races(const Campaign& campaign);
 
-/// The keys of [race] that are a number of the scenario, so that reading, writing and the digest
-/// know the same ones. Names are irace's in snake_case.
+/// The keys of [race] whose values are numbers in the scenario: a single list, so that reading,
+/// writing and the digest use the same keys. Names are irace's names in snake_case.
 
 struct IntegerOption {
   std::string_view key;
@@ -77,7 +77,7 @@ inline constexpr std::array<FlagOption, 7> kFlagOptions = {{
     {"bound_as_timeout", &Scenario::bound_as_timeout},
 }};
 
-/// A choice among the values of an enumeration, by irace's names and in the enumeration's order.
+/// Values of enumerations by irace's names, in the order of the enumerators.
 inline const std::vector<std::string> kTestTypes = {"F-test", "t-test", "t-test-bonferroni",
                                                     "t-test-holm"};
 inline const std::vector<std::string> kCappingTypes = {"median", "mean", "worst", "best"};

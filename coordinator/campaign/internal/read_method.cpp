@@ -26,8 +26,7 @@ std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
   return ids;
 }
 
-/// A flavour of a file that the key names, or of a table, as stores have it; null after a
-/// complaint.
+/// Reads a flavour from the file that the key names, or from a table; null after a complaint.
 const Flavour* read_own_flavour(TableReader& table, const std::string* word,
                                 const std::filesystem::path& folder, Method& method) {
   const std::size_t before = table.complaints();
@@ -49,7 +48,7 @@ const Flavour* read_own_flavour(TableReader& table, const std::string* word,
   return *flavour_of(method);
 }
 
-/// Null, after a complaint, when the flavour is unknown: then its modules cannot be checked.
+/// Null after a complaint if the flavour is unknown: then its modules cannot be checked.
 const Flavour* read_flavour(TableReader& table, const std::filesystem::path& folder,
                             Method& method) {
   const Node* said = table.has("flavour") ? table.take("flavour") : nullptr;
@@ -70,7 +69,7 @@ const Flavour* read_flavour(TableReader& table, const std::filesystem::path& fol
   return *flavour_of(method);
 }
 
-/// What Exploration's turns are measured in, the flavour's own without the key.
+/// The unit of Exploration's turns; without the key, the flavour's own.
 TurnClock read_turn_clock(TableReader& table, const Flavour& flavour) {
   static const std::vector<std::string> kNames = {std::string(name_of(TurnClock::Cycles)),
                                                   std::string(name_of(TurnClock::Seconds))};
@@ -79,8 +78,8 @@ TurnClock read_turn_clock(TableReader& table, const Flavour& flavour) {
   return *name == kNames[0] ? TurnClock::Cycles : TurnClock::Seconds;
 }
 
-/// The modules that the key names, out of one of the flavour's tables and in its order, so that the
-/// order in the file decides nothing; all of the table without the key.
+/// The modules that the key names, in the order of the flavour's table, so that the order in the
+/// file does not matter; without the key, the whole table.
 std::vector<std::string> read_modules(TableReader& table, std::string_view key,
                                       const std::vector<ModuleSpec>& known,
                                       const std::string& flavour) {
@@ -106,7 +105,7 @@ std::vector<std::string> read_modules(TableReader& table, std::string_view key,
   return chosen;
 }
 
-/// One range, `{ int = [1, 100] }` or `{ real = [1, 5] }`.
+/// Reads one range, `{ int = [1, 100] }` or `{ real = [1, 5] }`.
 std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& module,
                                         const ParameterSpec& parameter) {
   const bool real = parameter.type == ParameterSpec::Type::Real;
@@ -142,7 +141,7 @@ std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& mo
   return RangeOverride{module.id, parameter.name, range->least, range->most};
 }
 
-/// All ranges of one module: `exploration.tau = ...`.
+/// Reads all ranges of one module: `exploration.tau = ...`.
 void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& method) {
   std::vector<std::string> known;
   for (const ParameterSpec& parameter : module.parameters) {
@@ -167,7 +166,7 @@ void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& me
   }
 }
 
-/// [method.parameters]: only for modules that the method uses.
+/// [method.parameters]: allowed only for modules that the method uses.
 void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   std::vector<std::string> used = method.behaviours;
   used.insert(used.end(), method.conditions.begin(), method.conditions.end());
@@ -182,7 +181,7 @@ void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   }
 }
 
-/// The text of a file that the key names, or of the key with `_text`, as stores have it.
+/// Reads the text from the file that the key names, or, as in stores, from the key plus `_text`.
 std::string read_text(TableReader& table, const std::string& key,
                       const std::filesystem::path& folder, const std::string& what) {
   if (auto text = table.text(key + "_text")) return std::move(*text);
@@ -194,7 +193,7 @@ std::string read_text(TableReader& table, const std::string& key,
   return {};
 }
 
-/// What errors call the text that a key gives: the file's path, or the key of a text in this file.
+/// The name of a key's text in error messages: the file's path, or the key of the text itself.
 std::string text_name(TableReader& table, const std::string& key,
                       const std::filesystem::path& folder) {
   const Node* node = table.take(key);
@@ -202,7 +201,7 @@ std::string text_name(TableReader& table, const std::string& key,
   return name != nullptr ? (folder / *name).string() : key + "_text";
 }
 
-/// A method whose space is that of an irace parameter file.
+/// Reads a method whose space comes from an irace parameter file.
 void read_parameter_file(TableReader& table, const std::filesystem::path& folder, Method& method) {
   method.flavour.clear();
   method.max_states = method.max_transitions = 0;
@@ -227,7 +226,7 @@ bool has_parameter_file(TableReader& table) {
   return std::holds_alternative<std::string>(table.take("parameters")->value);
 }
 
-/// The only machine of the file that the key names; complains when there is none.
+/// The only machine in the file that the key names; complains if there is not exactly one.
 std::optional<FiledMachine> read_filed_machine(TableReader& table, const std::string& name,
                                                const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / name;
@@ -249,7 +248,7 @@ std::optional<FiledMachine> read_filed_machine(TableReader& table, const std::st
   return std::move(machines->front());
 }
 
-/// Takes over what the head says, where the method says nothing.
+/// Takes the settings of the machine's head for keys that the method does not set.
 void follow_head(TableReader& table, const MachineHead& head, Method& method) {
   if (head.flavour.empty()) return;
   if (!table.has("flavour")) {
@@ -270,7 +269,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// A machine by hand or of a file as `baseline`; nothing for a race, or a random machine.
+/// Reads a `baseline` given as text or as a file; does nothing for a race or a random machine.
 void read_baseline(TableReader& table, const std::filesystem::path& folder, Method& method) {
   const auto baseline = table.text("baseline");
   if (!baseline) return;
@@ -307,7 +306,7 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
     }
   }
   const auto flavour = flavour_of(method);
-  if (!flavour) return;  // complained about
+  if (!flavour) return;  // there is a complaint already
   method.turn_clock = turn_clock.value_or((*flavour)->exploration.turn_clock);
   const auto given = parse_controller(method.baseline, **flavour);
   if (given) {
@@ -318,7 +317,7 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
   }
 }
 
-/// Keys that are for another architecture than the method's.
+/// Refuses keys of another architecture than the method's.
 void refuse_foreign_keys(TableReader& table, const Method& method) {
   struct Foreign {
     std::string_view key;
@@ -344,7 +343,7 @@ void refuse_foreign_keys(TableReader& table, const Method& method) {
   }
 }
 
-/// Only programs have external modules, and nothing here is simulated with them.
+/// External modules are only for programs; the simulator cannot run them.
 void refuse_external(TableReader& table, const Flavour& flavour, const Method& method) {
   if (!method.baseline.empty() && method.baseline != kRandomMachine) {
     const auto given = parse_controller(method.baseline, flavour);
@@ -366,7 +365,7 @@ void refuse_external(TableReader& table, const Flavour& flavour, const Method& m
   }
 }
 
-/// One [[method]]; `taken` are the names of those before it.
+/// Reads one [[method]]; `taken` has the names of the methods before it.
 Method read_method(TableReader& table, const std::vector<std::string>& taken,
                    const std::filesystem::path& folder, bool has_target) {
   Method method;
@@ -414,7 +413,7 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
     if (method.baseline.empty() || table.has("turn_clock")) {
       method.turn_clock = read_turn_clock(table, *flavour);
     }
-    // Its usual value may stand there, as it does in the text that stores have.
+    // The default value is allowed, because the text in stores contains it.
     if (table.has("turn_clock") && method.architecture == Architecture::Network &&
         method.turn_clock != flavour->exploration.turn_clock) {
       table.complain("turn_clock",

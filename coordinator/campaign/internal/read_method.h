@@ -8,13 +8,13 @@
 
 namespace swarmsmith {
 
-/// The [[method]] tables of a campaign file in `folder`, complete: modules that were not named are
-/// filled in, in the order of the flavour's tables; files are read. What is wrong goes to the
-/// readers' complaints. Parameter files are taken only with a target.
+/// Reads the [[method]] tables of a campaign file in `folder`. The result is complete: if no
+/// modules are named, all of them are listed, in the order of the flavour's tables, and files are
+/// read. Errors go to the readers' complaints. Parameter files are accepted only with a target.
 std::vector<Method> read_methods(TableReader& root, const std::filesystem::path& folder,
                                  bool has_target);
 
-/// The [race] table, into the campaign, whose target was read before.
+/// Reads the [race] table into the campaign; the campaign's target must have been read before.
 void read_race(TableReader& root, const std::filesystem::path& folder, Campaign& campaign);
 
 }  // namespace swarmsmith

@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The enumerator that a text names by its place in `names`.
+/// The enumerator for a text, by the text's index in `names`.
 template <class Enum>
 std::optional<Enum> read_choice(TableReader& race, std::string_view key,
                                 const std::vector<std::string>& names) {
@@ -20,7 +20,7 @@ std::optional<Enum> read_choice(TableReader& race, std::string_view key,
   return static_cast<Enum>(std::ranges::find(names, *name) - names.begin());
 }
 
-/// All options that are one number or one flag.
+/// Reads all options that are a single number or flag.
 void read_numbers(TableReader& race, Scenario& scenario) {
   for (const IntegerOption& option : kIntegerOptions) {
     const bool budget = option.member == &Scenario::max_experiments;
@@ -44,7 +44,7 @@ void read_numbers(TableReader& race, Scenario& scenario) {
       read_choice<BoundType>(race, "bound_type", kBoundTypes).value_or(scenario.bound_type);
 }
 
-/// Whether there is exactly one of the two budgets; time only where programs say what theirs was.
+/// Checks that exactly one of the two budgets is given; a time only if programs report theirs.
 bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target) {
   if (scenario.max_time > 0 && !has_target) {
     race.complain("max_time",
@@ -62,7 +62,7 @@ bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target)
   return false;
 }
 
-/// All searches have the budget; none uses the rest.
+/// All searches use the budget, but only races use the other options.
 void refuse_options_of_races(TableReader& race) {
   std::vector<std::string_view> keys = {"min_experiments", "test_type", "capping", "capping_type",
                                         "bound_type"};
@@ -79,8 +79,8 @@ void refuse_options_of_races(TableReader& race) {
   }
 }
 
-/// Where no method races iteratively: what f-race has its own values for. Their usual values may
-/// stand there, as they do in the text that stores have.
+/// If no method races iteratively: refuses options for which f-race has its own values. Their
+/// default values are allowed, because the text in stores contains them.
 void refuse_options_of_irace(TableReader& race, const Scenario& read) {
   static constexpr std::array kIntegers = {
       std::pair{"nb_iterations", &Scenario::nb_iterations},
@@ -155,7 +155,7 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
   if (race->complaints() > before) return;
   if (!check_budgets(*race, campaign.race, campaign.target.has_value())) return;
   Scenario judged = campaign.race;
-  // What depends on the number of instances is judged mission by mission.
+  // Options that depend on the number of instances are checked for each mission.
   judged.n_instances = judged.block_size * judged.first_test;
   if (const auto checked = check(judged); !checked && race->has(checked.error().where)) {
     race->complain(checked.error().where,

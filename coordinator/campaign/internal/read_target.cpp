@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pairs of tests are numbered within what a store can name.
+/// The numbers of test pairs must stay within the range that a store can name.
 constexpr std::int64_t kMostInstances = 99'999;
 
 fs::path absolute_in(const fs::path& folder, const fs::path& path) {
@@ -22,7 +22,7 @@ fs::path absolute_in(const fs::path& folder, const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// The runner; what comes before or after it on a command line has keys of its own.
+/// Reads the runner's path; the words before and after it on a command line have their own keys.
 std::string read_runner(TableReader& simulator, const fs::path& folder) {
   const auto words = simulator.texts("command");
   if (!words) {
@@ -42,13 +42,14 @@ std::string read_runner(TableReader& simulator, const fs::path& folder) {
   return program_path(words->front(), folder);
 }
 
-/// A program's path under an optional key; empty without it.
+/// The path of a program under an optional key; empty without the key.
 std::string read_program(TableReader& table, std::string_view key, const fs::path& folder) {
   const auto name = table.text(key);
   return name && !name->empty() ? program_path(*name, folder) : "";
 }
 
-/// The instances of a list, or of a file with one a line; `none` is what to take without either.
+/// Reads the instances from a list, or from a file with one instance per line; returns `none`
+/// without either.
 std::vector<std::string> read_instances(TableReader& table, std::string_view key,
                                         const fs::path& folder, std::vector<std::string> none) {
   const std::string file_key = std::string(key) + "_file";
@@ -74,7 +75,7 @@ std::vector<std::string> read_instances(TableReader& table, std::string_view key
   return std::move(*instances);
 }
 
-/// `test` is a list of instances, or `{ count = 20 }`: fresh seeds on the training instances.
+/// `test` is a list of instances, or `{ count = 20 }`: new seeds on the training instances.
 void read_tests(TableReader& instances, const fs::path& folder, CampaignMission& mission) {
   const auto is_table = [&] {
     const Node* node = instances.take("test");

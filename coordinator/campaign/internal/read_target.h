@@ -10,17 +10,16 @@
 
 namespace swarmsmith {
 
-/// The keys of [simulator] with kind = "command"; paths are made absolute, programs are not looked
-/// at. What is wrong goes to the reader's complaints.
+/// Reads the keys of [simulator] with kind = "command"; makes paths absolute, but does not check
+/// the programs. Errors go to the reader's complaints.
 Target read_target(TableReader& simulator, const std::filesystem::path& folder);
 
-/// The [[mission]] tables of a campaign whose evaluations are programs: names, and instances as
-/// texts.
+/// Reads the [[mission]] tables for evaluation by programs: names, and instances as texts.
 std::vector<CampaignMission> read_target_missions(TableReader& root,
                                                   const std::filesystem::path& folder);
 
-/// A program as a path: from `folder` on, or, when nothing is there and the name has no slash, as
-/// PATH finds it (irace facts, 21).
+/// The path of a program: relative to `folder`, or found through PATH if nothing is there and the
+/// name has no slash (irace facts, 21).
 std::string program_path(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace swarmsmith

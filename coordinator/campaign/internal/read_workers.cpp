@@ -7,10 +7,10 @@
 namespace swarmsmith {
 namespace {
 
-/// In lines of a batch script, and on command lines.
+/// Not allowed in lines of a batch script and on command lines.
 constexpr std::string_view kNoBreaks = "\n\r";
 
-/// `local` is the one key with two types.
+/// `local` is the only key with two types.
 void read_local(TableReader& table, Campaign& campaign) {
   const Node* node = table.take("local");
   if (node == nullptr) return;
@@ -24,7 +24,7 @@ void read_local(TableReader& table, Campaign& campaign) {
                  "workers");
 }
 
-/// One word for sbatch.
+/// Reads one option for sbatch.
 std::optional<std::string> read_word(TableReader& table, std::string_view key) {
   auto word = table.text(key);
   if (!word) return word;
@@ -33,7 +33,7 @@ std::optional<std::string> read_word(TableReader& table, std::string_view key) {
   return std::nullopt;
 }
 
-/// More words for sbatch or ssh.
+/// Reads more options for sbatch or ssh.
 std::vector<std::string> read_options(TableReader& table) {
   auto words = table.texts("options");
   if (!words) return {};
@@ -71,7 +71,7 @@ void read_ssh(TableReader& workers, const std::filesystem::path& folder, SshOpti
   table->finish();
 }
 
-/// Who starts workers; the tables of the others are checked as well.
+/// Reads which launcher starts workers; the tables of the other launchers are checked too.
 void read_launcher(TableReader& table, const std::filesystem::path& folder, LaunchOptions& launch) {
   static const std::vector<std::string> kLaunchers = {"local", "ssh", "slurm"};
   read_slurm(table, launch.slurm);
@@ -106,7 +106,7 @@ std::optional<std::string> read_bind(TableReader& table) {
 }
 
 void read_workers(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
-  // What a program did wrong is for its user to see (irace facts, 18.3).
+  // The user should see the errors of programs (irace facts, 18.3).
   campaign.stop_on_failure = campaign.target.has_value();
   auto table = root.table("workers");
   if (!table) return;

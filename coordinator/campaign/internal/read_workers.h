@@ -9,10 +9,11 @@
 
 namespace swarmsmith {
 
-/// [workers]: nothing here decides the answer. Paths are relative to `folder`.
+/// Reads [workers]; its values do not change the answer. Paths are relative to `folder`.
 void read_workers(TableReader& root, const std::filesystem::path& folder, Campaign& campaign);
 
-/// The `bind` of a table, checked for its form; whether it can be bound shows when it is.
+/// Reads `bind` of a table and checks its form; whether the address is usable is found out only
+/// when it is bound.
 std::optional<std::string> read_bind(TableReader& table);
 
 }  // namespace swarmsmith

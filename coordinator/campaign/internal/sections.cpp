@@ -19,7 +19,7 @@ void append(std::vector<Element>& elements, std::vector<Element> more) {
   std::ranges::move(more, std::back_inserter(elements));
 }
 
-/// How large control software may grow, and what modules it is made of.
+/// The limits on the size of control software, and its modules.
 std::vector<SectionLine> size_lines(const Method& method) {
   if (method.architecture == Architecture::Network) return {};
   std::vector<SectionLine> lines;
@@ -34,7 +34,7 @@ std::vector<SectionLine> size_lines(const Method& method) {
   return lines;
 }
 
-/// All of a flavour that is not built in; `prefix` is the method's.
+/// A complete flavour that is not built in; `prefix` is the method's prefix.
 std::vector<Section> own_flavour_sections(const Flavour& flavour, const std::string& prefix) {
   const std::string header = "method.flavour";
   std::vector<Section> sections = flavour_sections(flavour, header);
@@ -43,7 +43,7 @@ std::vector<Section> own_flavour_sections(const Flavour& flavour, const std::str
   return sections;
 }
 
-/// A method with the modules that it uses, by name.
+/// A method with the names of its modules.
 void add_method(const Method& method, std::vector<Section>& sections) {
   const std::string prefix = "method." + method.name + ".";
   if (!method.parameters.empty()) {
@@ -84,13 +84,13 @@ void add_method(const Method& method, std::vector<Section>& sections) {
   sections.push_back(std::move(parameters));
 }
 
-/// A choice by its name.
+/// An enumerator by its name.
 template <class Enum>
 SectionLine choice_line(std::string_view key, const std::vector<std::string>& names, Enum value) {
   return {std::string(key), quoted_text(names.at(static_cast<std::size_t>(value)))};
 }
 
-/// What only races use.
+/// Options that only races use.
 void add_race_options(const Scenario& race, Section& section) {
   for (const IntegerOption& option : kIntegerOptions) {
     if (option.member != &Scenario::max_experiments)
@@ -112,11 +112,11 @@ void add_race_options(const Scenario& race, Section& section) {
   }
 }
 
-/// [race] with every option, also those that have their defaults.
+/// [race] with all options, even those with default values.
 Section race_section(const Campaign& campaign) {
   const Scenario& race = campaign.race;
   Section section{"[race]", "race.", {}};
-  // A time may be in its place.
+  // The budget may be a time instead.
   if (race.max_experiments > 0)
     section.lines.push_back({"max_experiments", std::to_string(race.max_experiments)});
   if (has_races(campaign)) add_race_options(race, section);
@@ -134,7 +134,8 @@ Section race_section(const Campaign& campaign) {
   return section;
 }
 
-/// One of several, whose name tells its keys from those of the others.
+/// One profile of possibly several; the prefix contains its name, so that its keys differ from
+/// those of other profiles.
 std::vector<Section> test_profile_sections(const Profile& profile) {
   const std::string header = "tests.profile";
   std::vector<Section> sections = profile_sections(profile, header, true);

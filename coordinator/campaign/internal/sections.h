@@ -7,8 +7,8 @@
 
 namespace swarmsmith {
 
-/// A campaign as the lines of its file, from which both the normalised text and the list of what
-/// decides the answer are made: they cannot disagree.
+/// A campaign as the lines of its file. Both the normalised text and the list of values that decide
+/// the answer are made from these lines, so they always agree.
 
 std::vector<Section> sections_of(const Campaign& campaign);
 

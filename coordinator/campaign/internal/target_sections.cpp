@@ -24,7 +24,7 @@ std::string block_text(const std::string& text) {
   if (!several || !plain || text.find("''") != std::string::npos || text.ends_with('\'')) {
     return quoted_text(text);
   }
-  return "'''\n" + text + "'''";  // TOML drops the first line's end
+  return "'''\n" + text + "'''";  // TOML ignores the first line break
 }
 
 std::vector<Section> target_mission_sections(const CampaignMission& mission) {
@@ -49,8 +49,8 @@ Section parameter_file_section(const Method& method) {
   return section;
 }
 
-/// Whether calls are repeated, and how long one may take, does not decide what comes of them; what
-/// a time-out means does.
+/// Leaves out whether calls are repeated and how long a call may take, because neither changes the
+/// results; includes the meaning of a time-out, because it does.
 Section target_section(const Target& target) {
   Section section{"[simulator]",
                   "simulator.",

@@ -8,8 +8,8 @@
 
 namespace swarmsmith {
 
-/// The lines of what only campaigns with programs have; they read back to the same values, and need
-/// no other file.
+/// The lines that only campaigns with programs have; reading them gives the same values, without
+/// any other file.
 
 std::vector<Section> target_mission_sections(const CampaignMission& mission);
 Section parameter_file_section(const Method& method);
@@ -18,7 +18,7 @@ Section target_section(const Target& target);
 /// A TOML array of texts.
 std::string array_of(const std::vector<std::string>& texts);
 
-/// A text as TOML, over several lines as it is where TOML can hold it so.
+/// A text in TOML, as a multi-line literal if TOML allows it.
 std::string block_text(const std::string& text);
 
 }  // namespace swarmsmith

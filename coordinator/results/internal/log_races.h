@@ -13,7 +13,7 @@ namespace swarmsmith {
 
 bool is_rejected(const LogRun& run);
 
-/// A pair in a race, and who has a score on it.
+/// One pair in a race, and the configurations with a score on it.
 struct LogStep {
   std::int64_t iteration = 0;
   std::int64_t pair = 0;
@@ -21,7 +21,7 @@ struct LogStep {
   std::vector<std::int64_t> alive;  ///< configurations, by id
 };
 
-/// The races of a log, worked out from its runs and elites: the log itself has no list of steps.
+/// The races of a log, derived from its runs and elites, because the log has no list of steps.
 class LogRaces {
  public:
   using Configurations = std::vector<std::int64_t>;
@@ -30,17 +30,18 @@ class LogRaces {
 
   std::int64_t iterations() const { return iterations_; }
   std::optional<double> score(std::int64_t configuration, std::int64_t pair) const;
-  /// Best first.
+  /// Sorted, the best first.
   Configurations elites_of(std::int64_t iteration) const;
-  /// The elites of the iteration before, and those that ran in this one, by id.
+  /// The elites of the previous iteration and the configurations that ran in this one, by id.
   Configurations racers_of(std::int64_t iteration) const;
-  /// In the order in which their first runs were made.
+  /// In the order of their first runs.
   std::vector<LogStep> steps_of(std::int64_t iteration) const;
 
-  /// Who has the largest mean over the race's pairs up to the step `at`, of those alive there, and
-  /// that mean; configuration 0 for none.
+  /// Among the configurations alive in step `at`, the one with the largest mean over the race's
+  /// pairs up to that step, and this mean; configuration 0 if there is none.
   std::pair<std::int64_t, double> best_of(const std::vector<LogStep>& steps, std::size_t at) const;
-  /// Friedman's, over the race's pairs so far, among those alive: ties share their mean rank.
+  /// Friedman's rank sum over the race's pairs so far, among the alive configurations: ties get
+  /// their mean rank.
   double rank_sum(const std::vector<LogStep>& steps, std::size_t at,
                   std::int64_t configuration) const;
 
