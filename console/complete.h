@@ -25,7 +25,7 @@ struct Offer {
 };
 
 /// Adds values of one kind ("DESIGN") that only the program knows. `words` are the complete
-/// arguments of the command. It prints nothing and reports no errors.
+/// arguments of the command. The function prints nothing, and ignores errors.
 using OfferValues = void (*)(std::string_view kind, std::span<const std::string> words,
                              Offer& offer);
 

@@ -37,7 +37,7 @@ struct FigureOptions {
   RecordFilter filter;
   double width_mm = 84;  ///< the column width of a paper; the height follows from it
   bool paper =
-      false;       ///< without title, details and explanations, which belong into a paper's caption
+      false;       ///< without title, details and explanations, which belong in a paper's caption
   std::string by;  ///< groups of a comparison: source, method or mission
   std::string source;  ///< only scores of this source; empty: all sources
   ScoreChoice choice;  ///< which scores to use, and the meaning of one value

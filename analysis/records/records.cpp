@@ -82,8 +82,8 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
 }
 
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
-  // Candidate, source, instance and seed identify one score. This is a LEFT JOIN, because SQLite
-  // would search the whole of a list of row values for each row.
+  // Candidate, source, instance and seed identify one score. This is a LEFT JOIN, because for a
+  // condition with IN, SQLite would search the whole list of rows for each row.
   const std::string transfers =
       "SELECT DISTINCT candidate, source, instance, seed FROM v_evaluations WHERE purpose IN " +
       words_in_sql(is_transfer) + " AND candidate IN (SELECT best_candidate FROM v_designs" +

@@ -26,7 +26,7 @@ struct StoreArgument {
   Expected<std::unique_ptr<StoreReader>> open_whole() const;
 };
 
-/// Opens a store for adding to it. Facts that an old schema lacks are read from the file of its
+/// Opens a store to add data to it. Facts that an old schema lacks are read from the file of its
 /// first campaign.
 Expected<std::unique_ptr<StoreAtRest>> open_at_rest(const std::string& path,
                                                     StoreAtRest::IfMissing if_missing);

@@ -11,8 +11,8 @@
 namespace swarmsmith::cli {
 
 /// Finds the mission, profile, flavour or robot that a flag names: a built-in one, or a file.
-/// Prints all errors of a file except the last one, which is returned. `flag` is the place of
-/// errors that have none in the file.
+/// Prints all errors of a file except the last one, which is returned. An error without a place in
+/// the file gets `flag` as its place.
 Expected<Mission> find_mission_or_complain(const std::string& word, const std::string& flag,
                                            Output& output);
 Expected<Profile> find_profile_or_complain(const std::string& word, const std::string& flag,

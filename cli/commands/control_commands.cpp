@@ -179,7 +179,7 @@ class Control {
     });
   }
 
-  /// Gives all commands, even if one of them fails. Returns the exit code of the first failure.
+  /// Sends all commands, even if one of them fails. Returns the exit code of the first failure.
   template <class Ask>
   ExitCode each(const Ask& ask) {
     ExitCode code = ExitCode::Done;

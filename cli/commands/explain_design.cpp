@@ -20,8 +20,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A finished part of the search, and its best candidate; there is none if the final stage ended a
-/// walk.
+/// A finished part of the search, and its best candidate. A walk of simulated annealing that the
+/// final stage cut short has no best candidate.
 struct StoryPart {
   std::string line;
   std::string name;

@@ -167,8 +167,8 @@ ExitCode code_of(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
 }
 
-/// Only machines, and trees of e-pucks, have experiment files. Leaves out the other candidates if
-/// there are some of these.
+/// Only machines, and trees of e-pucks, have experiment files. If the list contains some of these,
+/// the other candidates are left out.
 Expected<std::vector<CandidateId>> with_experiments(StoreReader& store,
                                                     const std::vector<CandidateId>& candidates) {
   std::vector<CandidateId> machines;

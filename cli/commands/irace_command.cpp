@@ -54,7 +54,7 @@ void print_help(Output& output) {
              << wrapped(command.details) << '\n';
 }
 
-/// R's log file and the store are different things, so .Rdata in the name becomes .db.
+/// The store is not a copy of R's log file, so .Rdata in its name becomes .db.
 std::filesystem::path store_file(std::filesystem::path log_file) {
   const std::string ending = log_file.extension().string();
   if (ending == ".Rdata" || ending == ".RData" || ending == ".rda")

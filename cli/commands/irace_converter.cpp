@@ -82,7 +82,7 @@ Expected<std::string> run_script(const Script& script, const fs::path& folder, c
       const std::string& reason = process.last_line();
       return reason.empty() ? "it says no reason" : reason;
     }
-    process.last_line();  // reads the errors until the end: R would wait for a reader
+    process.last_line();  // reads all errors, because R would wait for a reader
     counter.tell(0, 1);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -110,7 +110,7 @@ Expected<StoredRun> find_run(StoredRuns& runs, const ReplayArguments& arguments)
   return runs.candidate(*id, *arguments.seed);
 }
 
-/// Prints every difference as a separate error; the answer has their number.
+/// Prints every difference as a separate error; the answer contains the number of differences.
 ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   if (!runs.has_machines()) return fail(output, ExitCode::Usage, programs_scored("--sample"));
   const auto ids = runs.sample(count);

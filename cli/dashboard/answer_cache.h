@@ -60,7 +60,7 @@ class AnswerCache {
                    std::chrono::milliseconds patience);
   static constexpr std::chrono::seconds kLate{30};
 
-  /// Declares kept answers outdated, except final ones.
+  /// Marks kept answers as outdated, except final ones.
   void forget();
   /// Waits until all threads of get_within have ended.
   void wait_for_all();

@@ -72,7 +72,7 @@ class Dashboard final : public HttpSite {
  public:
   explicit Dashboard(DashboardOptions options)
       : options_(std::move(options)), boot_(random_hex(2)), user_(name_of_user()) {}
-  /// Threads of computations use all these members.
+  /// The threads that compute answers use all these members.
   ~Dashboard() override {
     heavy_.close();
     light_.close();

@@ -23,8 +23,8 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
 ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
                    const StorePlace& store, bool is_named, const IraceSlots& slots);
 
-/// Whether the store holds this campaign, finished, except for different test instances or a
-/// different choice of configurations to test.
+/// Whether the store holds a finished run of this campaign that differs only in its test instances
+/// or in the choice of configurations to test.
 bool has_other_tests(const Campaign& campaign);
 /// R's testing_fromlog(): tests the winners of the finished run in `store` on the setup's test
 /// instances. This is a separate campaign, in a store beside it.

@@ -150,8 +150,8 @@ class ScenarioRun {
     campaign_.race.parallel = stored->race.parallel;
   }
 
-  /// By how many experiments the new budget exceeds the store's, if nothing else differs: another
-  /// command does that.
+  /// The number of experiments by which the new budget exceeds the stored one, if nothing else
+  /// differs. The command `extend` adds them.
   std::int64_t experiments_more() const {
     std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored) return 0;
@@ -179,7 +179,8 @@ class ScenarioRun {
             .instances = campaign_.missions.front().instances};
   }
 
-  /// The date when the store's run ended; empty if the store does not hold this run, finished.
+  /// The date when the store's run ended; empty if the store does not hold this run or it is not
+  /// finished.
   std::string date_of_end() const {
     const auto store = store_of(campaign_);
     return store != nullptr && store->finished() ? end_date(*store) : "";
@@ -193,7 +194,7 @@ class ScenarioRun {
     if (!output_.json && !output_.quiet) output_.out << "# " << text << '\n';
   }
 
-  /// Whether the store holds this run, finished.
+  /// Whether the store holds this run and it is finished.
   bool is_finished() const {
     const auto store = store_of(campaign_);
     return store != nullptr && store->finished();

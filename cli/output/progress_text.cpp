@@ -88,7 +88,7 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
   if (const double left = seconds_left(live); left > 0)
     pieces.push_back({3, "ETA " + duration_text(left)});
   pieces.push_back({7, std::to_string(std::llround(live.evaluations_per_s)) + " sim/s"});
-  // Facts in the stage are not repeated.
+  // If there is a text for the stage, it already has these numbers.
   if (current != nullptr && current->configurations > 0 && stage.empty()) {
     pieces.push_back({10, "alive " + std::to_string(current->alive) + "/" +
                               std::to_string(current->configurations)});

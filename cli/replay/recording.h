@@ -45,8 +45,8 @@ class Recording {
   static Expected<Recording> start(const RecordingArguments& arguments, const Mission& mission,
                                    const Controller& controller, Output& output);
 
-  /// The recorder for `simulate`. The recording must not be moved until then. Records nothing if no
-  /// output was asked for.
+  /// The recorder for `simulate`. The recording must not be moved while the recorder is used.
+  /// Records nothing if no output was asked for.
   Recorder recorder();
 
   /// Draws the picture and closes the files. `details` identify the run: candidate, seed, score.

@@ -31,8 +31,8 @@ class ScoreKeeper {
     double stored = 0;  ///< the score that the store already has
   };
 
-  /// Collects a score. If the store already has the same score, the bits must be equal; a different
-  /// score is stored as a conflict beside it.
+  /// Collects a score. If the store already has a score for the same evaluation, the bits must be
+  /// equal; a different score is stored as a conflict beside it.
   Kept keep(const ScorePlace& place, const SimulationResult& result, std::int64_t wall_us);
 
   /// Writes the scores collected since the last commit, all or nothing.

@@ -30,7 +30,7 @@ struct RunOptions {
   bool http_next_port = false;
   std::string http_token_file{};
   std::vector<std::string> http_names{};  ///< other names of this host that requests may use
-  /// Whether the dashboard is served. The run continues if it cannot be.
+  /// Whether the dashboard is served. If it cannot be served, the run continues without it.
   bool dashboard = false;
   /// Whether an interrupted run can continue later; if not, its store is deleted.
   bool keeps_store = true;

@@ -113,7 +113,7 @@ export async function ask(path: string, patience_ms = 65000, waits?: (pending: P
     } catch (error) {
       const { retry_s } = error as ApiError;
       if (!retry_s || attempt > 3 || path === "live") throw error;
-      await new Promise((done) => setTimeout(done, 1000 * retry_s));  // other clients also ask for expensive answers
+      await new Promise((done) => setTimeout(done, 1000 * retry_s));  // the server is busy
     }
   }
   const cost_ms = Number(/dur=([\d.]+)/.exec(response.headers.get("Server-Timing") ?? "")?.[1] ?? 0);

@@ -14,7 +14,7 @@ namespace swarmsmith {
 bool has_pairs(const ScorePanel& panel);
 /// Names beside the boxes, in their order; one name per pair.
 std::vector<std::string> names_of(const ScorePanel& panel);
-/// Of a panel's axis.
+/// The range of a panel's axis.
 ValueRange range_of(const ScorePanel& panel);
 
 /// Horizontal boxes one below the other, with their full names at the left: for long names, and for

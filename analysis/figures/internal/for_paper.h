@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// If the options ask for a paper, removes the parts that belong into its caption: title, details,
+/// If the options ask for a paper, removes the parts that belong in its caption: title, details,
 /// and the explanation.
 template <class Plot>
 Plot for_paper(Plot plot, const FigureOptions& options) {
