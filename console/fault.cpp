@@ -18,7 +18,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::uint64_t kMegabyte = 1U << 20U;
-/// With less memory than this, a command's many small objects are probably the reason.
+/// With less free memory than this, the command has probably used it up with many small objects.
 constexpr std::uint64_t kLittle = 512 * kMegabyte;
 
 struct Memory {

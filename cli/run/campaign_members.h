@@ -45,7 +45,7 @@ class CampaignMembers {
   std::vector<const Campaign*> campaigns() const;
   /// The first worker number that none of their stores uses.
   std::int64_t first_worker() const;
-  /// The options that let workers run the programs of these campaigns.
+  /// The command-line arguments that let workers run the programs of these campaigns.
   std::vector<std::string> allowed_programs() const;
   /// The paths of the coordinator's files, one beside each store, so that each store leads to the
   /// coordinator.

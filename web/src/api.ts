@@ -145,8 +145,8 @@ const kAtRest_ms = 5000;
 /// at the same moment, the full second, so that the server makes one answer for all of them.
 class Feed {
   live: Live | null = null;
-  at: Date | null = null;  ///< time of the last answer
-  failure: ApiError | null = null;  ///< error of the last attempt, if it failed
+  at: Date | null = null;             ///< time of the last answer
+  failure: ApiError | null = null;    ///< error of the last attempt, if it failed
   next_try: Date | null = null;
   #listeners = new Set<() => void>();
   #timer = 0;

@@ -42,7 +42,7 @@ export interface Check {
   limit: number | null;
   unit: string;
   catches: string;
-  reason: string;  ///< why it was not made
+  reason: string;          ///< why it was not made
 }
 
 export interface Trajectory {
@@ -68,7 +68,7 @@ export interface Trajectory {
   /// Name of the active module, by state.
   behaviours: string[];
   verdict?: string;
-  checks?: Check[] | null;  ///< for real runs; null: not recorded
+  checks?: Check[] | null; ///< for real runs; null: not recorded
   name?: string;
   profiles?: string[];  // not for real runs
 }
@@ -82,7 +82,7 @@ export interface View {
   cycle: number;         ///< may lie between two cycles
   trail_cycles: number;  ///< length of the trails
   tint: Tint;
-  chosen: number | null;  ///< the robot that is followed
+  chosen: number | null; ///< the robot that is followed
 }
 
 /// The last value of [cycle, value] pairs at or before a cycle.

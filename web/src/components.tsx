@@ -42,8 +42,7 @@ export function announce(text: string): void {
   document.getElementById("announcer")!.textContent = text;
 }
 
-// --- the current campaign
-// ---------------------------------------------------------------------------
+// --- the current campaign ---------------------------------------------------------------------------
 
 /// The campaign in the address, else the first one; undefined if there is none.
 export function current_campaign(): Campaign | undefined {
@@ -184,8 +183,7 @@ export function save_as(name: string, text: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-// --- confirmation of commands
-// -----------------------------------------------------------------------
+// --- confirmation of commands -----------------------------------------------------------------------
 
 interface ConfirmProps {
   label: string;

@@ -36,8 +36,7 @@ export function look_list(looks: Live["looks"], most: number) {
     {looks.length > most && <li class="faint">and {looks.length - most} more</li>}</ul>;
 }
 
-// --- the frame around all pages
-// ----------------------------------------------------------------------
+// --- the frame around all pages ---------------------------------------------------------------------
 
 /// The rate is measured over the last minute, so a process that has just begun has none.
 export function eta_of({ status }: Live, eta_s: number | null): string {

@@ -36,7 +36,7 @@ function fate({ eliminated_in, eliminated_at, eliminated_by }: Candidate) {
 }
 
 /// A link to the run, except for runs that cannot be simulated again: runs of programs, and real
-/// runs of which only the score is known.
+/// runs with only a score.
 function watch({ id, source }: Row) {
   return source !== "command" && (source !== "real" || String(id)[0] === "r") && <a href={place_of(String(id))} aria-label={`watch ${id}`}>watch</a>;
 }

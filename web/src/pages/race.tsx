@@ -28,7 +28,8 @@ class Matrix {
     return rank === null ? null : ranked < 2 ? 0.5 : (rank - 1) / (ranked - 1);
   }
 
-  /// The number of the last step of a row's candidate, as far as known after step `until`.
+  /// The number of the step that dropped a row's candidate; null if that was after `until` or
+  /// never.
   dropped(row: number, until: number): number | null {
     const at = this.race.dropped_at[row];
     return at !== null && at <= until ? at : null;
@@ -58,7 +59,7 @@ interface At { row: number; step: number }  // indices
 
 interface MapProps {
   matrix: Matrix;
-  until: number;  ///< index of the last step that is shown
+  until: number;               ///< index of the last step that is shown
   cell: At | null;
   pick: (at: At | null) => void;
   watch: (at: At) => void;

@@ -23,10 +23,10 @@ interface State {
   /// By id: the run, or the error.
   runs: Record<string, Trajectory | ApiError>;
   playing: boolean;
-  cycle: number;  ///< for the texts; the canvas is drawn at each frame
+  cycle: number;         ///< for the texts; the canvas is drawn at each frame
   chosen: number | null; ///< robot
-  said: string;  ///< for screen readers
-  wanted: string;  ///< the id in the field
+  said: string;          ///< for screen readers
+  wanted: string;        ///< the id in the field
 }
 
 function is_run(run: Trajectory | ApiError | undefined): run is Trajectory { return !!run && "robots" in run; }
