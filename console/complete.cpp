@@ -6,7 +6,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Kinds that are names of files.
+/// Kinds of values that are file names.
 struct FileKind {
   std::string_view kind;
   Offer::Files files;
@@ -51,7 +51,7 @@ Offer offer_value(const DeclaredOption& option, std::span<const std::string> wor
   return offer;
 }
 
-/// Up to the first end of a clause: what fits beside a word.
+/// The text up to the first end of a clause, which fits beside a word.
 std::string short_help(const std::string& help) {
   std::string text = help.substr(0, std::min(help.find_first_of(".;:(\n"), help.size()));
   while (text.ends_with(' '))
@@ -59,10 +59,10 @@ std::string short_help(const std::string& help) {
   return text;
 }
 
-/// What the whole words of a command are.
+/// The state of the command line after its complete arguments.
 struct Typed {
   const DeclaredOption* awaiting = nullptr;  ///< the option whose value comes next
-  std::size_t plain = 0;                     ///< words that belong to no option
+  std::size_t plain = 0;                     ///< number of positional arguments
   bool only_plain = false;                   ///< after `--`
   std::vector<const DeclaredOption*> given;
 };
@@ -148,7 +148,7 @@ std::vector<std::string> typed_words(std::span<const std::string> given) {
   std::vector<std::string> words;
   bool cut = false;
   for (const std::string& word : given) {
-    // `--option`, `=`, `value`: the value is a word of its own.
+    // `--option`, `=`, `value`: the value is a separate word here.
     cut = word == "=" && !cut && !words.empty() && words.back().starts_with("--");
     if (!cut) words.push_back(word);
   }

@@ -11,34 +11,34 @@
 
 namespace swarmsmith {
 
-/// What may stand at the end of a command line that is being typed.
+/// The possible endings of a command line that is being typed.
 struct Offer {
   struct Word {
     std::string text;
-    std::string meaning;  ///< half a sentence, or empty
+    std::string meaning;  ///< a few words, or empty
   };
-  /// Which files the shell shall list as well.
+  /// The files that the shell should also list.
   enum class Files { None, Folders, Stores, All };
 
   std::vector<Word> words;
   Files files = Files::None;
 };
 
-/// Adds values of one kind ("DESIGN") which only a program knows. `words` are those of the command
-/// that are whole. It says nothing, whatever is wrong.
+/// Adds values of one kind ("DESIGN") that only the program knows. `words` are the complete
+/// arguments of the command. The function prints nothing, and ignores errors.
 using OfferValues = void (*)(std::string_view kind, std::span<const std::string> words,
                              Offer& offer);
 
-/// What may follow the whole words of a command, as its next word; `begin` of it is typed.
+/// The possible next arguments after the complete ones; `begin` is the part that is already typed.
 Offer offer_next(const std::vector<DeclaredOption>& options, std::span<const std::string> words,
                  std::string_view begin, OfferValues values);
 
-/// For the shells' scripts: a line WORD, tab, MEANING for each word that begins so; then what files
-/// to list: `:files`, `:stores` or `:folders`.
+/// Writes the offer for the shells' scripts: a line WORD, tab, MEANING for each word with this
+/// beginning; then the kind of files to list: `:files`, `:stores` or `:folders`.
 void write_offer(std::ostream& out, const Offer& offer, std::string_view begin);
 
-/// The words as a shell gives them; the last one is being typed: bash cuts `--option=value` in
-/// three. Never empty.
+/// Joins the words as a shell gives them: bash cuts `--option=value` into three. The last word is
+/// the one being typed. Never empty.
 std::vector<std::string> typed_words(std::span<const std::string> given);
 
 }  // namespace swarmsmith

@@ -8,14 +8,14 @@
 
 namespace swarmsmith {
 
-/// Shows a count on the error stream once work takes longer than two seconds: on a terminal one
-/// line that disappears at the end, elsewhere a line now and then.
+/// Shows a count on the error stream if the work takes longer than two seconds: on a terminal as
+/// one line that disappears at the end, otherwise as a line from time to time.
 class Counter {
  public:
-  /// Says "VERB 3 of 11 NOUN". `output` must outlive the object.
+  /// Prints "VERB 3 of 11 NOUN". `output` must outlive the object.
   Counter(Output& output, std::string verb, std::string noun);
 
-  /// `of` is 0 while the total is unknown; the line disappears when all are done.
+  /// `of` is 0 while the total is not known. The line disappears when everything is done.
   void tell(std::int64_t done, std::int64_t of);
 
  private:

@@ -19,7 +19,7 @@ DeclaredOption declared(const CLI::Option& option) {
     if (option.get_items_expected_max() > 0) {
       const std::string& text = option.get_option_text();
       found.value = text.empty() ? option.get_type_name() : text;
-      // "N:INT in [1 - 9]": a range follows its type.
+      // "N:INT in [1 - 9]": the range after the type is cut off.
       if (found.value.find(" in [") != std::string::npos) found.value.resize(found.value.find(':'));
       found.kind = found.value;
     }
@@ -34,7 +34,7 @@ void add_options(const CLI::App& app, std::vector<DeclaredOption>& options) {
   for (const CLI::Option* option : app.get_options()) {
     if (!option->get_group().empty()) options.push_back(declared(*option));
   }
-  // A group of options is a parser without a name.
+  // An option group is a parser without a name.
   for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (group->get_name().empty()) add_options(*group, options);
   }

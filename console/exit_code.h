@@ -2,18 +2,18 @@
 
 namespace swarmsmith {
 
-/// What every command of the program exits with; a promise to scripts (docs/command-line.md).
+/// The exit codes of all commands of the program. Scripts rely on them (docs/command-line.md).
 enum class ExitCode : int {
   Done = 0,
   Failed = 1,       ///< the campaign, a module or a replay failed, or output could not be written
-  Usage = 2,        ///< command line or campaign file wrong
+  Usage = 2,        ///< the command line or campaign file is wrong
   Store = 3,        ///< the store cannot be used
   NoSuchId = 4,     ///< no such design, candidate or evaluation
-  Unreachable = 5,  ///< coordinator or worker does not answer
-  OverFailureLimit = 6,  ///< finished or stopped because evaluations could not be had
-  InvalidRun = 6,        ///< of `track score` and `robot start`: the run is not fit to be counted
-  Interrupted = 130,     ///< by Ctrl-C; `run` goes on
-  Terminated = 143,      ///< by SIGTERM; `run` goes on
+  Unreachable = 5,  ///< the coordinator or worker does not answer
+  OverFailureLimit = 6,  ///< finished or stopped because evaluations failed too often
+  InvalidRun = 6,        ///< `track score` and `robot start`: the run is not valid
+  Interrupted = 130,     ///< by Ctrl-C; `run` can continue later
+  Terminated = 143,      ///< by SIGTERM; `run` can continue later
 };
 
 }  // namespace swarmsmith

@@ -18,7 +18,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::uint64_t kMegabyte = 1U << 20U;
-/// Less is soon used up by what a command keeps in small pieces.
+/// With less free memory than this, the command has probably used it up with many small objects.
 constexpr std::uint64_t kLittle = 512 * kMegabyte;
 
 struct Memory {
@@ -26,7 +26,7 @@ struct Memory {
   std::uint64_t left = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// Of this process, from the kernel.
+/// Memory of this process, from the kernel.
 Memory memory_now() {
   Memory memory;
   std::uint64_t pages = 0, resident = 0;
@@ -79,7 +79,7 @@ bool is_any_of(const std::exception& fault) {
 }  // namespace
 
 std::string sentence_of_fault(const std::exception& fault) {
-  // A length that no memory has is wrong, however much there is.
+  // Such an error is a fault of the program, however much memory there is.
   if (is_any_of<std::bad_array_new_length, std::logic_error, std::bad_optional_access,
                 std::bad_variant_access, std::bad_cast, std::bad_typeid, std::bad_function_call>(
           fault)) {

@@ -5,9 +5,9 @@
 
 namespace swarmsmith {
 
-/// A sentence about an exception that no command has turned into an error of its own: memory that
-/// was refused, with how much there was; a fault of this program (a length or an index that cannot
-/// be), which says so and asks to report it; else what the environment said.
+/// A sentence about an exception that no command has handled. If memory was refused: how much there
+/// was. If it is an error in this program (an impossible length or index): a request to report it.
+/// Otherwise: the message of the exception.
 std::string sentence_of_fault(const std::exception& fault);
 
 }  // namespace swarmsmith

@@ -13,19 +13,20 @@
 namespace swarmsmith {
 namespace {
 
-/// CLI11 lists what is required in the usage line.
+/// CLI11 lists required options in the usage line.
 void need_it(CLI::Option* option, Options::Need need) {
   if (need == Options::Need::Required) option->required();
 }
 
-/// "-o,--output FILE": its names, and what its value is.
+/// Splits "-o,--output FILE" into its names and the kind of its value.
 std::pair<std::string, std::string> names_and_value(const std::string& text) {
   const std::size_t end = text.find(' ');
   if (end == std::string::npos) return {text, ""};
   return {text.substr(0, end), text.substr(end + 1)};
 }
 
-/// "PROFILE|FILE": the value may be a path. An empty one would be taken for one that is not given.
+/// Whether the value may be a path: "PROFILE|FILE". An empty path would be treated as an option
+/// that was not given.
 bool is_path(std::string_view kind) {
   while (true) {
     const std::size_t end = kind.find('|');
@@ -46,7 +47,7 @@ void Options::flag(const std::string& names, bool& value, const std::string& hel
   app_->add_flag(names, value, help);
 }
 
-/// A word is called what it is; of an option the value has a name, too.
+/// The name of an argument is its kind; the value of an option has a name, too.
 void Options::describe(CLI::Option* option, const std::string& value) {
   const std::string name = option->get_single_name();
   const bool is_word = option->get_positional();
@@ -142,7 +143,7 @@ void Options::integer(const std::string& names, std::optional<std::int64_t>& val
     std::erase(given, '_');
     return given;
   };
-  // Checks run in reverse: the range sees what the transformation has made.
+  // Checks run in reverse order, so the range check sees the transformed value.
   app_->add_option(names, value, help)
       ->option_text("N")
       ->check(CLI::Range(range.least, range.most))

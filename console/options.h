@@ -20,32 +20,32 @@ class Option;
 
 namespace swarmsmith {
 
-/// The store that SWARMSMITH_STORE names; empty when it names none.
+/// The store in SWARMSMITH_STORE; empty if it is not set.
 std::string store_of_environment();
 
-/// What a command reads from its arguments. Names are "--budget", "-o,--output FILE" or, for a word
-/// without dashes, "FILE". What follows the name says what the value is, in the help and for
-/// completion: "--profile PROFILE|FILE" is a profile or a file; a word is what its name says, else
-/// what follows: "ID DESIGN|RUN". The referenced values must live until the command has run.
+/// Declares the options and arguments of a command. Names are "--budget", "-o,--output FILE" or,
+/// for an argument, "FILE". The text after the name is the kind of the value, for the help and for
+/// completion: "--profile PROFILE|FILE" is a profile or a file. For an argument, the name is the
+/// kind, unless a kind follows: "ID DESIGN|RUN". The referenced values must exist until the command
+/// has run.
 class Options {
  public:
   explicit Options(CLI::App& app) : app_(&app) {}
 
   enum class Need { Optional, Required };
 
-  /// A flag.
   void flag(const std::string& names, bool& value, const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& help,
             Need need = Need::Optional);
   /// A repeatable option: one text each time.
   void texts(const std::string& names, std::vector<std::string>& values, const std::string& help);
-  /// All further words.
+  /// All remaining arguments.
   void words(const std::string& name, std::vector<std::string>& values, const std::string& help,
              Need need = Need::Optional);
-  /// One of `choices`, which the help lists.
+  /// One of `choices`; the help lists them.
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help, Need need = Need::Optional);
-  /// The same as values: "floats" is WheelsForm::Floats.
+  /// Like `choice` above, but translates the words to values: "floats" is WheelsForm::Floats.
   template <class Value>
   void choice(const std::string& names, Value& value,
               const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) {
@@ -58,12 +58,12 @@ class Options {
     std::int64_t least;
     std::int64_t most;
   };
-  /// The value stays nullopt if the option is not given. As in campaign files, underscores may
-  /// group the digits: 100_000.
+  /// The value stays nullopt if the option is not given. As in campaign files, the digits may be
+  /// grouped with underscores: 100_000.
   void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                const std::string& help);
-  /// A number, as text(): with what it counts behind its name. The value stays as it is if the
-  /// option is not given.
+  /// A number; as in text(), its unit follows the name. The value does not change if the option is
+  /// not given.
   struct Bounds {
     double least;
     double most;
@@ -71,10 +71,10 @@ class Options {
   void number(const std::string& names, double& value, Bounds bounds, const std::string& help);
   void number(const std::string& names, std::optional<double>& value, Bounds bounds,
               const std::string& help);
-  /// Lines below the options, above the command's details.
+  /// Adds lines below the options, above the command's details.
   void explain(const std::string& lines);
 
-  /// All that is declared so far, and the parser's own, such as --help.
+  /// All options declared so far, and those of the parser itself, such as --help.
   std::vector<DeclaredOption> declared() const;
 
  private:
@@ -86,8 +86,8 @@ class Options {
                    const std::function<void(double)>& take);
 
   CLI::App* app_;
-  std::map<std::string, std::string> kinds_;                 ///< by name
-  std::map<std::string, std::vector<std::string>> choices_;  ///< by name
+  std::map<std::string, std::string> kinds_;                 ///< by the option's name
+  std::map<std::string, std::vector<std::string>> choices_;  ///< by the option's name
 };
 
 }  // namespace swarmsmith

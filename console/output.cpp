@@ -16,12 +16,12 @@ namespace {
 constexpr Verbatim kRed{"\x1b[31m"};
 constexpr Verbatim kPlain{"\x1b[0m"};
 
-/// A terminal that knows no control sequences.
+/// A terminal that does not support control sequences.
 bool is_dumb() {
   return environment("TERM", "dumb") == "dumb";
 }
 
-/// Lines after the first stand to the right: none of them looks like an error of its own.
+/// Indents all lines after the first, so that none of them looks like a separate error.
 std::string indented(std::string text) {
   text.erase(text.find_last_not_of('\n') + 1);
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at)
@@ -29,7 +29,7 @@ std::string indented(std::string text) {
   return text;
 }
 
-/// A standard stream, through which no text of others steers a terminal.
+/// A standard stream that removes terminal control sequences from untrusted text.
 struct ShownStream {
   explicit ShownStream(std::ostream& behind) : buffer(behind.rdbuf()), stream(&buffer) {
     stream.flags(behind.flags());
@@ -43,12 +43,12 @@ struct ShownStream {
 Output standard_output() {
   static ShownStream out(std::cout);
   static ShownStream err(std::cerr);
-  // In one file or pipe the lines of both are whole, in the order in which they were written.
+  // If both streams go to the same file or pipe, their lines stay complete and in order.
   err.stream.tie(&out.stream);
   Output output{.out = out.stream, .err = err.stream};
   output.err_is_terminal = isatty(STDERR_FILENO) == 1 && !is_dumb();
   output.out_is_terminal = isatty(STDOUT_FILENO) == 1 && !is_dumb();
-  // NO_COLOR counts when it is not empty (no-color.org).
+  // NO_COLOR counts only if it is not empty (no-color.org).
   output.color = output.err_is_terminal && environment("NO_COLOR").empty();
   return output;
 }

@@ -11,11 +11,11 @@
 
 namespace swarmsmith {
 
-/// Where a command writes, and how: answers to `out`, all else to `err`.
+/// The streams and settings for a command's output: answers go to `out`, everything else to `err`.
 struct Output {
   std::ostream& out;
   std::ostream& err;
-  std::string_view program = "swarmsmith";  ///< before errors
+  std::string_view program = "swarmsmith";  ///< printed before errors
   bool json = false;
   bool quiet = false;
   bool verbose = false;
@@ -24,16 +24,16 @@ struct Output {
   bool out_is_terminal = false;
 };
 
-/// Streams of this process; asks the environment about terminals and colour.
+/// The streams of this process. Looks up terminals and colour settings in the environment.
 Output standard_output();
 
-/// "PROGRAM: where: what was found and what to do"; further lines of the text, such as what a
-/// program wrote, are indented.
+/// Prints "PROGRAM: where: error and advice". Further lines of the text, such as the output of a
+/// program, are indented.
 void print_error(Output& output, const Error& error);
-/// What a person may like to know; not when quiet.
+/// Prints information that may be useful; nothing with --quiet.
 void print_note(Output& output, std::string_view text);
 
-/// Prints the error and returns what to exit with: `usage` for a wrong command line or file.
+/// Prints the error and returns `code`.
 ExitCode fail(Output& output, ExitCode code, const std::string& message);
 ExitCode fail(Output& output, ExitCode code, const Error& error);
 

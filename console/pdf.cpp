@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{256} << 20U;
 
-/// A text that another process can read as a file, without one on any disk.
+/// A text in memory that another process can read as a file.
 class TextInMemory {
  public:
   explicit TextInMemory(std::string_view text) : descriptor_(memfd_create("svg", MFD_CLOEXEC)) {
@@ -45,7 +45,7 @@ class TextInMemory {
   int descriptor_;
 };
 
-/// What rsvg-convert makes.
+/// An output format of rsvg-convert.
 struct Format {
   const char* name;
   const char* begin;  ///< its first bytes
@@ -56,7 +56,7 @@ Unexpected not_made(const Format& format, const std::string& why) {
   return unexpected(ErrorKind::Unavailable, why, format.name);
 }
 
-/// The first line of what a program said, for a sentence.
+/// The first line of a program's message, for use in a sentence.
 std::string first_line(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
   return line.empty() ? "it does not say why" : line;
@@ -70,7 +70,7 @@ Expected<std::string> converted(const Format& format, std::span<const std::strin
         "the program rsvg-convert, which makes it, is not there; install the Debian package "
         "librsvg2-bin, or write an .svg");
   }
-  // With a date of its own, PDFs of one drawing would differ.
+  // Without this fixed date, two PDFs of the same drawing would differ.
   ProcessCall call{.words = {"env", "SOURCE_DATE_EPOCH=0", *program},
                    .limit = std::chrono::minutes(1),
                    .keep = kLargestFile};
@@ -102,7 +102,7 @@ Expected<std::string> pdf_of_svg(std::string_view svg) {
 
 Expected<std::string> png_of_svg(std::string_view svg) {
   const std::string page(svg);
-  // The size that the picture says is in mm, and it takes 90 pixels to the inch unless told.
+  // The picture gives its size in mm, and rsvg-convert assumes 90 pixels per inch by default.
   return converted({"PNG", "\x89PNG", {"-f", "png", "-d", "300", "-p", "300", "-b", "white"}},
                    {&page, 1});
 }

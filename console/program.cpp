@@ -27,7 +27,8 @@ std::string overview(const Program& program) {
          std::string(program.begin) + "\n";
 }
 
-/// The command that the first words name, or null; a name of two words goes before one of one.
+/// The command named by the first words, or null; a name of two words has priority over a name of
+/// one.
 const ProgramCommand* find_command(const Program& program, const std::vector<std::string>& words) {
   const ProgramCommand* found = nullptr;
   for (const ProgramCommand& command : program.commands) {
@@ -44,7 +45,8 @@ std::vector<std::string> names_of(const Program& program) {
   return names;
 }
 
-/// With the name that was probably meant, or those that begin with the word.
+/// Prints an error with the name that was probably meant, or with the commands that begin with this
+/// word.
 ExitCode unknown_command(const Program& program, const std::vector<std::string>& words,
                          Output& output) {
   const std::vector<std::string> names = names_of(program);
@@ -61,7 +63,7 @@ ExitCode unknown_command(const Program& program, const std::vector<std::string>&
       "there is no command `" + words[0] + "`" + did_you_mean(words[0], names) + "; " + help);
 }
 
-/// Long names only: short ones are too near to each other to be suggested.
+/// Only long names, because short ones are too similar to be suggested.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
@@ -71,7 +73,7 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
-/// Words that no option took.
+/// Prints an error about arguments that do not belong to any option.
 ExitCode complain_about_extras(const CLI::App& app, const Program& program,
                                const ProgramCommand& command,
                                const std::vector<std::string>& extras, Output& output) {
@@ -92,7 +94,7 @@ ExitCode complain_about_extras(const CLI::App& app, const Program& program,
                   did_you_mean(word, option_names(app)) + help);
 }
 
-/// Help that fits a page: names in a column of their own, what they mean beside, filled.
+/// Formats the help for a page: names in the first column, their filled descriptions beside them.
 class PageFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
@@ -111,7 +113,7 @@ class PageFormatter : public CLI::Formatter {
   }
 };
 
-/// Flags that every command has.
+/// Declares the flags of all commands.
 void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--json", output.json, "Write the answer as JSON");
   app.add_flag("-q,--quiet", output.quiet, "Write only answers and errors");
@@ -119,7 +121,7 @@ void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--no-color", no_color, "Write without colours, as NO_COLOR=1 does");
 }
 
-/// The parser of one command, made when it is asked for.
+/// The parser of one command, created only when it is needed.
 class Parser {
  public:
   Parser(const Program& program, const ProgramCommand& command, Output& output)
@@ -150,7 +152,7 @@ ExitCode run_command(const Program& program, const ProgramCommand& command,
   Parser parser(program, command, output);
   CLI::App& app = parser.app();
   app.footer(wrapped(app.get_footer()));
-  // The library takes the words from the back.
+  // CLI11 reads the arguments from the end.
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(arguments);
@@ -204,7 +206,7 @@ ExitCode print_declared(const Program& program, Output& output) {
   return ExitCode::Done;
 }
 
-/// The next words of commands that begin with the whole words.
+/// Offers the next words of commands that begin with the complete words.
 Offer offer_commands(const Program& program, std::span<const std::string> words) {
   std::string begin;
   for (const std::string& word : words)

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
 constexpr std::size_t kMostSeeds = 10'000'000;
 
-/// The range of irace's seeds.
+/// Accepts the range of irace's seeds.
 std::optional<std::int64_t> parse_seed(std::string_view text) {
   std::int64_t seed = 0;
   const char* end = text.data() + text.size();

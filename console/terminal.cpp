@@ -7,7 +7,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Bytes at the end that may be the begin of a character.
+/// The number of bytes at the end that may be the beginning of a character.
 std::size_t begun_at_the_end(std::string_view text) {
   constexpr std::size_t kLongest = 4;
   for (std::size_t length = 1; length < kLongest && length <= text.size(); ++length) {

@@ -9,9 +9,9 @@
 
 namespace swarmsmith {
 
-/// The stream between a program and its terminal: all text passes as shown text
-/// (base/shown_text.h), whatever its source. Only text that the program marks as `Verbatim` passes
-/// unchanged.
+/// The stream between a program and its terminal. It converts all text to shown text
+/// (base/shown_text.h), whatever its source. Only text that the program marks as `Verbatim` is not
+/// changed.
 class ShownBuffer : public std::streambuf {
  public:
   explicit ShownBuffer(std::streambuf* behind) : behind_(behind) {}
@@ -19,7 +19,7 @@ class ShownBuffer : public std::streambuf {
   ShownBuffer(const ShownBuffer&) = delete;
   ShownBuffer& operator=(const ShownBuffer&) = delete;
 
-  /// Whether all of it was written.
+  /// Returns whether everything was written.
   bool pass(std::string_view bytes);
 
  protected:
@@ -32,7 +32,7 @@ class ShownBuffer : public std::streambuf {
   bool put(std::string_view bytes);
 
   std::streambuf* behind_;
-  std::string begun_;  ///< a character whose last bytes have not come yet
+  std::string begun_;  ///< first bytes of a character whose other bytes have not arrived yet
 };
 
 /// Bytes of our own, such as control sequences.
@@ -41,11 +41,11 @@ struct Verbatim {
 };
 std::ostream& operator<<(std::ostream& stream, Verbatim verbatim);
 
-/// Moves to the start of the line and clears it.
+/// Moves the cursor to the start of the line and clears the line.
 inline constexpr Verbatim kClearLine{"\r\x1b[2K"};
 
-/// An answer that programs read (CSV, an exported file, a picture), to standard output: exact in
-/// files and pipes, shown on a terminal.
+/// Writes an answer for programs (CSV, an exported file, a picture) to standard output: exact bytes
+/// to files and pipes, shown text on a terminal.
 void write_data(Output& output, std::string_view bytes);
 
 }  // namespace swarmsmith

@@ -8,13 +8,13 @@
 namespace swarmsmith {
 namespace {
 
-/// A line of the result that words are put into.
+/// Adds words to the current line of the result.
 class Filler {
  public:
   Filler(std::string& text, std::size_t width) : text_(&text), width_(width) {}
 
-  /// Words behind this many blanks; further lines begin with `hanging` of them. `joint` stands at
-  /// the end of a line that goes on.
+  /// Begins a line with `indent` blanks; continuation lines begin with `hanging` blanks. `joint` is
+  /// added to the end of a line that continues.
   void begin(std::size_t indent, std::size_t hanging, std::string_view joint = "") {
     joint_ = joint;
     text_->append(indent, ' ');
@@ -65,15 +65,15 @@ void each_word(std::string_view line, Visit visit) {
   }
 }
 
-/// Where a line that is indented goes on: below what stands behind a gap, as in a table, or two
-/// columns further in.
+/// Where an indented line continues: below the text after a gap, as in a table, or two columns
+/// further to the right.
 std::size_t hanging_of(std::string_view line, std::size_t indent) {
   const std::size_t gap = line.find("  ", indent);
   if (gap == std::string_view::npos) return indent + 2;
   return std::min(line.find_first_not_of(' ', gap), line.size());
 }
 
-/// A line that may be typed must still work when it is broken.
+/// Whether the line is a command, which must still work after it is broken.
 bool is_command(std::string_view line) {
   const std::string_view words = line.substr(std::min(line.find_first_not_of(' '), line.size()));
   return words.starts_with("swarmsmith") || words.starts_with("SWARMSMITH_");
@@ -116,7 +116,7 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t first)
     }
     in_paragraph = goes_on;
   }
-  // A text ends as it did.
+  // The result ends with a line end only if the text does.
   if (!in_paragraph && !result.empty()) result.pop_back();
   return result;
 }

@@ -5,13 +5,13 @@
 
 namespace swarmsmith {
 
-/// Columns of a terminal of the usual width.
+/// The usual width of a terminal, in columns.
 inline constexpr std::size_t kPageWidth = 80;
 
-/// The text with no line longer than `width`, where words allow it. Lines that begin at the margin
-/// are a paragraph with those after them, and are filled anew; a line that is indented stays on its
-/// own, and goes on two columns further in, below its second column, or, when it is a command,
-/// behind a backslash. `first` columns of the first line are taken.
+/// Wraps the text so that no line is longer than `width`, if its words are short enough. Lines
+/// without indentation form paragraphs, which are filled again. An indented line stays separate; it
+/// continues two columns further to the right, or below its second column, or, if it is a command,
+/// after a backslash. The first `first` columns of the first line are already used.
 std::string wrapped(std::string_view text, std::size_t width = kPageWidth, std::size_t first = 0);
 
 }  // namespace swarmsmith

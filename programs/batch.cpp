@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A controller that restarts is back within minutes.
+/// Enough for a controller that restarts, which takes minutes.
 constexpr int kMostSilences = 150;
 constexpr milliseconds kAnswerLimit = std::chrono::seconds(60);
 constexpr milliseconds kEndLimit = std::chrono::seconds(5);
@@ -29,15 +29,15 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-/// qstat of Grid Engine: 0 as long as it knows the job.
+/// qstat of Grid Engine exits with 0 as long as it knows the job.
 JobState judge_sge(const ProcessEnd& answer) {
   if (answer.exit_code == 0) return JobState::Waits;
   const bool gone = has(answer.errors.text, "do not exist") || has(answer.errors.text, "unknown");
   return gone || answer.errors.text.empty() ? JobState::Ended : JobState::Unknown;
 }
 
-/// qstat of PBS and Torque: a table whose fifth column is the state, C or F when the job is over.
-/// Exit codes 153 (unknown job) and 35 (finished) come from PBS itself.
+/// qstat of PBS and Torque prints a table; the fifth column is the state, C or F if the job is
+/// over. Exit codes 153 (unknown job) and 35 (finished) come from PBS itself.
 JobState judge_pbs(const ProcessEnd& answer) {
   constexpr int kUnknownJob = 153;
   constexpr int kFinished = 35;
@@ -56,7 +56,8 @@ JobState judge_pbs(const ProcessEnd& answer) {
   return state == "C" || state == "F" || state == "X" ? JobState::Ended : JobState::Waits;
 }
 
-/// squeue: one word, the state, of jobs that wait, run or complete; nothing of those that are over.
+/// squeue prints one word, the state, for jobs that wait, run or complete, and nothing for finished
+/// ones.
 JobState judge_slurm(const ProcessEnd& answer) {
   if (answer.exit_code != 0) {
     const bool gone = has(answer.errors.text, "Invalid job id") || answer.errors.text.empty();
@@ -74,7 +75,8 @@ JobState judge_slurm(const ProcessEnd& answer) {
   return JobState::Ended;
 }
 
-/// condor_q: JobStatus as a number; 3 removed, 4 completed, nothing: not in the queue.
+/// condor_q prints JobStatus as a number: 3 is removed, 4 is completed; nothing if the job is not
+/// in the queue.
 JobState judge_condor(const ProcessEnd& answer) {
   if (answer.exit_code != 0) {
     return answer.errors.text.empty() ? JobState::Ended : JobState::Unknown;
@@ -139,7 +141,7 @@ Expected<void> wait_for_job(BatchMode mode, const std::string& job, milliseconds
     return unexpected(ErrorKind::Unavailable, commands.ask[0] + " does not say how job " + job +
                                                   " is: " + printable(answer->errors.text, 500));
   }
-  // The caller does not wait for the job any more. The interrupt is over for this last call.
+  // The caller does not wait for the job any more. This last call is not interrupted.
   const Interrupt none;
   const Expected<ProcessEnd> ended =
       run_process({.words = with_job(commands.end, job), .limit = kEndLimit}, none);

@@ -90,7 +90,7 @@ std::string arguments_of(const EvaluatorCall& call) {
 }
 
 std::string plain_number(double value) {
-  // Rounded to 15 digits first; the shortest text of the rounded number has_word no more of them.
+  // Rounds to 15 digits first; then the shortest text of the rounded number has at most 15 digits.
   std::array<char, 40> digits{};
   const int length = std::snprintf(digits.data(), digits.size(), "%.15g", value);
   double rounded = value;

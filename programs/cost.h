@@ -2,8 +2,8 @@
 
 namespace swarmsmith {
 
-/// The one place where the sign turns. People, stores and workers know scores (larger is better);
-/// irace_core minimises costs. Zero is always +0, whatever its sign was: a store does not keep it.
+/// The only place where the sign changes. People, stores and workers use scores (larger is better);
+/// irace_core minimises costs. Zero is always +0, because a store does not keep the sign of zero.
 constexpr double to_cost(double score) {
   return 0.0 - score;
 }
@@ -11,7 +11,7 @@ constexpr double to_score(double cost) {
   return 0.0 - cost;
 }
 
-/// Of a finite cost or score: sums of them must be finite, and means what they say.
+/// Limit of a finite cost or score, so that sums, and therefore means, stay finite.
 constexpr double kLargestCost = 1e300;
 constexpr bool is_too_large(double number) {
   return number < -kLargestCost || number > kLargestCost;

@@ -4,10 +4,10 @@
 
 namespace swarmsmith {
 
-/// What a program did that gave no score: all empty for the simulator.
+/// Details about a program that gave no score: all empty for the simulator.
 struct FailureDetails {
   std::string command;  ///< the command line, as it was run
-  std::string output;   ///< what it wrote to standard output, the end of it when it is long
+  std::string output;   ///< its standard output; only the end if it is long
   std::string errors;   ///< the same for standard error
 
   friend bool operator==(const FailureDetails&, const FailureDetails&) = default;

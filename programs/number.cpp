@@ -26,7 +26,7 @@ std::size_t digits_at(std::string_view text, std::size_t at) {
   return end - at;
 }
 
-/// Without sign. R reads "1e" and "1e+" as 1.
+/// The text has no sign. R reads "1e" and "1e+" as 1.
 std::optional<double> parse_decimal(std::string_view text) {
   const std::size_t whole = digits_at(text, 0);
   std::size_t at = whole;
@@ -48,11 +48,11 @@ std::optional<double> parse_decimal(std::string_view text) {
   double value = 0;
   const auto [last, error] = std::from_chars(text.data(), text.data() + end, value);
   if (error == std::errc()) return value;
-  // Too large or too small: the C library gives infinity or what is nearest.
+  // If the number is too large or too small, the C library returns infinity or the nearest number.
   return std::strtod(std::string(text.substr(0, end)).c_str(), nullptr);
 }
 
-/// Without sign and 0x.
+/// The text has no sign and no 0x.
 std::optional<double> parse_hexadecimal(std::string_view text) {
   const std::size_t exponent = text.find_first_of("pP");
   const std::string_view digits = text.substr(0, exponent);

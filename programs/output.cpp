@@ -19,7 +19,7 @@ bool is_blank(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// The first `most` of them; one more says that there are more.
+/// The first `most` tokens, and one more if there are more.
 std::vector<std::string_view> tokens_of(std::string_view text, std::size_t most) {
   std::vector<std::string_view> tokens;
   while (tokens.size() <= most) {
@@ -37,7 +37,7 @@ std::string shown(std::string_view token) {
   return "`" + printable(token.substr(0, kShownBytes), 4 * kShownBytes) + (cut ? "..." : "") + "`";
 }
 
-/// A number out of the output, or a sentence. `what`: "cost", "time".
+/// Reads a number from the output, or returns an error. `what`: "cost", "time".
 Expected<double> number_of(std::string_view token, const std::string& program,
                            const std::string& what) {
   const std::optional<double> number = parse_number(token);
@@ -93,7 +93,7 @@ Expected<Reading> parse_numbers(std::string_view output, const Target& target) {
     return bad_input("the targetRunner printed nothing: it has to print " +
                      wanted_of_runner(target));
   }
-  // What is not a number at all says more than how many there are.
+  // Text that is not a number is a more useful error than a wrong number of tokens.
   for (const std::string_view token : tokens) {
     if (!parse_number(token)) {
       return bad_input("the targetRunner printed text that is not a number, " + shown(token) +

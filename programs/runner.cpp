@@ -16,7 +16,7 @@ bool is_simple(std::string_view word) {
   return split && !split->needs_shell && split->words.size() == 1 && split->words[0] == word;
 }
 
-/// A program's path as one types it.
+/// A program's path as a user would type it.
 std::string typed(const std::string& program) {
   return is_simple(program) ? program : shell_quoted(program);
 }
@@ -77,7 +77,7 @@ tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::command(
     command.process.words = std::move(split->words);
     command.process.words.insert(command.process.words.begin(), program);
   } else if (options_.shell) {
-    command.process.file.clear();  // a shell may run anything: there is nothing to keep to
+    command.process.file.clear();  // a shell may run any program, so the file is not fixed
     command.process.words = {"/bin/sh", "-c", shell_quoted(program) + " " + arguments};
   } else {
     return tl::unexpected(failure(
@@ -141,7 +141,7 @@ tl::expected<TargetResult, TargetFailure> TargetRunner::run_once(const Command& 
   return TargetResult{*reading, std::isinf(reading->cost)};
 }
 
-/// A launcher gets the file behind the runner's name.
+/// With a launcher, the file is looked up for the runner's name, too.
 tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::runner_command(
     const RunnerCall& call) const {
   if (target_.launcher.empty()) return command(target_.runner, arguments_of(target_, call));

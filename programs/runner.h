@@ -14,48 +14,49 @@
 
 namespace swarmsmith {
 
-/// What came of an evaluation by programs.
+/// The result of an evaluation by programs.
 struct TargetResult {
   Reading reading;
-  bool rejected = false;  ///< an infinite cost, or a time-out that counts as one
+  bool rejected = false;  ///< an infinite cost, or a time-out that counts as infinite
 
   friend bool operator==(const TargetResult&, const TargetResult&) = default;
 };
 
-/// Why there is none.
+/// Why an evaluation has no result.
 struct TargetFailure {
-  std::string reason;  ///< a sentence
+  std::string reason;  ///< one sentence
   FailureDetails details;
   bool timed_out = false;
-  /// A signal from elsewhere ended the program: perhaps one that was meant for the whole host.
+  /// A signal from another process ended the program; it may have been meant for the whole host.
   bool from_outside = false;
 };
 
 struct RunnerOptions {
-  /// The file behind a program's name, looked up and checked anew before each start: that file is
-  /// run, whatever the name means a moment later. Without it a program is run by its name.
+  /// Returns the file for a program's name, looked up and checked before each start. Exactly that
+  /// file is run, even if the name refers to another file a moment later. If empty, programs are
+  /// run by name.
   std::function<Expected<std::string>(const std::string& program)> file_of{};
-  /// Whether texts that only a shell understands are given to one.
+  /// Whether command lines that need a shell are given to one.
   bool shell = false;
   std::chrono::milliseconds batch_poll = std::chrono::seconds(2);
   std::chrono::milliseconds term_grace = std::chrono::seconds(1);
   std::size_t longest_text = 4000;  ///< bytes of each text of a failure
 };
 
-/// Calls the programs of a target, one evaluation after the other; one object a thread. `interrupt`
-/// ends what runs, and must outlive it.
+/// Calls the programs of a target, one evaluation after the other; use one object per thread.
+/// `interrupt` ends running programs, and must outlive this object.
 class TargetRunner {
  public:
   TargetRunner(Target target, RunnerOptions options, const Interrupt& interrupt);
 
-  /// One run: the call, again at once as often as `retries` allows when it fails (irace facts,
-  /// 18.3); in batch mode its job to the end.
+  /// One run: calls the targetRunner, and repeats a failed call at most `retries` times (irace
+  /// facts, 18.3). In batch mode, waits for the end of its job.
   tl::expected<TargetResult, TargetFailure> run(const RunnerCall& call) const;
-  /// The cost of a configuration whose runs are done.
+  /// The cost of a configuration whose runs have ended.
   tl::expected<TargetResult, TargetFailure> evaluate(const EvaluatorCall& call) const;
 
  private:
-  /// A command as it is run, and as people would type it.
+  /// A command to run, and its text as a user would type it.
   struct Command {
     ProcessCall process;
     std::string text;
@@ -73,8 +74,8 @@ class TargetRunner {
   const Interrupt* interrupt_;
 };
 
-/// What a person reads who must know why an evaluation failed: reason, the exact call, what it
-/// wrote, and what to do (irace facts, 18.3).
+/// An explanation of a failed evaluation: the reason, the exact call, its output, and advice (irace
+/// facts, 18.3).
 std::string message_of(const std::string& reason, const FailureDetails& details);
 
 }  // namespace swarmsmith

@@ -3,9 +3,10 @@
 namespace swarmsmith {
 namespace {
 
-/// These mean something wherever they stand. Braces too: some shells make several words of {a,b}.
+/// These characters are special everywhere in a word. Braces too: some shells make several words of
+/// {a,b}.
 constexpr std::string_view kSpecial = ";|&$`<>()*?[{\n";
-/// And these at the beginning of a word: a comment, a home.
+/// These characters are special at the beginning of a word: a comment, a home directory.
 constexpr std::string_view kSpecialFirst = "#~";
 
 class Splitter {
@@ -52,7 +53,7 @@ class Splitter {
   Expected<void> take_escaped() {
     if (at_ + 1 == text_.size()) return fault("a backslash at the end, with nothing after it", at_);
     ++at_;
-    if (text_[at_] != '\n') put(text_[at_]);  // an escaped line end is nothing at all
+    if (text_[at_] != '\n') put(text_[at_]);  // an escaped line end is removed
     return {};
   }
 

@@ -7,15 +7,16 @@
 
 namespace swarmsmith {
 
-/// Runs from above, side by side and below each other.
+/// Several runs from above in one figure, in rows.
 struct ArenaPanels {
   std::string title;
-  std::vector<std::string> details;    ///< below it, a line each
+  std::vector<std::string> details;    ///< below the title, one per line
   std::vector<ArenaPicture> pictures;  ///< their widths are not used
   double width_mm = 84;
 };
 
-/// As SVG: as many pictures in a row as are at least kLeastPictureWidth_mm wide.
+/// The figure as SVG. A row has as many pictures as fit with a width of at least
+/// kLeastPictureWidth_mm.
 std::string draw(const ArenaPanels& panels);
 
 }  // namespace swarmsmith

@@ -11,10 +11,10 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kTallest = 1.25;  ///< height of the arena, as part of the width
+constexpr double kTallest = 1.25;  ///< maximum height of the arena, relative to the width
 constexpr std::string_view kDot = " \xc2\xb7 ";
 
-/// Parts in lines of at most that width, joined by dots.
+/// The parts on lines of at most this width, joined by dots.
 std::vector<std::string> wrapped(const std::vector<std::string>& parts, double size, double width) {
   std::vector<std::string> lines;
   for (const std::string& part : parts) {
@@ -29,7 +29,7 @@ std::vector<std::string> wrapped(const std::vector<std::string>& parts, double s
   return lines;
 }
 
-/// What each robot does at the end; of a large swarm, how many do what.
+/// The final activity of each robot; for a large swarm, the number of robots per activity.
 std::vector<LegendEntry> legend_of(const ArenaPicture& picture) {
   std::vector<LegendEntry> entries;
   if (picture.robots.size() <= kMostNamedRobots) {

@@ -15,7 +15,7 @@ using Values = std::vector<double>;
 
 constexpr int kLidarRays = 719;
 
-/// One sensor: its name, its columns in a swarm of so many such robots, and their values.
+/// One sensor: its name, its columns in a swarm of `robots` such robots, and their values.
 struct Device {
   Sensor sensor;
   std::string_view name;

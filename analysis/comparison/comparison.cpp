@@ -48,9 +48,10 @@ void adjust_p_values(std::vector<ComparedPair>& pairs) {
     if (note && pair.test.p_value && pair.test.least_p <= kTestLevel) pair.notes.push_back(*note);
 }
 
-/// Designs are paired by source, and the two sources should be all that differs.
+/// Sources are compared on the same designs, so that only the source should differ; notes different
+/// seeds.
 void note_seeds(const std::vector<DesignScore>& scores, Comparison& comparison) {
-  if (comparison.unit == ScoreUnit::Run) return;  // only runs of one seed are paired
+  if (comparison.unit == ScoreUnit::Run) return;  // only runs on the same seed are paired
   std::set<std::pair<std::string, std::string>> known;
   for (ComparedPair& pair : comparison.pairs) {
     std::vector<DesignScore> of_pair = scores;
@@ -65,7 +66,7 @@ void note_seeds(const std::vector<DesignScore>& scores, Comparison& comparison) 
   }
 }
 
-/// Nothing to compare is said, with what there is.
+/// Notes that there is nothing to compare, and why.
 void note_lonely(const ScoreTable& table, Comparison& comparison) {
   const bool by_source = comparison.options.by == CompareBy::Source;
   const auto names = names_in(table, by_source ? &GroupKey::source : &GroupKey::method);
@@ -78,7 +79,7 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   comparison.notes.push_back(comparison.unranked.back());
 }
 
-/// A method that used much less than its budget, or was extended, is marked beside the others.
+/// Notes methods that used much less than their budget, or were extended.
 void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& comparison) {
   constexpr double kNearlyAll = 0.95;
   struct Runs {
@@ -139,7 +140,8 @@ bool has(const std::vector<DesignScore>& scores, const Part& part, const std::st
          });
 }
 
-/// What is asked for has to be there, each name on its own, and all together.
+/// An error if the options name something that does not exist; checks each name, then the whole
+/// selection.
 std::optional<Error> missing(const std::vector<DesignScore>& scores,
                              const ComparisonOptions& options) {
   const auto error = [](std::string message, std::string where) {

@@ -19,7 +19,7 @@ std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-";
 }
 
-/// Four digits, as R prints a p-value.
+/// Four significant digits, as R prints a p-value.
 std::string shown_p(std::optional<double> p) {
   return p ? fmt::format("{:.4g}", *p) : "-";
 }
@@ -39,10 +39,10 @@ std::string groups_text(const Comparison& comparison) {
   return aligned(std::move(table));
 }
 
-/// Each note once, and the numbers by which rows refer to them.
+/// Lists each note once, and gives the numbers by which rows refer to notes.
 class Footnotes {
  public:
-  /// "1 3"; empty without notes.
+  /// "1 3"; empty if there are no notes.
   std::string numbers_of(const std::vector<std::string>& notes) {
     std::vector<std::size_t> numbers;
     for (const std::string& note : notes) {

@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// For people: groups, pairs and ranks as aligned columns with six digits, notes below them, how it
-/// was tested at the end.
+/// The comparison for people: groups, pairs and ranks as aligned columns with six digits, notes
+/// below them, and at the end a description of the tests.
 std::string comparison_text(const Comparison& comparison);
 
 }  // namespace swarmsmith

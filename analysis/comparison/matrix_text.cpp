@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The parts of a cell, each with its column.
+/// The parts of a cell, each in its own column.
 using Parts = std::array<std::string, 4>;
 
 std::string shown(double value) {
@@ -28,7 +28,7 @@ Parts parts_of(const std::optional<MethodMatrix::Cell>& cell) {
           fmt::format("{:g}", cell->rank), cell->letters};
 }
 
-/// The cells of a mission, their parts below each other.
+/// The cells of a mission, with their parts aligned below each other.
 std::vector<std::string> column_of(const MethodMatrix& matrix, std::size_t mission) {
   std::vector<Parts> rows;
   std::array<std::size_t, 4> widths{};

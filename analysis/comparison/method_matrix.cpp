@@ -17,10 +17,10 @@
 namespace swarmsmith {
 namespace {
 
-/// The methods of a mission and source, the best mean first.
+/// The methods of a mission and source, best mean first.
 using Groups = std::vector<const ComparedGroup*>;
 
-/// Holm's p of each pair of the groups; none where a test has no p.
+/// Holm's p for each pair of groups; empty if a test has no p.
 using PairValues = std::vector<std::vector<std::optional<double>>>;
 
 Groups groups_of(const Comparison& comparison, const std::string& mission,
@@ -161,7 +161,7 @@ std::vector<std::string> letters_of(const std::vector<std::vector<bool>>& differ
           split.back().erase(left_out);
         }
       }
-      // What is within another says nothing more.
+      // A column that is contained in another one is not needed.
       columns.clear();
       for (std::size_t a = 0; a < split.size(); ++a) {
         bool is_needed = true;
@@ -225,7 +225,7 @@ std::vector<MethodMatrix> method_matrices(const Comparison& comparison) {
   for (const ComparedGroup& group : comparison.groups) {
     if (std::ranges::find(sources, group.source) == sources.end()) sources.push_back(group.source);
   }
-  // The world that the designs were made in, then the others.
+  // The source of the campaign's own tests comes first.
   std::stable_partition(sources.begin(), sources.end(),
                         [&](const std::string& source) { return source == comparison.tested; });
   std::vector<MethodMatrix> matrices;

@@ -30,7 +30,8 @@ std::string latex_escaped(std::string_view text) {
   return escaped;
 }
 
-/// Four digits, as a paper has them; no exponent where people would write none.
+/// Four significant digits, as in papers; no exponent for numbers that people would write without
+/// one.
 std::string as_printed(double value) {
   constexpr double kNoDecimalsFrom = 1000;
   constexpr double kExponentFrom = 1e7;
@@ -39,7 +40,7 @@ std::string as_printed(double value) {
                                                          : fmt::format("{:.0f}", value);
 }
 
-/// Grows in both forms at once.
+/// Writes the plain text and the LaTeX text at the same time.
 class Writer {
  public:
   Writer& words(std::string_view words) {
@@ -47,13 +48,13 @@ class Writer {
     sentence_.latex += latex_escaped(words);
     return *this;
   }
-  /// A number alone, between dollar signs in LaTeX, so that a minus is one.
+  /// A number alone; in LaTeX between dollar signs, so that a minus sign is printed correctly.
   Writer& number(double value) {
     sentence_.text += as_printed(value);
     sentence_.latex += "$" + as_printed(value) + "$";
     return *this;
   }
-  /// "n = 10", or "$n = 10$"; `symbol` as LaTeX where that is another.
+  /// "n = 10", or "$n = 10$"; `symbol` is used in LaTeX if it differs from the name.
   Writer& value(std::string_view name, std::string_view value, std::string_view symbol = "") {
     const bool is_less = value.starts_with('<');
     const std::string rest = fmt::format("{}{}", is_less ? " " : " = ", value);
@@ -90,14 +91,14 @@ const ComparedGroup* group_of(const Comparison& comparison, const std::string& m
   return found == comparison.groups.end() ? nullptr : &*found;
 }
 
-/// Where the scores of a source were made, with a blank before it.
+/// The environment in which the scores of a source were made, with a blank before it.
 std::string place_of(const std::string& source) {
   if (source == "real") return " on the robots";
-  if (source == "command") return "";  // the user's own program gave them
+  if (source == "command") return "";  // the user's own program
   return " in simulation with the profile " + source;
 }
 
-/// What the test says: a difference, or that none was found.
+/// The result of the test: a difference, or that none was found.
 std::string finding_of(const ComparedPair& pair, std::string_view units) {
   const auto p = pair.p_holm ? pair.p_holm : pair.test.p_value;
   const bool differ = p && *p < kPrintedLevel;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kGrid = "#dddddd";
 constexpr double kTick = 1;
-constexpr double kBandGap = 0.6;  ///< between names of neighbouring bands
+constexpr double kBandGap = 0.6;  ///< between the names of neighbouring bands
 
 int decimals_of(double step) {
   int decimals = 0;
@@ -43,7 +43,7 @@ double widest_word(std::string_view text, double size) {
   return widest;
 }
 
-/// The largest size at which every word of the names fits into its band, of those that can be read.
+/// The largest readable size at which every word of the names fits into its band.
 double band_text_size(const Bands& bands, const std::vector<std::string>& names) {
   constexpr std::array<double, 3> kSizes = {kTextSize, 2.5, 2.2};
   for (const double size : kSizes) {
@@ -159,13 +159,13 @@ void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,
                           std::string_view label) {
   draw_line(svg, {area.left, area.bottom()}, {area.right(), area.bottom()}, kInk, 0.2);
   const double step = tick_step(axis.range(), ticks_across(axis));
-  double free = -1e9;  // right of the last text
+  double free = -1e9;  // right end of the last text
   for (const double tick : ticks_in(axis.range(), step)) {
     const double x = axis.at(tick);
     draw_line(svg, {x, area.bottom()}, {x, area.bottom() + kTick}, kInk, 0.2);
     const std::string text = tick_text(tick, step);
     const double half = text_width(text, kTextSize) / 2;
-    if (x - half < free) continue;  // a short axis has no room for it
+    if (x - half < free) continue;  // a short axis has no room for this text
     free = x + half + 0.5;
     svg.text({x, area.bottom() + kTick + kTextSize}, text, ink(TextStyle::Anchor::Middle));
   }
@@ -245,7 +245,7 @@ std::vector<std::string> whole_lines(std::string_view name, double size, double 
                         size) <= width;
     };
     if (!line.empty() && !fits(part)) end_line();
-    while (!fits(part)) {  // letter by letter, at least one of them
+    while (!fits(part)) {  // removes letter by letter, but keeps at least one
       const auto after = [&](std::size_t at) {
         return at + std::max<std::size_t>(1, character_length(part.substr(at)));
       };

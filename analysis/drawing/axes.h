@@ -9,8 +9,7 @@
 
 namespace swarmsmith {
 
-/// What plots with axes have in common: ranges, ticks, the frame around the data. Lengths are mm on
-/// the page.
+/// Ranges, ticks and frames for all plots with axes. Lengths are mm on the page.
 
 /// The values from `low` to `high`; neither is NaN.
 struct ValueRange {
@@ -20,26 +19,27 @@ struct ValueRange {
   friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
-/// From the least to the largest; 0 to 1 without a value. Values that are all the same get half a
-/// unit, or a tenth of themselves, on both sides, so that there is a range.
+/// From the smallest to the largest value; 0 to 1 if there are no values. If all values are equal,
+/// the range extends by half a unit, or by a tenth of the value, on both sides.
 ValueRange range_over(const std::vector<double>& values);
 
 /// The distance of round ticks (1, 2 or 5 times a power of ten), so that at most `most` fit.
 double tick_step(ValueRange range, std::size_t most);
 
-/// Ticks of an axis, at most.
+/// Maximum number of ticks on an axis.
 inline constexpr std::size_t kUsualTicks = 7;
 
-/// Widened to the next round ticks.
+/// The range extended to the next round ticks.
 ValueRange rounded(ValueRange range, std::size_t most_ticks);
 
 /// The multiples of `step` within the range.
 std::vector<double> ticks_in(ValueRange range, double step);
 
-/// With as many decimals as ticks of this step need, and no sign before 0: "0.25", "-380000".
+/// The value with as many decimals as ticks of this step need, without a sign for 0: "0.25",
+/// "-380000".
 std::string tick_text(double value, double step);
 
-/// A linear map of values to places along one side. `from` is the place of the low end.
+/// A linear map of values to positions along one side. `from` is the position of the low end.
 class Axis {
  public:
   Axis(ValueRange range, double from, double to) : range_(range), from_(from), to_(to) {}
@@ -57,7 +57,7 @@ class Axis {
   double to_;
 };
 
-/// Equal places side by side, for groups that have no order of their own.
+/// Bands of equal width side by side, for groups without a natural order.
 class Bands {
  public:
   Bands(std::size_t count, double from, double to) : count_(count), from_(from), to_(to) {}
@@ -74,7 +74,7 @@ class Bands {
   double to_;
 };
 
-/// The rectangle that the data are drawn in.
+/// The rectangle for the data.
 struct PlotArea {
   double left = 0;
   double top = 0;
@@ -85,45 +85,46 @@ struct PlotArea {
   double bottom() const { return top + height; }
 };
 
-/// Room for the texts of ticks left of an area.
+/// The width that tick labels need at the left of an area.
 double tick_room(ValueRange range, std::size_t most_ticks);
 
-/// Bold title and lines of details at the top of a figure. Returns where the rest begins.
+/// Draws a bold title and lines of details at the top of a figure. Returns where the rest begins.
 double draw_heading(Svg& svg, std::string_view title, const std::vector<std::string>& details);
 
-/// Horizontal lines through the ticks of an axis that goes up, their texts left of the area, and
-/// `label` above its upper left corner: texts that stand upright need no turned head. None when
+/// Draws horizontal lines through the ticks of a vertical axis, with the tick labels left of the
+/// area. `label` is above the upper left corner, horizontal so that it is easy to read; it may be
 /// empty.
 void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);
 
-/// The most ticks of a horizontal axis whose texts do not overlap.
+/// The maximum number of ticks on a horizontal axis so that their labels do not overlap.
 std::size_t ticks_across(const Axis& axis);
-/// The line below the area with ticks, their texts and the label below them, if there is one.
+/// Draws the line below the area with ticks and their labels, and the label of the axis below them
+/// if it has one.
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);
-/// The room that it needs below the area.
+/// The height of a horizontal axis below the area.
 inline constexpr double kHorizontalAxisRoom = 9;
 
-/// A line below the area with a text a band. Where they are too wide side by side they are broken
-/// at blanks, on at most `kBandLines` lines, written a little smaller when words are still too
-/// wide, and shortened then.
+/// Draws a line below the area with one name per band. Names that are too wide are broken at blanks
+/// into at most `kBandLines` lines; if words are still too wide, the names are drawn slightly
+/// smaller, and then shortened.
 void draw_band_axis(Svg& svg, const PlotArea& area, const Bands& bands,
                     const std::vector<std::string>& names);
 inline constexpr std::size_t kBandLines = 3;
-/// The room that it needs below the area.
+/// The height of the band axis below the area.
 double band_axis_room(const Bands& bands, const std::vector<std::string>& names);
-/// Whether none of the names is shortened.
+/// Whether all names fit without being shortened.
 bool band_names_fit(const Bands& bands, const std::vector<std::string>& names);
 
-/// The words of a text on lines of at most `width`, `most` of them; what does not fit is shortened.
+/// The text on at most `most` lines of at most `width`; text that does not fit is shortened.
 std::vector<std::string> broken_text(std::string_view text, double size, double width,
                                      std::size_t most);
 
-/// All of a name on lines of at most `width`: broken at blanks, hyphens and underscores, and within
-/// a word only where that alone is wider.
+/// The complete name on lines of at most `width`: broken at blanks, hyphens and underscores, and
+/// within a word only if the word alone is wider.
 std::vector<std::string> whole_lines(std::string_view name, double size, double width);
 
-/// A figure's colour from pale yellow (0) to dark blue (1) that also reads in grey: viridis, turned
-/// round, sampled (van der Walt and Smith 2015).
+/// A colour between pale yellow (0) and dark blue (1) that is also readable in grey: samples of
+/// viridis in reverse (van der Walt and Smith 2015).
 std::string sequential_color(double part);
 
 }  // namespace swarmsmith

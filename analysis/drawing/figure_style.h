@@ -7,11 +7,11 @@
 
 namespace swarmsmith {
 
-/// What the figures have in common; lengths on the page, mm.
+/// Sizes that all figures share, mm on the page.
 inline constexpr double kMargin = 2;
 inline constexpr double kTitleSize = 3.4;
 inline constexpr double kTextSize = 2.8;
-inline constexpr double kBolder = 1.15;  ///< bold letters are so much wider
+inline constexpr double kBolder = 1.15;  ///< bold text is wider by this factor
 inline constexpr double kLineHeight = 4.2;
 inline constexpr std::string_view kInk = "#222222";
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSwatch = 2.4;
 constexpr double kSwatchSpace = 4;
-constexpr double kBetween = 2;  ///< entries of a flowing legend
+constexpr double kBetween = 2;  ///< between the entries of a flowing legend
 
 void draw_entry(Svg& svg, const LegendEntry& entry, PagePoint at) {
   double indent = 0;

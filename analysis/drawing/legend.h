@@ -8,13 +8,13 @@
 
 namespace swarmsmith {
 
-/// One entry below a figure.
+/// One entry of the legend below a figure.
 struct LegendEntry {
-  std::string color;  ///< of its swatch; empty for none
+  std::string color;  ///< of its swatch; empty: no swatch
   std::string text;
 };
 
-/// Entries in equal columns, as many as fit side by side.
+/// A legend in columns of equal width, with as many columns as fit.
 class Legend {
  public:
   Legend(std::vector<LegendEntry> entries, double width);
@@ -28,7 +28,7 @@ class Legend {
   std::size_t columns_ = 1;
 };
 
-/// Entries one after the other, each as wide as it is, on as many lines as they need.
+/// A legend with entries one after the other, each as wide as its text, on as many lines as needed.
 class FlowingLegend {
  public:
   FlowingLegend(std::vector<LegendEntry> entries, double width);

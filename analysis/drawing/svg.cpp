@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Hundredths of a millimetre are finer than any printer; the shortest text of that.
+/// The shortest text of the number in hundredths of a millimetre, which are finer than any printer.
 std::string number(double value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
@@ -25,7 +25,7 @@ std::string number(double value) {
   return text == "-0" ? "0" : text;
 }
 
-/// A number of hundredths without the 0 before its point: 45 as ".45", -120 as "-1.2".
+/// A number of hundredths, without the 0 before the decimal point: 45 as ".45", -120 as "-1.2".
 std::string hundredths_text(long hundredths) {
   std::string text = number(static_cast<double>(hundredths) / 100);
   const std::size_t at = text.starts_with('-') ? 1 : 0;
@@ -33,7 +33,7 @@ std::string hundredths_text(long hundredths) {
   return text;
 }
 
-/// Two numbers, with a blank only where they would run together.
+/// Two numbers, with a blank only if it is needed to separate them.
 std::string number_pair(long first, long second) {
   const std::string tail = hundredths_text(second);
   return hundredths_text(first) + (tail.starts_with('-') ? "" : " ") + tail;
@@ -43,8 +43,8 @@ std::string attribute(std::string_view name, std::string_view value) {
   return " " + std::string(name) + "=\"" + std::string(value) + "\"";
 }
 
-/// Letters that mean something in XML are written as entities, control characters, which XML cannot
-/// hold at all, as escapes.
+/// Characters with a meaning in XML are written as entities. Control characters, which XML cannot
+/// contain, are written as escapes.
 std::string escaped(std::string_view text) {
   std::string result;
   for (const char letter : as_shown(text, Layout::Escaped)) {
@@ -71,7 +71,7 @@ std::string attributes_of(const Paint& paint) {
   return text;
 }
 
-/// "M0 0L1 2 3 4": after the first L its letter may be left out.
+/// "M0 0L1 2 3 4": the letter L is needed only once.
 std::string path_through(std::span<const PagePoint> points) {
   std::string data;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -81,7 +81,7 @@ std::string path_through(std::span<const PagePoint> points) {
   return data;
 }
 
-/// Distance of a point from the segment from `a` to `b`.
+/// The distance of a point from the segment between `a` and `b`.
 double distance_from(PagePoint point, PagePoint a, PagePoint b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
@@ -158,7 +158,7 @@ void Svg::circle(PagePoint centre, double radius, const Paint& paint) {
 
 void Svg::dots(std::span<const PagePoint> centres, double radius, std::string_view color) {
   if (centres.empty()) return;
-  // A line of no length has round ends, which are a circle.
+  // A line of zero length with round ends is a circle.
   std::string data;
   for (const PagePoint centre : centres)
     data += "M" + number(centre.x) + " " + number(centre.y) + "h0";
@@ -185,7 +185,7 @@ void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
 void Svg::bars(std::span<const PageBar> bars, double thickness, std::string_view color,
                BarDirection direction) {
   if (bars.empty()) return;
-  // Whole hundredths, so that the relative moves do not add up their rounding.
+  // Uses whole hundredths, so that rounding errors of relative moves do not add up.
   const auto hundredths = [](double value) { return std::lround(100 * value); };
   const bool is_right = direction == BarDirection::Right;
   std::string data;
@@ -249,7 +249,7 @@ std::vector<PagePoint> simplified(std::span<const PagePoint> points, double tole
   if (points.size() < 3) return {points.begin(), points.end()};
   std::vector<bool> kept(points.size(), false);
   kept.front() = kept.back() = true;
-  // Stretches between two kept points, still to be looked at.
+  // Sections between two kept points that are not processed yet.
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
   while (!open.empty()) {
     const auto [first, last] = open.back();

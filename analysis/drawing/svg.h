@@ -11,10 +11,10 @@
 namespace swarmsmith {
 
 /// A small writer of SVG for figures on paper: millimetres, text as text, no scripts, no style
-/// sheets, no ids (so that several pictures can stand in one page), the shapes that every reader of
-/// SVG and LaTeX's converters know.
+/// sheets, no ids (so that one page can contain several pictures), and only shapes that every SVG
+/// reader and LaTeX's converters support.
 
-/// A place on the page, millimetres, x to the right and y DOWN from the upper left corner.
+/// A point on the page, millimetres, x to the right and y DOWN from the upper left corner.
 struct PagePoint {
   double x = 0;
   double y = 0;
@@ -22,19 +22,19 @@ struct PagePoint {
   friend bool operator==(const PagePoint&, const PagePoint&) = default;
 };
 
-/// A bar that goes right or down: the middle of its first edge, and its length.
+/// A bar that extends right or down: the middle of its first edge, and its length.
 enum class BarDirection { Right, Down };
 struct PageBar {
   PagePoint start;
   double length = 0;
 };
 
-/// How a shape is painted. Colours are "#rrggbb" or "none".
+/// Colours and stroke of a shape. Colours are "#rrggbb" or "none".
 struct Paint {
   std::string fill = "none";
   std::string stroke = "none";
   double width = 0;    ///< of the stroke, mm
-  std::string dashes;  ///< lengths in mm, such as "0.8 0.6"; empty: none
+  std::string dashes;  ///< lengths in mm, such as "0.8 0.6"; empty: solid
 };
 
 Paint filled(std::string_view color);
@@ -48,66 +48,68 @@ struct TextStyle {
   std::string fill = "#000000";
 };
 
-/// Colours that colour-blind readers tell apart (Okabe and Ito 2008), those first that are well
-/// seen on light grounds; numbers beyond the last begin again.
+/// Colours that colour-blind readers can distinguish (Okabe and Ito 2008); the first ones are most
+/// visible on light backgrounds. Numbers beyond the last colour start again.
 inline constexpr std::size_t kDistinctColors = 7;
 std::string distinct_color(std::size_t number);
 
-/// The colour part of the way to white: 0 gives itself, 1 white. `color` is "#rrggbb".
+/// Mixes the colour with white: 0 gives the colour itself, 1 gives white. `color` is "#rrggbb".
 std::string lightened(const std::string& color, double towards_white);
 
-/// The fonts that every picture asks for, first choice first.
+/// The fonts of every picture, first choice first.
 inline constexpr std::string_view kFigureFonts = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
 
-/// The picture with a font of one's own before these. Widths were measured in DejaVu Sans; a wider
-/// font may run over. Errors: BadInput for what is not a font's name.
+/// Adds a font before these. Text widths were measured in DejaVu Sans, so a wider font may
+/// overflow. Errors: BadInput if the text is not a font name.
 Expected<std::string> with_font(std::string svg, std::string_view font);
 
-/// Characters of a UTF-8 text.
+/// The number of characters in a UTF-8 text.
 std::size_t characters_in(std::string_view text);
 
-/// A text's width in DejaVu Sans, which is at least that in the other common sans-serif fonts, mm.
+/// A text's width in DejaVu Sans, mm. It is at least as wide as the other common sans-serif fonts.
 double text_width(std::string_view text, double size);
 
-/// The text, with its end replaced by an ellipsis when it is wider than `width` mm.
+/// The text; if it is wider than `width` mm, its end is replaced by an ellipsis.
 std::string fitted_text(std::string_view text, double size, double width);
 
-/// A picture that grows shape by shape, later ones on top.
+/// A picture built shape by shape; later shapes are on top.
 class Svg {
  public:
-  /// `title` and `description` are what a screen reader says.
+  /// `title` and `description` are for screen readers.
   Svg(double width_mm, double height_mm, std::string_view title, std::string_view description);
 
   void circle(PagePoint centre, double radius, const Paint& paint);
-  /// Filled circles, short in the file: all of them are one shape.
+  /// Filled circles, written as a single shape to keep the file short.
   void dots(std::span<const PagePoint> centres, double radius, std::string_view color);
-  /// Closed.
+  /// A closed polygon.
   void polygon(std::span<const PagePoint> corners, const Paint& paint);
-  /// Everything of the page outside of a closed polygon.
+  /// Fills everything on the page outside a closed polygon.
   void outside(std::span<const PagePoint> corners, const Paint& paint);
-  /// Open; round joints.
+  /// An open line with round joints.
   void line(std::span<const PagePoint> points, const Paint& paint);
-  /// A quadratic Bezier curve: it leaves `from` towards `control` and comes to `to` from there.
+  /// A quadratic Bezier curve: it leaves `from` in the direction of `control` and arrives at `to`
+  /// from the direction of `control`.
   void curve(PagePoint from, PagePoint control, PagePoint to, const Paint& paint);
-  /// Many bars of one colour and thickness as one shape, in few letters each: cells of matrices.
-  /// Edges are drawn crisp, so that neighbours touch without a seam. Shortest when bars of a row
-  /// follow each other.
+  /// Many bars of one colour and thickness, written compactly as one shape: for the cells of
+  /// matrices. Edges are not smoothed, so that neighbours touch without a seam. The file is
+  /// shortest if the bars of a row follow each other.
   void bars(std::span<const PageBar> bars, double thickness, std::string_view color,
             BarDirection direction = BarDirection::Right);
-  /// The bytes of a PNG file, stretched over a rectangle, pixels left sharp; `opacity` in [0, 1].
+  /// A PNG file, stretched over a rectangle with sharp pixels; `opacity` is in [0, 1].
   void image(PagePoint top_left, double width, double height, std::string_view png, double opacity);
-  /// `at` is on the base line.
+  /// `at` is on the baseline.
   void text(PagePoint at, std::string_view text, const TextStyle& style);
-  /// What is drawn until `end_part` belongs together, and a page finds it as `data-NAME="number"`.
+  /// Groups the shapes that are drawn until `end_part`; a page finds the group by
+  /// `data-NAME="number"`.
   void begin_part(std::string_view name, std::size_t number);
   void end_part();
-  /// All shapes of another picture, its upper left corner at `at`.
+  /// Adds all shapes of another picture, with its upper left corner at `at`.
   void add(const Svg& other, PagePoint at);
 
   double width() const { return width_; }
   double height() const { return height_; }
 
-  /// The file.
+  /// The contents of the SVG file.
   std::string finish() const;
 
  private:
@@ -115,16 +117,16 @@ class Svg {
 
   double width_;
   double height_;
-  std::string head_;    ///< the file's begin, with title and description
-  std::string shapes_;  ///< an element a line
+  std::string head_;    ///< the beginning of the file, with title and description
+  std::string shapes_;  ///< one element per line
 };
 
-/// The points of an open line that matter: points left out lie within `tolerance` of those kept
-/// (Douglas and Peucker 1973). Ends are kept.
+/// Simplifies an open line: the points left out lie within `tolerance` of the new line (Douglas and
+/// Peucker 1973). The ends are kept.
 std::vector<PagePoint> simplified(std::span<const PagePoint> points, double tolerance);
 
-/// A length in millimetres from "84mm", "8.4 cm", "3.3in" or a bare number of millimetres; negative
-/// when it is none of these.
+/// Reads a length in millimetres from "84mm", "8.4 cm", "3.3in" or a plain number of millimetres;
+/// negative if the text has another form.
 double millimetres_from_text(std::string_view text);
 
 }  // namespace swarmsmith

@@ -17,11 +17,11 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kRowGap = 1.6;      ///< mm between the rows' texts
-constexpr double kMostLabel = 0.45;  ///< of the width, for the changes' texts
-constexpr double kRun = 0.5;         ///< radius of a run's dot, mm
+constexpr double kRowGap = 1.6;      ///< between the rows' texts, mm
+constexpr double kMostLabel = 0.45;  ///< maximum part of the width for the changes' texts
+constexpr double kRun = 0.5;         ///< radius of the dot for a run, mm
 constexpr double kMean = 0.9;
-constexpr double kBeyond = 3;  ///< right of the area, for half of the last tick's text
+constexpr double kBeyond = 3;  ///< to the right of the area, for half of the last tick's label
 
 /// One configuration on the way from the source to the target.
 struct WayPoint {
@@ -34,7 +34,7 @@ struct WayPoint {
 
 using Values = std::map<std::string, std::string>;  ///< of one configuration, by parameter
 
-/// What differs, in the order of names; a parameter that is not active is NA.
+/// The differences, sorted by parameter name; an inactive parameter is shown as NA.
 std::string change_between(const Values& before, const Values& after) {
   std::string text;
   const auto value = [](const Values& values, const std::string& name) {
@@ -52,7 +52,7 @@ std::string change_between(const Values& before, const Values& after) {
   return text;
 }
 
-/// The campaign's normalised file says so.
+/// Reads this from the campaign's normalised file.
 Expected<bool> is_ablation(StoreReader& store) {
   const auto all = campaigns(store);
   if (!all) return Unexpected(all.error());
@@ -61,8 +61,8 @@ Expected<bool> is_ablation(StoreReader& store) {
   });
 }
 
-/// Each iteration is a step; the configuration that it adds to the way is the elite which it has
-/// made itself (irace_core/ablation.h).
+/// Each iteration is a step. The configuration that it adds to the way is the elite that was
+/// created in the same iteration (irace_core/ablation.h).
 Expected<std::vector<WayPoint>> read_way(StoreReader& store, const DesignRecord& design) {
   const auto kept = elites(store, {.design = design.design});
   if (!kept) return Unexpected(kept.error());

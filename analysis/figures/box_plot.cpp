@@ -19,14 +19,14 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kLeastBand = 9;     ///< a box with air on both sides, mm
-constexpr double kPairedBand = 5;    ///< of a pair half the room
-constexpr double kNarrow = 0.5;      ///< width of a narrow box beside a wide one
-constexpr double kMostBand = 24;     ///< boxes that are further apart are hard to compare
-constexpr double kLongestName = 19;  ///< longer words are cut
-constexpr double kAboveLine = 1.5;   ///< the lowest values
-constexpr double kRatio = 0.62;      ///< height of the area by its width, within limits
-constexpr double kPage = 240;        ///< a journal's page is not higher
+constexpr double kLeastBand = 9;     ///< for a box with space on both sides, mm
+constexpr double kPairedBand = 5;    ///< for a box of a pair: half the width
+constexpr double kNarrow = 0.5;      ///< width of a narrow box relative to a wide one
+constexpr double kMostBand = 24;     ///< boxes further apart are hard to compare
+constexpr double kLongestName = 19;  ///< longer words are shortened
+constexpr double kAboveLine = 1.5;   ///< distance of the lowest values from the line
+constexpr double kRatio = 0.62;      ///< height of the area relative to its width, within limits
+constexpr double kPage = 240;        ///< height of a journal's page
 constexpr std::string_view kExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
     "n: values, each a point";
@@ -34,8 +34,8 @@ constexpr std::string_view kLyingExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box lengths; "
     "n: values, each a point";
 
-/// The room that counts need at the right of a box, which stands over its name and so needs as much
-/// at its left; 0 without any.
+/// The width of the counts at the right of a box. The same width is left free on its left side, so
+/// that the box stays above its name. 0 if there are no counts.
 double counts_beside(const ScorePanel& panel) {
   double room = 0;
   for (const ScoreGroup& group : panel.groups)
@@ -43,7 +43,7 @@ double counts_beside(const ScorePanel& panel) {
   return room;
 }
 
-/// The width that each group of a panel needs.
+/// The minimum width of each group of a panel.
 double least_band(const ScorePanel& panel) {
   double least = (has_pairs(panel) ? kPairedBand : kLeastBand) + 2 * counts_beside(panel);
   for (const std::string& name : names_of(panel)) {
@@ -59,8 +59,8 @@ double least_width(const ScorePanel& panel) {
          least_band(panel) * static_cast<double>(panel.groups.size());
 }
 
-/// The room for the ticks' texts, the same in all panels: areas below each other begin at one
-/// place.
+/// The width of the tick labels; the same in all panels, so that areas below each other are
+/// aligned.
 double ticks_beside(const BoxPlot& plot) {
   double room = 0;
   for (const ScorePanel& panel : plot.panels)
@@ -68,7 +68,8 @@ double ticks_beside(const BoxPlot& plot) {
   return room;
 }
 
-/// The panel's data area within its place in the grid; groups stand together, not spread over it.
+/// The panel's data area within its place in the grid. Groups stay close together instead of
+/// filling the place.
 PlotArea area_of(const ScorePanel& panel, double left, double top, double width, double ticks) {
   PlotArea area{.left = left + ticks, .top = top};
   area.width =
@@ -80,7 +81,7 @@ Bands bands_of(const ScorePanel& panel, const PlotArea& area) {
   return {panel.groups.size(), area.left, area.right()};
 }
 
-/// A band a name.
+/// One band per name.
 Bands name_bands_of(const ScorePanel& panel, const PlotArea& area) {
   return {names_of(panel).size(), area.left, area.right()};
 }
@@ -88,7 +89,7 @@ Bands name_bands_of(const ScorePanel& panel, const PlotArea& area) {
 void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   const TextStyle middle{
       .size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)};
-  // The lowest values stand clear of the line below them.
+  // Keeps the lowest values away from the line below them.
   const Axis y(range_of(panel), area.bottom() - kAboveLine, area.top);
   draw_vertical_axis(svg, area, y, "");
   const Bands bands = bands_of(panel, area);
@@ -109,7 +110,7 @@ void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
     svg.text({bands.centre(i), below}, fmt::format("{}", panel.groups[i].values.size()), middle);
 }
 
-/// The places on the page: an area a panel, and where the last row ends.
+/// The layout: one area per panel, and the lower end of the last row.
 struct BoxLayout {
   std::vector<PlotArea> areas;
   double bottom = 0;
@@ -135,8 +136,8 @@ BoxLayout layout_of(const BoxPlot& plot, const PanelGrid& grid, double top) {
   return layout;
 }
 
-/// Whether the boxes can stand side by side over their names: on the page, no name cut, and not
-/// lost in a wide figure.
+/// Whether the boxes can stand side by side above their names: they fit on the page, no name is
+/// shortened, and they do not look lost in a wide figure.
 bool can_stand(const BoxPlot& plot, const PanelGrid& grid, const BoxLayout& layout) {
   constexpr double kWide = 120;
   constexpr double kFilled = 0.75;
@@ -160,7 +161,7 @@ BoxNumbers box_numbers(std::vector<double> values) {
   const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
   box.lower_whisker = *std::ranges::lower_bound(values, box.lower_quartile - reach);
   box.upper_whisker = *std::prev(std::ranges::upper_bound(values, box.upper_quartile + reach));
-  // No value may lie between a quartile and the end of its whisker.
+  // A whisker must not end inside the box.
   box.lower_whisker = std::min(box.lower_whisker, box.lower_quartile);
   box.upper_whisker = std::max(box.upper_whisker, box.upper_quartile);
   box.mean =

@@ -14,8 +14,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Designs in panels by mission and colours by method, which are the store's. One design alone has
-/// its method's.
+/// Designs in panels by mission and colours by method, both in the order of the store. A single
+/// design has the colour of its method.
 class PlotOfDesigns {
  public:
   PlotOfDesigns(const std::vector<DesignRecord>& designs, const StoreNames& names,
@@ -33,7 +33,8 @@ class PlotOfDesigns {
         to_string(alone.design) + ", best candidate";
   }
 
-  /// The elites of a design come one after the other, those of an iteration by rank.
+  /// The elites of a design must follow each other; within an iteration they must be ordered by
+  /// rank.
   void add(const EliteRecord& elite) {
     const auto place = places_.find(elite.design);
     if (place == places_.end()) return;
@@ -92,7 +93,7 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
     if (std::ranges::find(*all, design.design, &EliteRecord::design) != all->end())
       raced.push_back(design);
   }
-  // Panels in the order of all figures.
+  // The same order of panels as in all figures.
   std::ranges::stable_sort(raced, {}, [&](const DesignRecord& design) {
     return place_of(names->missions, design.mission);
   });
@@ -103,7 +104,7 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
   Figure figure{.csv = "design,mission,method,iteration,experiments_used,rank,candidate,mean,n\n"};
   for (const EliteRecord& elite : *all) {
     const auto design = by_id.find(elite.design);
-    // A design that came between the two queries is left for the next time.
+    // Ignores a design that was added between the two queries.
     if (design == by_id.end()) continue;
     made.add(elite);
     figure.csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", elite.design.value,

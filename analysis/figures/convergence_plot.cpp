@@ -15,11 +15,12 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kAreaRatio = 0.62;   ///< height of an area by its width
-constexpr double kWideFigure = 120;   ///< mm: from here on two panels stand side by side
-constexpr double kLabelAbove = 2.4;   ///< clear of the text of the highest tick
-constexpr double kBetweenPanels = 4;  ///< panels
-constexpr std::size_t kCrowd = 5;     ///< lines of a group that are better seen with their median
+constexpr double kAreaRatio = 0.62;   ///< height of an area relative to its width
+constexpr double kWideFigure = 120;   ///< mm: from this width on, two panels are side by side
+constexpr double kLabelAbove = 2.4;   ///< keeps the label away from the label of the highest tick
+constexpr double kBetweenPanels = 4;  ///< between panels
+constexpr std::size_t kCrowd =
+    5;  ///< from this number of lines on, a group is drawn with its median
 constexpr std::string_view kScoreLabel = "mean score (higher is better)";
 
 using Line = ConvergencePlot::Line;
@@ -33,7 +34,7 @@ std::size_t lines_of(const Panel& panel, std::size_t group) {
   return static_cast<std::size_t>(std::ranges::count(panel.lines, group, &Line::group));
 }
 
-/// The same number of ticks is asked for everywhere, so that the room for their texts is known.
+/// Always asks for the same number of ticks, so that the width of their labels is known.
 ValueRange scores_of(const Panel& panel, bool with_elites) {
   std::vector<double> means;
   for (const Line& line : panel.lines) {
@@ -97,8 +98,8 @@ void draw_band(Svg& svg, const Line& line, const Axis& x, const Axis& y) {
   svg.polygon(outline, filled(lightened(distinct_color(line.group), 0.75)));
 }
 
-/// Searches that say how good their best is once or twice have no steps: all of their risers would
-/// lie on each other at the end.
+/// Whether a group has lines with several steps. Searches that report their best only once or twice
+/// are drawn without steps, because all their vertical lines would coincide at the end.
 bool has_steps(const Panel& panel, std::size_t group) {
   constexpr std::size_t kFew = 2;
   return std::ranges::any_of(panel.lines, [&](const Line& line) {
@@ -106,7 +107,7 @@ bool has_steps(const Panel& panel, std::size_t group) {
   });
 }
 
-/// Of the points that `pick` takes of the lines, coordinate by coordinate.
+/// The median, coordinate by coordinate, of the points that `pick` returns for the lines.
 template <class Pick>
 StairPoint median_of_points(const std::vector<std::vector<StairPoint>>& lines, const Pick& pick) {
   std::vector<double> xs;
@@ -124,8 +125,8 @@ StairPoint median_of_points(const std::vector<std::vector<StairPoint>>& lines, c
   return {middle(xs), middle(ys)};
 }
 
-/// What stands for a group of lines: stairs of their median; without steps the way from the median
-/// begin to the median end, or the median end alone.
+/// The line that represents a group: the median staircase. Without steps: a line from the median
+/// start to the median end, or only the median end.
 std::vector<StairPoint> middle_of(const std::vector<std::vector<StairPoint>>& lines,
                                   bool has_steps) {
   if (has_steps) return stairs(median_of(lines));
@@ -177,13 +178,13 @@ std::string description_of(const ConvergencePlot& plot) {
   return text;
 }
 
-/// Where the panels are, mm.
+/// Positions of the panels, mm.
 struct CurveLayout {
   ValueRange experiments;
   std::size_t across = 1;
-  double room = 0;  ///< of the scores' texts, left of an area
+  double room = 0;  ///< width of the scores' labels, left of an area
   double between = kBetweenPanels;
-  double pitch = 0;  ///< from panel to panel
+  double pitch = 0;  ///< distance between panels
   double panel_height = 0;
   double head = 0;
   double area_top = 0;  ///< within a panel
@@ -205,7 +206,7 @@ CurveLayout layout_of(const ConvergencePlot& plot) {
   for (const Panel& panel : plot.panels)
     at.room = std::max(at.room, tick_room(scores_of(panel, has_band(plot)), kUsualTicks));
   at.across = plot.width_mm >= kWideFigure && plot.panels.size() > 1 ? 2 : 1;
-  // The text of the last tick stands half beyond its area.
+  // Half of the last tick's label extends beyond its area.
   const double half = text_width(tick_text(at.experiments.high, 1), kTextSize) / 2;
   const double beyond = std::max(2.0, half - kMargin + 1);
   at.between = std::max(kBetweenPanels, beyond + 1);

@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// The one design that the filter leaves, for the kind `name`. Errors: BadInput when it leaves
-/// several; NotFound without one.
+/// The only design that passes the filter, for the kind `name`. Errors: BadInput if several pass;
+/// NotFound if none passes.
 Expected<DesignRecord> chosen_design(StoreReader& store, const FigureOptions& options,
                                      std::string_view name);
 

@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The first of words with blanks between them, taken away from them.
+/// Removes and returns the first word of a list separated by blanks.
 std::string_view next_word(std::string_view& words) {
   const std::size_t blank = std::min(words.find(' '), words.size());
   const std::string_view word = words.substr(0, blank);
@@ -27,7 +27,7 @@ bool has_word(std::string_view words, std::string_view word) {
   return false;
 }
 
-/// A name that no design of the store has, with those that there are.
+/// An error for a name that no design of the store has; it lists the existing names.
 std::optional<Error> unknown_name(const std::string& given, const char* option,
                                   std::vector<std::string> known) {
   if (given.empty() || std::ranges::find(known, given) != known.end()) return std::nullopt;

@@ -23,20 +23,20 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::size_t kMostTests = 6;  ///< more stand in the table alone
+constexpr std::size_t kMostTests = 6;  ///< further tests are only in the table
 
 /// The designs of a mission and method that have a score in each source.
 struct GapGroup {
   std::string mission;
   std::string method;
-  /// By design: a mean a source, NaN where there is none.
+  /// By design: one mean per source, NaN if there is none.
   std::map<DesignId, std::vector<ScoreValue>> designs;
 };
 
-/// By the places of mission and method in the store's names.
+/// The key is the indices of mission and method in the store's names.
 using GapGroups = std::map<std::pair<std::size_t, std::size_t>, GapGroup>;
 
-/// The campaign's own source first: what designs were raced in.
+/// The source in which designs were raced comes first.
 std::vector<std::string> sources_of(const std::vector<ScoreValue>& values,
                                     const StoreNames& names) {
   std::vector<std::string> sources;
@@ -71,7 +71,7 @@ const ScoreValue* in_source(const std::vector<ScoreValue>& values, const std::st
   return found == values.end() ? nullptr : &*found;
 }
 
-/// Boxes of one method, a source each, and a line a design between them.
+/// Boxes of one method, one per source, and one line per design between them.
 void add_boxes(ScorePanel& panel, const GapGroup& group, const std::vector<std::string>& sources,
                const StoreNames& names, bool several_methods) {
   std::map<DesignId, ScoreLink> open;
@@ -124,7 +124,8 @@ std::vector<std::string> tests_of(const GapGroup& group, const std::vector<std::
   return lines;
 }
 
-/// "runs a design: rvr 100, pseudo-reality 1": means of few runs scatter more.
+/// "runs a design: rvr 100, pseudo-reality 1". Means of few runs vary more, so the numbers are
+/// shown.
 std::string runs_text(const std::vector<ScoreValue>& values,
                       const std::vector<std::string>& sources) {
   std::string text = "runs a design: ";

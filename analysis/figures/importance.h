@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// How much of what a race saw goes with a parameter.
+/// How strongly a parameter is related to the scores in a race.
 
 struct ScoredPair {
   CandidateId candidate;
@@ -18,18 +18,18 @@ struct ScoredPair {
   double score = 0;
 };
 
-/// How much better each candidate is than the others on the same pairs: its part of the model score
-/// = candidate + pair, fitted by least squares. A plain mean would be that of the pairs that it
-/// lived to see.
+/// How much better each candidate is than the others on the same pairs: its term in the model score
+/// = candidate + pair, fitted by least squares. A plain mean would depend on the pairs on which the
+/// candidate was still alive.
 std::map<CandidateId, double> candidate_effects(const std::vector<ScoredPair>& scores);
 
-/// Part of the variance of the values that lies between their groups, 0 to 1; 0 for equal values
-/// (Fisher 1925: the correlation ratio, squared). Both lists have one length, not 0.
+/// The part of the values' variance that lies between their groups, 0 to 1; 0 for equal values
+/// (Fisher 1925: the squared correlation ratio). The lists have the same length and are not empty.
 double eta_squared(const std::vector<std::size_t>& groups, const std::vector<double>& values);
 
 struct Importance {
   double eta_squared = 0;
-  double by_chance = 0;  ///< not exceeded by 95 % of 200 shuffles of the values
+  double by_chance = 0;  ///< exceeded by only 5 % of 200 shuffles of the values
 };
 
 Importance importance_of(const std::vector<std::size_t>& groups, std::vector<double> values,

@@ -24,10 +24,10 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kMostBars = 15;
-constexpr std::size_t kLeastActive = 20;  ///< candidates; of fewer, groups are accidents
+constexpr std::size_t kLeastActive = 20;  ///< candidates; groups of fewer candidates are too random
 constexpr std::size_t kGroupsOfNumbers = 5;
 
-/// Bars to the right, the longest at the top.
+/// Horizontal bars, the longest at the top.
 struct ImportancePlot {
   struct Bar {
     std::string name;
@@ -84,7 +84,7 @@ std::string draw(const ImportancePlot& plot) {
   return svg.finish();
 }
 
-/// Of all races of the design.
+/// The scores in all races of the design.
 Expected<std::vector<ScoredPair>> scored_pairs(StoreReader& store, DesignId design) {
   const auto all = iterations(store, design);
   if (!all) return Unexpected(all.error());
@@ -95,7 +95,7 @@ Expected<std::vector<ScoredPair>> scored_pairs(StoreReader& store, DesignId desi
     for (const RaceCell& cell : *cells)
       if (cell.score) pairs.push_back({cell.candidate, cell.pair, *cell.score});
   }
-  // Elites are cells of each iteration that they are in.
+  // Elites occur in every iteration to which they belong; keeps each score once.
   std::ranges::sort(pairs, {}, [](const ScoredPair& p) { return std::pair(p.candidate, p.pair); });
   const auto same = [](const ScoredPair& a, const ScoredPair& b) {
     return a.candidate == b.candidate && a.pair == b.pair;
@@ -104,7 +104,7 @@ Expected<std::vector<ScoredPair>> scored_pairs(StoreReader& store, DesignId desi
   return pairs;
 }
 
-/// Groups of the candidates that have the parameter: its categories, or fifths of its values.
+/// Groups the candidates that have the parameter: by category, or by fifths of its values.
 std::vector<std::size_t> groups_of(const ParameterColumn& column,
                                    const std::vector<double>& values) {
   std::vector<std::size_t> groups;
@@ -126,8 +126,8 @@ std::vector<std::size_t> groups_of(const ParameterColumn& column,
 
 std::map<CandidateId, double> candidate_effects(const std::vector<ScoredPair>& scores) {
   constexpr int kMostSweeps = 200;
-  // Numbers in place of ids, so that a sweep does not search: in the order of the ids, so that sums
-  // are those of the list.
+  // Uses indices instead of ids, so that a sweep needs no searches. They are in the order of the
+  // ids, so that sums have the same order as in the list.
   std::map<CandidateId, std::size_t> candidates;
   std::map<std::int64_t, std::size_t> pairs;
   for (const ScoredPair& score : scores) {

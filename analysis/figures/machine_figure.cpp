@@ -28,7 +28,7 @@ Error useless(std::string_view option) {
   return {ErrorKind::BadInput, fmt::format("a machine has no {}; leave it out", option), ""};
 }
 
-/// The ones that are meant: the named candidate, or the best ones of the designs.
+/// The selected candidates: the named one, or the best ones of the designs.
 Expected<std::vector<CandidateId>> chosen_candidates(StoreReader& store,
                                                      const FigureOptions& options) {
   if (options.candidate) return std::vector{*options.candidate};
@@ -50,7 +50,7 @@ Expected<std::vector<CandidateId>> chosen_candidates(StoreReader& store,
                                          "one has to end first");
 }
 
-/// Before it stores did not say the flavour of their machines.
+/// The first schema that stores the flavour of machines.
 constexpr std::int64_t kFlavoursSchema = 4;
 
 /// A controller drawn for a figure.
@@ -70,14 +70,14 @@ Expected<Drawn> drawn(StoreReader& store, CandidateId id, double width) {
   return Drawn{std::move(*record), std::move(*stored), std::move(drawing)};
 }
 
-/// What stands above a machine of a sheet, on two lines.
+/// The two lines above a machine on a sheet.
 std::array<std::string, 2> words_of(const MachineRecord& record) {
   return {fmt::format("{} {}", to_string(record.design), to_string(record.candidate)),
           fmt::format("{}, {}, repetition {}", as_words(record.mission), record.method,
                       record.repetition)};
 }
 
-/// "state machines", "behaviour trees", "neural networks", or of all kinds.
+/// "state machines", "behaviour trees", "neural networks", or a word for all kinds.
 std::string_view what_is_drawn(std::span<const Drawn> machines) {
   const Architecture first = architecture_of(machines.front().stored.controller);
   for (const Drawn& machine : machines)
@@ -93,7 +93,7 @@ std::string_view what_is_drawn(std::span<const Drawn> machines) {
   return "neural networks";
 }
 
-/// A sentence for each kind that is among them.
+/// One sentence for each kind of controller among them.
 std::string explanations(std::span<const Drawn> machines) {
   std::set<Architecture> kinds;
   for (const Drawn& machine : machines)
@@ -107,7 +107,7 @@ std::string explanations(std::span<const Drawn> machines) {
 constexpr double kAbove = 2 * kLineHeight + 1;
 constexpr double kBelow = 4;
 
-/// Machines side by side, in rows, each below its name.
+/// Machines side by side in rows, each below its name.
 std::string drawn_sheet(std::span<const Drawn> machines, std::size_t columns, double column) {
   std::vector<double> rows;
   for (std::size_t i = 0; i < machines.size(); ++i) {
@@ -131,7 +131,7 @@ std::string drawn_sheet(std::span<const Drawn> machines, std::size_t columns, do
   return svg.finish();
 }
 
-/// The rows of a sheet on pages, as many on each as it holds.
+/// The rows of a sheet divided into pages, as many rows as fit on each.
 std::vector<std::string> drawn_pages(std::span<const Drawn> machines, std::size_t columns,
                                      double column) {
   std::vector<std::string> pages;
@@ -152,7 +152,7 @@ std::vector<std::string> drawn_pages(std::span<const Drawn> machines, std::size_
   return pages;
 }
 
-/// The appendix of a paper: every machine, in rows.
+/// A sheet for a paper's appendix: all machines, in rows.
 Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId>& candidates,
                                double width) {
   constexpr double kGoodWidth = 84;
@@ -177,7 +177,8 @@ Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId
   return figure;
 }
 
-/// A table of weights has a title, as other figures with numbers have; other drawings have none.
+/// A table of weights has a title, like other figures with numbers; drawings of machines and trees
+/// have none.
 Svg with_heading(const Drawn& machine, const FigureOptions& options) {
   const bool is_table = architecture_of(machine.stored.controller) == Architecture::Network;
   const Svg& picture = machine.drawing.svg;
@@ -200,7 +201,7 @@ Expected<StoredController> controller_of(const MachineRecord& candidate, StoreRe
 Expected<StoredController> controller_of(const MachineRecord& candidate, std::int64_t schema,
                                          const Flavour* own) {
   const std::string id = to_string(candidate.candidate);
-  // A program's parameters may have the switches of machines.
+  // A program's parameters may have the same switches as machines.
   const bool is_machine = architecture_of_text(candidate.machine).has_value();
   if (!is_machine || (candidate.flavour.empty() && schema >= kFlavoursSchema)) {
     return bad_input(id +

@@ -4,8 +4,8 @@
 
 namespace swarmsmith {
 
-/// One maker a kind of figure (figure.h); each in a file of its own, with the plot's data and its
-/// drawing beside it.
+/// One function per kind of figure (figure.h), each in its own file beside the data and the drawing
+/// of its plot.
 
 Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options);

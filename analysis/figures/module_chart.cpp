@@ -17,28 +17,28 @@ namespace {
 constexpr double kLabelSize = 2.5;
 constexpr double kHeadingSize = 2.6;
 constexpr double kNumberSize = 2.5;
-constexpr double kLeastColumn = 17.6;  ///< two numbers side by side, mm
-constexpr double kGap = 1.5;           ///< between columns, and within one
+constexpr double kLeastColumn = 17.6;  ///< for two numbers side by side, mm
+constexpr double kGap = 1.5;           ///< between columns, and within a column
 constexpr double kRow = 7.5;
 constexpr double kBar = 1.5;
-constexpr double kPage = 240;  ///< what is higher becomes a grid
+constexpr double kPage = 240;  ///< a higher chart becomes a grid
 constexpr std::string_view kTrack = "#e8e8e8";
 TextStyle ink_of_size(double size, TextStyle::Anchor anchor = TextStyle::Anchor::Start) {
   return {.size = size, .anchor = anchor, .fill = std::string(kInk)};
 }
 
-/// Columns that stand side by side.
+/// Columns that are side by side.
 struct Stripe {
   const std::string* method = nullptr;
   std::span<const ModuleChart::Column> columns;
 };
 
-/// Where everything is.
+/// Positions and sizes in the chart.
 struct ChartLayout {
   double label = 0;   ///< width of the modules' names
   double column = 0;  ///< width of a column, without the gap
   std::size_t columns = 1;
-  double largest = 1;  ///< average that fills a bar
+  double largest = 1;  ///< the average that fills a bar
   bool names_methods = false;
   std::size_t heading_lines = 1;
 
@@ -54,7 +54,7 @@ ChartLayout layout_of(const ModuleChart& chart) {
   ChartLayout layout{.names_methods = chart.blocks.size() > 1};
   const double room = chart.width_mm - 2 * kMargin;
   for (const std::string& module : chart.modules) {
-    // On two lines; the longer one is as short as can be.
+    // On two lines, broken so that the longer line is as short as possible.
     double shortest = text_width(module, kLabelSize);
     for (std::size_t blank = 0; (blank = module.find(' ', blank)) != std::string::npos; ++blank) {
       const std::string_view text = module;
@@ -84,7 +84,7 @@ ChartLayout layout_of(const ModuleChart& chart) {
   return layout;
 }
 
-/// What the numbers and bars are, on lines.
+/// An explanation of the numbers and bars, in lines.
 std::vector<std::string> explanation_of(const ModuleChart& chart, const ChartLayout& layout) {
   std::string text = fmt::format(
       "mean: occurrences in a machine, on average, bars to {:.1f}; share: of the machines that "
@@ -116,7 +116,7 @@ std::vector<Stripe> stripes_of(const ModuleChart& chart, const ChartLayout& layo
   return stripes;
 }
 
-/// `all` of a bar is pale, and `reachable` of it is not.
+/// The bar's length is `all`, drawn pale; its part `reachable` is drawn in full colour.
 void draw_bar(Svg& svg, PagePoint at, double width, double all, double reachable,
               const std::string& color) {
   const auto box = [&](double right) {
@@ -144,7 +144,7 @@ void draw_cell(Svg& svg, PagePoint at, const ChartLayout& layout,
            distinct_color(4));
 }
 
-/// Mission, number of designs, and what the numbers below are.
+/// Draws the mission, the number of designs, and a label for the numbers below.
 void draw_heading_of(Svg& svg, const ModuleChart::Column& column, double left, double bottom,
                      const ChartLayout& layout) {
   const auto lines = broken_text(column.mission, kHeadingSize, layout.column, 3);

@@ -9,13 +9,13 @@
 
 namespace swarmsmith {
 
-/// How often winners have each module: a table with bars, rows of modules and columns of missions,
-/// the columns of a method below those of the other.
+/// How often winners have each module: a table with bars, with a row per module and a column per
+/// mission; the columns of different methods are below each other.
 struct ModuleChart {
   struct Column {
     std::string mission;
     std::size_t designs = 0;
-    std::vector<std::optional<ModuleCounts>> cells;  ///< one a module; none: a dash
+    std::vector<std::optional<ModuleCounts>> cells;  ///< one per module; empty: a dash
   };
   struct Block {
     std::string method;
@@ -27,11 +27,11 @@ struct ModuleChart {
   std::vector<std::string> modules;
   std::vector<Block> blocks;
   double width_mm = 84;
-  bool explained = true;  ///< says below how to read it
+  bool explained = true;  ///< adds an explanation below the chart
 };
 
-/// As SVG. Columns that do not fit side by side continue below; what then is higher than a page is
-/// drawn as a grid of methods a mission.
+/// The chart as SVG. Columns that do not fit side by side continue below; if the chart is then
+/// higher than a page, it becomes a grid of methods for each mission.
 std::string draw(const ModuleChart& chart);
 
 }  // namespace swarmsmith

@@ -18,7 +18,7 @@ namespace {
 
 using WinnerCounts = std::map<std::pair<std::string, std::string>, std::size_t>;
 
-/// Behaviours, then conditions, as the papers have them; what this program does not know last.
+/// Behaviours come before conditions, as in the papers; modules unknown to this program come last.
 bool stands_before(const std::string& a, const std::string& b) {
   const auto place = [](const std::string& id) {
     const auto module = module_from_id(id);
@@ -27,7 +27,7 @@ bool stands_before(const std::string& a, const std::string& b) {
   return std::tuple(place(a), a) < std::tuple(place(b), b);
 }
 
-/// Winners of each (method, mission).
+/// The number of winners for each (method, mission).
 WinnerCounts winners_of(const std::vector<DesignRecord>& all) {
   WinnerCounts counts;
   for (const DesignRecord& design : all)
@@ -53,7 +53,7 @@ std::vector<std::string> ids_of(const std::vector<ModuleFrequency>& frequencies)
   return ids;
 }
 
-/// Why there is nothing to draw.
+/// The reason why there is nothing to draw.
 std::string why_nothing(const std::vector<DesignRecord>& all, const WinnerCounts& counts) {
   if (counts.empty())
     return "none of these designs is finished yet; `swarmsmith ls designs` shows how far they are";
@@ -64,7 +64,7 @@ std::string why_nothing(const std::vector<DesignRecord>& all, const WinnerCounts
                      : "the winners have no modules: they configure a program";
 }
 
-/// Puts a number of the sorted table into its place.
+/// Adds a number of the sorted table to the chart.
 void add(ModuleChart& chart, const ModuleFrequency& frequency, std::size_t designs,
          const std::vector<std::string>& ids) {
   if (chart.blocks.empty() || chart.blocks.back().method != frequency.method)

@@ -17,15 +17,18 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kMostAxes = 10;
-constexpr std::size_t kMostNamed = 14;  ///< by the user; more would make too large a file
-/// Of the others: they show what was tried, and some 250 letters each keep the file small.
+constexpr std::size_t kMostNamed =
+    14;  ///< the maximum number that the user can name; more would make too large a file
+/// The maximum number of lines for other candidates, which show the range of what was tried. Each
+/// takes some 250 characters of the file.
 constexpr std::size_t kMostOthers = 250;
 
 bool has_several_values(const ParameterColumn& column) {
   return column.is_category() ? column.categories.size() > 1 : column.low < column.high;
 }
 
-/// Those that most candidates have; of equal ones those that moved most.
+/// The parameters that most candidates have; among equal ones, those whose distribution changed
+/// most come first.
 std::vector<std::size_t> most_active(const ParameterTable& table) {
   std::vector<std::size_t> order;
   std::vector<double> moved(table.columns.size());
@@ -43,12 +46,13 @@ std::vector<std::size_t> most_active(const ParameterTable& table) {
   return order;
 }
 
-/// Rows of the table that are drawn.
+/// The rows of the table that are drawn.
 struct DrawnLines {
   std::vector<std::size_t> elites;
   std::vector<std::size_t> others;
   std::size_t others_in_all = 0;
-  std::size_t every = 1;  ///< of the others, in the order in which they were sampled
+  std::size_t every =
+      1;  ///< interval between the others that are drawn, in the order in which they were sampled
   std::int64_t iteration = 0;
 };
 

@@ -32,7 +32,7 @@ std::string color_of(const ParallelLayout& at, double mean) {
   return sequential_color((mean - range.low) / (range.high - range.low));
 }
 
-/// Golden-ratio steps: neighbours fall far from each other, the same at every drawing.
+/// Golden-ratio steps: neighbouring lines are far apart, and every drawing has the same result.
 double spread_of(std::size_t line) {
   const double place = 0.61803398875 * static_cast<double>(line + 1);
   return place - std::floor(place) - 0.5;
@@ -42,7 +42,7 @@ void draw_lines(Svg& svg, const ParallelPlot& plot, const ParallelLayout& at) {
   std::vector<std::size_t> order(plot.lines.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     order[i] = i;
-  // The good ones on top of the bad ones, elites on top of all.
+  // Good candidates are on top of bad ones, and elites on top of all others.
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     if (plot.lines[a].is_elite != plot.lines[b].is_elite) return plot.lines[b].is_elite;
     return plot.lines[a].mean < plot.lines[b].mean;
@@ -51,7 +51,8 @@ void draw_lines(Svg& svg, const ParallelPlot& plot, const ParallelLayout& at) {
     const ParallelPlot::Line& line = plot.lines[i];
     std::vector<PagePoint> points;
     for (std::size_t p = 0; p < plot.parameters.size(); ++p) {
-      // Straight behind the labels, so that one sees a line go on below the label that hides it.
+      // The line is straight behind the labels, so that it visibly continues below a label that
+      // hides it.
       const double x = at.at(p, line.values[p], spread_of(i));
       points.push_back({x, at.row(p)});
       points.push_back({x, at.label_end(p)});
@@ -63,7 +64,7 @@ void draw_lines(Svg& svg, const ParallelPlot& plot, const ParallelLayout& at) {
   }
 }
 
-/// A text on a white ground, so that lines behind it do not cross it out.
+/// A text on a white background, so that lines do not cross it.
 void draw_label(Svg& svg, PagePoint base_line, const std::string& text) {
   const double half = text_width(text, kAxisText) / 2;
   const std::array<PagePoint, 4> ground = {{{base_line.x - half, base_line.y - 0.8 * kAxisText},
@@ -95,7 +96,7 @@ void draw_axes(Svg& svg, const ParallelPlot& plot, const ParallelLayout& at) {
   }
 }
 
-/// The axis of the score is the legend of the colours, too.
+/// The axis of the score is also the legend of the colours.
 void draw_score_axis(Svg& svg, const ParallelLayout& at) {
   constexpr double kStrip = 1.4;
   const double y = at.score_row();

@@ -14,7 +14,7 @@
 namespace swarmsmith {
 namespace {
 
-/// What the store has of one race.
+/// The store's data on one race.
 struct Race {
   DesignRecord design;
   IterationRecord iteration;
@@ -46,8 +46,8 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
     const auto found = std::ranges::find(*all, iteration, &IterationRecord::iteration);
     return found == all->end() ? IterationRecord{.iteration = iteration} : *found;
   };
-  // The one that is asked for, else the last; the race of what was left, after that, only when
-  // asked.
+  // The requested race, else the last one. The post-selection race at the end is shown only on
+  // request.
   const bool is_extra = record_of(*last).postselection && *last > 1;
   const std::int64_t wanted = options.iteration.value_or(is_extra ? *last - 1 : *last);
   auto matrix = race_matrix(store, id, wanted);
@@ -64,7 +64,7 @@ RacePlot::Row drawn(const RaceMatrix& matrix, const RaceMatrix::Row& row) {
   RacePlot::Row drawn{.name = to_string(row.candidate),
                       .elite_before = row.elite_before.has_value(),
                       .elite_after = row.elite_after.has_value()};
-  // Who was only not kept came to the end of the race.
+  // A candidate that was only not kept survived to the end of the race.
   if (!row.came_to_the_end()) drawn.dropped_after = row.dropped_after;
   for (std::size_t column = 0; column < matrix.steps.size(); ++column) {
     RacePlot::Cell& cell = drawn.cells.emplace_back();
@@ -138,7 +138,7 @@ Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
   if (!race->has_ended()) remark = " (goes on)";
   plot.details.push_back(fmt::format("Race of {}, iteration {}{}", to_string(race->design.design),
                                      race->iteration.iteration, remark));
-  // A budget of time has no number of experiments.
+  // A time budget has no number of experiments.
   plot.details.push_back(race->design.budget > 0
                              ? fmt::format("Budget: {} of the design's {} experiments",
                                            race->iteration.budget, race->design.budget)

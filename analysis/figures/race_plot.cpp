@@ -16,13 +16,13 @@
 namespace swarmsmith {
 namespace {
 
-/// Some 14 letters each: the file stays under 200 kB.
+/// Each run takes some 14 characters, so the file stays under 200 kB.
 constexpr std::size_t kMostRuns = 10'000;
 constexpr double kLargestColumn = 6;
 constexpr double kLargestRow = 3.6;
-constexpr double kTallest = 1.25;      ///< height of the matrix by the figure's width
-constexpr double kTallest_mm = 150;    ///< of a page
-constexpr double kMark = 1;            ///< width of the mark of an elite
+constexpr double kTallest = 1.25;      ///< height of the matrix relative to the figure's width
+constexpr double kTallest_mm = 150;    ///< on a page
+constexpr double kMark = 1;            ///< width of an elite's mark
 constexpr double kDropLine = 0.4;      ///< width of the line after the step that dropped a row
 constexpr double kLeastHeadRoom = 10;  ///< for the words before the two lines above the matrix
 constexpr std::string_view kDrop = "#d55e00";
@@ -38,7 +38,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kMarkers 
      {"c", "dropped by capping"},
      {":", "only elites ran"}}};
 
-/// Where the parts of the figure are, mm.
+/// Positions of the parts of the figure, mm.
 struct Layout {
   PlotArea matrix;
   double column = 0;  ///< width of a step
@@ -74,7 +74,7 @@ Layout layout_of(const RacePlot& plot) {
   return layout;
 }
 
-/// How many candidates lived, where that changes and there is room to say so.
+/// Writes the number of alive candidates where it changes and there is room for it.
 void draw_alive(Svg& svg, const RacePlot& plot, const Layout& at) {
   const double before = at.matrix.left - kMark - 1.4;
   svg.text({before, at.alive_line}, "alive", ink(TextStyle::Anchor::End));
@@ -100,7 +100,7 @@ struct MarkerStretch {
   bool dropped_some() const { return marker == "-" || marker == "c"; }
 };
 
-/// Each step, or stretches of equal markers.
+/// One stretch per step, or one per sequence of equal markers.
 std::vector<MarkerStretch> marker_stretches(const RacePlot& plot, bool each) {
   std::vector<MarkerStretch> stretches;
   for (std::size_t step = 0; step < plot.steps.size(); ++step) {
@@ -112,11 +112,12 @@ std::vector<MarkerStretch> marker_stretches(const RacePlot& plot, bool each) {
   return stretches;
 }
 
-/// One letter a step; where steps are narrower than a letter can be read, one for each stretch of
-/// equal ones, as far as there is room: those that dropped a candidate come first.
+/// Draws one letter per step. If steps are too narrow for a readable letter, draws one letter per
+/// sequence of equal markers, as far as there is room; markers of steps that dropped a candidate
+/// have priority.
 void draw_markers(Svg& svg, const RacePlot& plot, const Layout& at) {
-  constexpr double kLeast = 1.6;      ///< size of letters that are still read
-  constexpr double kOfStretch = 2.2;  ///< size where not each step has one
+  constexpr double kLeast = 1.6;      ///< size of the smallest readable letters
+  constexpr double kOfStretch = 2.2;  ///< size if not each step has a letter
   const double fitting = at.column / (1.1 * text_width("=", 1));
   const bool each = fitting >= kLeast;
   const double size = each ? std::min(fitting, kTextSize) : kOfStretch;
@@ -136,7 +137,7 @@ void draw_markers(Svg& svg, const RacePlot& plot, const Layout& at) {
   }
 }
 
-/// Names of the rows from the best, as many as stand clear of each other.
+/// Writes the names of the rows from the best one on, as many as fit.
 void draw_names(Svg& svg, const RacePlot& plot, const Layout& at) {
   double taken = 0;
   for (std::size_t row = 0; row < plot.rows.size(); ++row) {
@@ -164,7 +165,7 @@ void draw_cells(Svg& svg, const CellRuns& cells, const Layout& at) {
   }
 }
 
-/// Elites beside their rows, and the lines where rows end.
+/// Marks elites beside their rows, and draws lines where rows end.
 void draw_marks(Svg& svg, const RacePlot& plot, const Layout& at) {
   std::vector<PageBar> elites;
   std::vector<PageBar> drops;
@@ -176,12 +177,12 @@ void draw_marks(Svg& svg, const RacePlot& plot, const Layout& at) {
     if (candidate.dropped_after)
       drops.push_back({{at.column_left(*candidate.dropped_after + 1), middle}, kDropLine});
   }
-  // A little room between the marks of neighbours, as long as there is any.
+  // Leaves a small gap between neighbouring marks, if there is room.
   svg.bars(elites, std::max(0.8 * at.row, at.row - 0.4), kInk);
   svg.bars(drops, at.row + 0.01, kDrop);
 }
 
-/// Numbers of steps below the matrix, round ones as far as there is room.
+/// Writes the numbers of steps below the matrix, round ones as far as there is room.
 double draw_steps(Svg& svg, const RacePlot& plot, const Layout& at) {
   const double text = at.matrix.bottom() + 1 + kTextSize;
   if (plot.steps.empty()) return text;
@@ -205,7 +206,7 @@ double draw_steps(Svg& svg, const RacePlot& plot, const Layout& at) {
   return text + kLineHeight;
 }
 
-/// The colours of ranks.
+/// Draws the scale of rank colours.
 void draw_scale(Svg& svg, double base_line) {
   constexpr double kBox = 3.2;
   double x = kMargin;

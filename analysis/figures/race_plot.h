@@ -9,8 +9,8 @@
 
 namespace swarmsmith {
 
-/// One race as a matrix: a row a candidate, a column a step, each cell coloured by the candidate's
-/// rank in the step.
+/// One race as a matrix: one row per candidate, one column per step; the colour of a cell is the
+/// candidate's rank in the step.
 struct RacePlot {
   struct Step {
     std::int64_t number = 0;  ///< counted through all iterations of the design
@@ -20,29 +20,29 @@ struct RacePlot {
   struct Cell {
     enum class State { Absent, Ranked, Rejected };
     State state = State::Absent;
-    double part = 0;  ///< of a ranked one: 0 was the best of its step, 1 the worst
+    double part = 0;  ///< relative rank: 0 is the best of its step, 1 the worst
   };
   struct Row {
     std::string name;  ///< "c812"
     bool elite_before = false;
     bool elite_after = false;
-    std::optional<std::size_t> dropped_after;  ///< column; none for those that came to the end
-    std::vector<Cell> cells;                   ///< one a step
+    std::optional<std::size_t> dropped_after;  ///< column; empty if it survived to the end
+    std::vector<Cell> cells;                   ///< one per step
   };
 
   std::string title;
   std::vector<std::string> details;
   std::string description;  ///< for readers who cannot see the picture
   std::vector<Step> steps;
-  std::vector<Row> rows;  ///< from above
+  std::vector<Row> rows;  ///< from top to bottom
   double width_mm = 84;
 };
 
-/// As SVG. Cells shrink with their number; where they would make too large a file, columns of
-/// several steps share the cell of their mean rank, and the figure says so.
+/// The plot as SVG. The more cells, the smaller they are. If they would make the file too large,
+/// several steps share one cell with their mean rank, and the figure says so.
 std::string draw(const RacePlot& plot);
 
-/// What a marker of v_race_steps says, in a few words: "none dropped".
+/// The meaning of a marker of v_race_steps, in a few words: "none dropped".
 std::string_view meaning_of_marker(std::string_view marker);
 
 }  // namespace swarmsmith

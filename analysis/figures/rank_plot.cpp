@@ -18,14 +18,14 @@ namespace {
 
 constexpr double kRowHeight = 7;
 constexpr double kDot = 1.1;
-constexpr double kCap = 1.2;            ///< half the height of an interval's ends
-constexpr double kMostNamePart = 0.36;  ///< of the width, at most, for the names
+constexpr double kCap = 1.2;            ///< half the height of the caps of an interval
+constexpr double kMostNamePart = 0.36;  ///< maximum part of the width for the names
 constexpr std::size_t kNameLines = 2;
 constexpr std::string_view kBand = "#e4e4e4";
 constexpr std::string_view kGuide = "#d0d0d0";
 constexpr std::string_view kRankLabel = "mean rank (1 is best)";
 
-/// The best on top; of equal ones the first.
+/// The best is on top; ties stay in their order.
 std::vector<RankPlot::Row> by_rank(std::vector<RankPlot::Row> rows) {
   std::ranges::stable_sort(rows, {}, &RankPlot::Row::mean);
   return rows;
@@ -41,7 +41,7 @@ ValueRange range_of(const RankPlot::Panel& panel) {
   return rounded(range_over(ends), kUsualTicks);
 }
 
-/// What stands above a panel's rows, broken into lines that fit.
+/// The text above a panel's rows, broken into lines that fit.
 std::vector<std::string> lines_of(const RankPlot::Panel& panel, double width) {
   constexpr std::size_t kMostLines = 4;
   std::vector<std::string> lines;
@@ -97,7 +97,7 @@ double name_room(const RankPlot& plot) {
   return std::min(widest, kMostNamePart * plot.width_mm);
 }
 
-/// Returns where the next panel begins.
+/// Returns the top of the next panel.
 double draw_panel(Svg& svg, const RankPlot::Panel& panel, double top, double names) {
   const double width = svg.width() - 2 * kMargin;
   double y = top;
@@ -137,14 +137,14 @@ double draw_panel(Svg& svg, const RankPlot::Panel& panel, double top, double nam
   return top + height_of(panel, width);
 }
 
-/// "grid_exploration" as words of a sentence.
+/// "grid_exploration" in words, for a sentence.
 std::string missions_of(const ComparedRanks& ranks) {
   std::string names = fmt::format("{}", fmt::join(ranks.missions, ", "));
   std::ranges::replace(names, '_', ' ');
   return names;
 }
 
-/// A panel that stands alone needs no title: its source is among the details.
+/// A single panel needs no title, because its source is in the details.
 RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
   const FriedmanTest& test = ranks.test;
   RankPlot::Panel panel{.title = alone ? "" : ranks.source};
@@ -166,7 +166,7 @@ RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
   return panel;
 }
 
-/// By method where there are several, else by source.
+/// By method if there are several methods, else by source.
 Expected<Comparison> ranked(StoreReader& store, const FigureOptions& options) {
   ComparisonOptions asked{.by = CompareBy::Method,
                           .method = options.filter.method,
@@ -212,7 +212,7 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
                                 : fmt::format("{}", fmt::join(comparison->unranked, "; "));
     return unexpected(ErrorKind::NotFound, "there is nothing to rank: " + why);
   }
-  // The source of the campaign's tests first, as in other figures.
+  // The source of the campaign's tests comes first, as in other figures.
   std::stable_partition(
       comparison->ranks.begin(), comparison->ranks.end(),
       [&](const ComparedRanks& ranks) { return ranks.source == comparison->tested; });

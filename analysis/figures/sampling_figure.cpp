@@ -17,10 +17,10 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kMostPanels = 12;
-constexpr double kWide = 120;  ///< mm: from here on a line has more panels
+constexpr double kWide = 120;  ///< mm: from this width on, a line has more panels
 constexpr std::size_t kParts = 16, kManyParts = 32;
 
-/// The places of the columns that moved most, from the one that did so most.
+/// The indices of the columns whose distribution changed most, in descending order.
 std::vector<std::size_t> most_moved(const ParameterTable& table) {
   std::vector<double> moved;
   moved.reserve(table.columns.size());
@@ -34,7 +34,7 @@ std::vector<std::size_t> most_moved(const ParameterTable& table) {
   return order;
 }
 
-/// Iterations that sampled candidates, to their place.
+/// The index of each iteration that sampled candidates.
 std::map<std::int64_t, std::size_t> sampled_iterations(const ParameterTable& table) {
   std::map<std::int64_t, std::size_t> places;
   for (const SampledRecord& candidate : table.candidates)
@@ -82,7 +82,7 @@ SamplingPlot::Panel panel_of(const ParameterTable& table, const ParameterColumn&
   return panel;
 }
 
-/// What is counted: a value, or the lower and upper end of a part of the range.
+/// One row per counted item: a value, or the lower and upper end of a part of the range.
 std::string csv_of(const SamplingPlot& plot, DesignId design) {
   std::string csv = "design,parameter,iteration,candidates,kind,value,low,high,count\n";
   for (const auto& panel : plot.panels) {

@@ -14,7 +14,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kBetween = 3;  ///< panels
+constexpr double kBetween = 3;  ///< between panels
 constexpr double kSampleRatio = 0.62;
 constexpr double kTallestPanel = 40;
 constexpr std::size_t kMostCaptionLines = 6;
@@ -26,7 +26,7 @@ CategoryColors colors_of(const SamplingPlot& plot) {
   return CategoryColors(lists);
 }
 
-/// First and last iteration below a panel.
+/// Writes the first and the last iteration below a panel.
 void draw_iterations(Svg& svg, const SamplingPlot& plot, const PlotArea& area) {
   if (plot.iterations.empty()) return;
   const double y = area.bottom() + 0.6 + kTextSize;
@@ -37,7 +37,8 @@ void draw_iterations(Svg& svg, const SamplingPlot& plot, const PlotArea& area) {
            ink(TextStyle::Anchor::End));
 }
 
-/// A paragraph for each family of values, with the panels that have it, and one for numbers.
+/// One paragraph for each family of values, with the panels that have it, and one paragraph for
+/// numbers.
 std::vector<FlowingLegend> legends_of(const SamplingPlot& plot, const CategoryColors& colors) {
   std::vector<std::vector<LegendEntry>> paragraphs;
   for (const auto& family : colors.families()) {
@@ -72,7 +73,7 @@ double head_of(const SamplingPlot& plot) {
   return kMargin + kTitleSize + kLineHeight * static_cast<double>(plot.details.size()) + 2;
 }
 
-/// Room for the numbers left of the panels.
+/// The width of the numbers left of the panels.
 double ends_room(const SamplingPlot& plot) {
   double widest = text_width("0", kTextSize);
   for (const auto& panel : plot.panels) {

@@ -27,7 +27,7 @@ ValueRange range_of(const ScatterPlot::Panel& panel) {
   return rounded(range_over(all), kUsualTicks);
 }
 
-/// For the texts of the vertical ticks: the same in all panels, so that these line up.
+/// The width of the vertical axis's labels; the same in all panels, so that they are aligned.
 double room_of(const ScatterPlot& plot) {
   double room = 0;
   for (const ScatterPlot::Panel& panel : plot.panels)
@@ -35,8 +35,8 @@ double room_of(const ScatterPlot& plot) {
   return room;
 }
 
-/// The side of a panel's square: as the width allows, and so that all rows fit on a page where that
-/// leaves them readable. `other`: what else the figure has, in height.
+/// The side of a panel's square: as wide as possible, but small enough that all rows fit on a page
+/// if they remain readable. `other`: height of the rest of the figure.
 double side_of(double width, std::size_t rows, double other) {
   constexpr double kHalfOfTheLastTick = 4;
   const double fits = (kFigurePage_mm - other) / static_cast<double>(rows);

@@ -7,8 +7,8 @@
 
 namespace swarmsmith {
 
-/// Points of pairs of values that have one unit, a panel beside the other. Both axes of a panel
-/// have the same range, and a dashed line says where both values are the same.
+/// Points for pairs of values with the same unit, in panels side by side. Both axes of a panel have
+/// the same range, and a dashed line shows where the two values are equal.
 struct ScatterPlot {
   struct Point {
     double x = 0;
@@ -24,11 +24,11 @@ struct ScatterPlot {
   std::string horizontal;
   std::string vertical;
   std::vector<Panel> panels;
-  std::vector<std::pair<std::size_t, std::string>> groups;  ///< what the colours stand for
+  std::vector<std::pair<std::size_t, std::string>> groups;  ///< the meaning of the colours
   double width_mm = 84;
 };
 
-/// As SVG.
+/// The plot as SVG.
 std::string draw(const ScatterPlot& plot);
 
 }  // namespace swarmsmith

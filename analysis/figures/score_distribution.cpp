@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kLeastHistogram = 38;
 constexpr double kHistogramRatio = 0.62;
-constexpr double kBars = 0.8;  ///< part of a bin that its bars fill
+constexpr double kBars = 0.8;  ///< part of a bin's width that its bars fill
 constexpr double kShareSize = 2.2;
 constexpr std::string_view kShare = "share of the group's scores, %";
 
@@ -34,7 +34,7 @@ std::vector<double> values_of(const ScorePanel& panel) {
   return all;
 }
 
-/// How many of the values are in each bin.
+/// The number of values in each bin.
 std::vector<std::size_t> counts_of(const ScoreGroup& group, const ScoreBins& bins) {
   std::vector<std::size_t> counts(bins.count, 0);
   for (const double value : group.values)
@@ -63,7 +63,7 @@ ValueRange range_of(const ScoreBins& bins) {
   return {bins.low, edge_of(bins, bins.count)};
 }
 
-/// The width of the texts at ends of bins.
+/// The width of the widest label at the ends of bins.
 double widest_edge(const ScoreBins& bins) {
   double widest = 0;
   for (std::size_t i = 0; i <= bins.count; ++i)
@@ -71,7 +71,7 @@ double widest_edge(const ScoreBins& bins) {
   return widest;
 }
 
-/// The panel's area: of a histogram the texts of ticks reach over its ends.
+/// The panel's area. In a histogram, tick labels extend beyond its ends.
 PlotArea histogram_area(const ScorePanel& panel, double left, double top, double width) {
   const ScoreBins bins = score_bins(values_of(panel));
   const double beyond = bins.single ? 0 : widest_edge(bins) / 2;
@@ -96,7 +96,8 @@ void draw_bar(Svg& svg, double left, double right, double top, double bottom,
   svg.polygon(corners, filled(color));
 }
 
-/// Bars side by side within each bin, and their counts above them where the bars are wide enough.
+/// Draws bars side by side within each bin, and their counts above them if the bars are wide
+/// enough.
 void draw_bars(Svg& svg, const ScorePanel& panel, const ScoreBins& bins, const PlotArea& area,
                const Axis& y) {
   const Bands bands(bins.count, area.left, area.right());
@@ -122,7 +123,7 @@ void draw_bars(Svg& svg, const ScorePanel& panel, const ScoreBins& bins, const P
   }
 }
 
-/// The axis of a histogram: its ticks are ends of bins, as many as have room.
+/// Draws the axis of a histogram: its ticks are ends of bins, as many as fit.
 void draw_edges(Svg& svg, const ScoreBins& bins, const PlotArea& area) {
   const Axis x(range_of(bins), area.left, area.right());
   const double apart = area.width / static_cast<double>(bins.count);
@@ -141,7 +142,7 @@ void draw_edges(Svg& svg, const ScoreBins& bins, const PlotArea& area) {
 
 void draw_histogram(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   const ScoreBins bins = score_bins(values_of(panel));
-  // Room for the count above the highest bar.
+  // Leaves room for the count above the highest bar.
   const Axis y(shares_of(panel, bins), area.bottom(), area.top + 2);
   draw_vertical_axis(svg, area, y, "");
   draw_bars(svg, panel, bins, area, y);
@@ -156,7 +157,8 @@ void draw_histogram(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
            {.size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)});
 }
 
-/// Keeps the store's colours, if no two groups share one; the number of groups.
+/// Keeps the store's colours if no two groups share a colour, else assigns new ones. Returns the
+/// number of groups.
 std::size_t give_each_a_color(ScoreDistribution& plot) {
   std::map<std::string, std::size_t> colors;
   std::set<std::size_t> taken;

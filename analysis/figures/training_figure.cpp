@@ -17,13 +17,13 @@
 namespace swarmsmith {
 namespace {
 
-/// A winner, with what it scored in its race and in its tests.
+/// A winner, with its scores in its race and in its tests.
 struct Trained {
   DesignRecord design;
   ScoreValue tests;
 };
 
-/// Of races alone: machines to compare with were not trained.
+/// Only designs with races: baselines were not trained.
 std::vector<Trained> trained(std::vector<DesignRecord> all, const std::vector<ScoreValue>& values) {
   std::vector<Trained> winners;
   for (DesignRecord& design : all) {

@@ -8,24 +8,24 @@
 
 namespace swarmsmith {
 
-/// A controller's picture in all its forms. A machine is drawn as states and conditions, a tree as
-/// a tree of the same shapes, a network as a table of its weights with a colour each.
+/// A picture of a controller in all formats. A machine is drawn as states and conditions; a tree as
+/// a tree of the same shapes; a network as a table of its weights, each with a colour.
 struct ControllerDrawing {
   Svg svg;
   std::string tikz;
-  std::string dot;  ///< places are Graphviz' own; a network's inputs and wheels are nodes there
+  std::string dot;  ///< Graphviz chooses the positions; a network's inputs and wheels become nodes
 };
 
-/// `title` is what a screen reader says and nothing visible. States of a machine and actions of a
-/// tree are parts named `data-state`, numbered as `ControlSoftware::state` is. The height follows
-/// from the width.
+/// `title` is for screen readers and not visible. States of a machine and actions of a tree are
+/// parts named `data-state`, numbered like `ControlSoftware::state`. The height follows from the
+/// width.
 ///
-/// Throws std::invalid_argument when a module is none of the flavour's, a machine or tree is not as
-/// it must be (`lay_out`), or the page is narrower than `kNarrowestMachine_mm`.
+/// Throws std::invalid_argument if a module does not belong to the flavour, a machine or tree is
+/// not valid (`lay_out`), or the page is narrower than `kNarrowestMachine_mm`.
 ControllerDrawing drawing_of(const Controller& controller, const Flavour& flavour, double width_mm,
                              std::string_view title);
 
-/// What a reader of the picture needs to know, a sentence.
+/// One sentence that explains the picture to a reader.
 std::string_view explanation_of(Architecture architecture);
 
 }  // namespace swarmsmith

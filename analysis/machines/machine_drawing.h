@@ -8,20 +8,21 @@
 
 namespace swarmsmith {
 
-/// A laid out machine as text, the same words and, but for DOT, the same places in each form.
-/// Colours and, for prints without them, dashes follow the transition's source.
+/// A machine with a layout, written in several formats with the same texts and, except in DOT, the
+/// same positions. A transition has the colour of its source state, and the same dashes for prints
+/// without colours.
 
-/// A picture; `title` is what a screen reader says and nothing visible. Each state is a part named
-/// `data-state`, so that a page can light up what acts.
+/// The picture. `title` is for screen readers and not visible. Each state is a part named
+/// `data-state`, so that a page can highlight the active state.
 Svg drawing_of(const MachineLayout& layout, std::string_view title);
-/// The same as a file of SVG.
+/// The picture as an SVG file.
 std::string svg_of(const MachineLayout& layout, std::string_view title);
 
-/// A `tikzpicture` for a document that has loaded TikZ, without further libraries; 1 mm is 1 mm.
-/// It can be read with \input. Fonts are the document's sans serif.
+/// A `tikzpicture` for a document that has loaded TikZ; needs no other libraries; 1 mm is 1 mm. Can
+/// be included with \input. Uses the document's sans-serif font.
 std::string tikz_of(const MachineLayout& layout);
 
-/// For Graphviz: states are nodes, and so are conditions. Places are Graphviz' own.
+/// For Graphviz: states and conditions are nodes. Graphviz chooses the positions.
 std::string dot_of(const MachineLayout& layout, std::string_view title);
 
 }  // namespace swarmsmith

@@ -29,7 +29,7 @@ void refuse_wrong(const Machine& machine, double width_mm) {
   }
 }
 
-/// Shapes with their labels and sizes, without their places.
+/// Shapes with their labels and sizes, but without positions.
 MachineLayout without_places(const Machine& machine, const Flavour& flavour,
                              const LabelSizes& sizes) {
   MachineLayout layout;
@@ -80,7 +80,7 @@ void put(MachineLayout& layout, const PlacingTask& task, const Placing& placing)
   }
 }
 
-/// Moves all to the middle of the page, below its upper margin, and ends the page below all.
+/// Centres everything on the page, below its upper margin, and sets the height of the page.
 void fit_page(MachineLayout& layout, double width_mm) {
   PagePoint low{1e9, 1e9};
   PagePoint high{-1e9, -1e9};

@@ -22,7 +22,8 @@ Svg drawing_of(const MachineLayout& layout, std::string_view title) {
       layout.width, layout.height, title,
       "Probabilistic finite state machine: circles are behaviours, the double one is the initial "
       "state; pointed boxes are conditions");
-  // All curves below all boxes, so that a box hides a curve and never a text.
+  // All curves are below all boxes, so that a box may hide a curve, but a curve never covers a
+  // text.
   for (const ConditionShape& shape : layout.conditions) {
     Paint paint = stroked(color_of(layout, shape.source), kEdgeWidth);
     paint.dashes = state_dashes(shape.source);

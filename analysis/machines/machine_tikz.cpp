@@ -16,7 +16,7 @@ std::string tikz_lines(const std::vector<LabelLine>& lines, bool grey) {
 
 std::string tikz_edge(const MachineLayout& layout, const ConditionShape& shape) {
   const auto [begin, control, end] = shape.curve;
-  // The cubic curve that is the quadratic one.
+  // Converts the quadratic curve to a cubic one.
   const auto towards = [control = control](PagePoint from) {
     return PagePoint{from.x + (control.x - from.x) * 2 / 3, from.y + (control.y - from.y) * 2 / 3};
   };
@@ -52,7 +52,7 @@ std::string tikz_condition(const MachineLayout& layout, const ConditionShape& sh
 }  // namespace
 
 std::string tikz_of(const MachineLayout& layout) {
-  // The page's y goes down, TikZ' up.
+  // On the page y goes down, in TikZ it goes up.
   std::string text = "\\begin{tikzpicture}[x=1mm,y=-1mm]\n";
   text += fmt::format("\\useasboundingbox (0,0) rectangle ({:.2f},{:.2f});\n", layout.width,
                       layout.height);

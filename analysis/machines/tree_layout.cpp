@@ -15,16 +15,16 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kDrop = 5;     ///< room for the edges between two levels
-constexpr double kLeafGap = 2;  ///< between shapes side by side, and one below the other
+constexpr double kDrop = 5;     ///< height of the edges between two levels
+constexpr double kLeafGap = 2;  ///< between shapes side by side or below each other
 constexpr double kLane = 1.8;   ///< from a condition's box to the edge that passes it
 constexpr double kWidestGap = 12;
 
-/// How a tree is drawn.
+/// The form in which a tree is drawn.
 struct Form {
   LabelSizes sizes;
-  bool narrow = false;   ///< a word a line
-  bool stepped = false;  ///< actions below their conditions
+  bool narrow = false;   ///< one word per line
+  bool stepped = false;  ///< actions are below their conditions
 };
 
 LeafShape condition_shape(const Condition& condition, const Flavour& flavour, const Form& form) {
@@ -41,7 +41,7 @@ LeafShape action_shape(const Behaviour& action, const Flavour& flavour, const Fo
   return {.centre = {}, .lines = lines_of(form.narrow ? narrowed(label) : label, form.sizes.state)};
 }
 
-/// Shapes with their labels and sizes, without their places.
+/// Shapes with their labels and sizes, but without positions.
 TreeLayout without_places(const Tree& tree, const Flavour& flavour, const Form& form) {
   TreeLayout layout;
   layout.sign_size = 1.3 * form.sizes.state;
@@ -66,7 +66,7 @@ double width_of(const SubtreeShape& shape, const Form& form) {
   return shape.condition.width + kLeafGap + shape.action.width;
 }
 
-/// Of all subtrees, with the least gaps between them.
+/// The width of all subtrees with the smallest gaps between them.
 double least_width(const TreeLayout& layout, const Form& form) {
   double width = -kLeafGap;
   for (const SubtreeShape& shape : layout.subtrees)
@@ -79,7 +79,7 @@ void put(LeafShape& shape, PagePoint centre) {
   move_lines(shape.lines, centre);
 }
 
-/// Side by side, their middles at one height.
+/// Places them side by side, with their centres at the same height.
 void put_beside(SubtreeShape& shape, double left, double top, double row_height) {
   const double y = top + row_height / 2;
   put(shape.condition, {left + shape.condition.width / 2, y});
@@ -87,7 +87,7 @@ void put_beside(SubtreeShape& shape, double left, double top, double row_height)
   shape.selector.x = (shape.condition.centre.x + shape.action.centre.x) / 2;
 }
 
-/// The action below the condition; `row_height` is that of the highest condition.
+/// Places the action below the condition; `row_height` is the height of the highest condition.
 void put_below(SubtreeShape& shape, double left, double top, double row_height, double width) {
   const double x = left + width / 2;
   put(shape.condition, {x, top + shape.condition.height / 2});
@@ -95,7 +95,7 @@ void put_below(SubtreeShape& shape, double left, double top, double row_height, 
   shape.selector.x = x;
 }
 
-/// Where a line to the circle's middle meets it.
+/// The point where a line from `from` to the circle's centre meets the circle.
 PagePoint on_circle(const LeafShape& circle, PagePoint from) {
   const PagePoint away = from - circle.centre;
   return circle.centre + (circle.width / 2 / std::max(1e-9, length_of(away))) * away;
@@ -112,7 +112,7 @@ void connect(TreeLayout& layout, SubtreeShape& shape, const Form& form) {
     shape.to_action = {below, on_circle(shape.action, {shape.action.centre.x, below.y})};
     return;
   }
-  // Past the condition, on its right.
+  // Passes the condition on its right side.
   const double lane = box.centre.x + box.width / 2 + kLane / 2;
   const PagePoint beside{lane, box.centre.y - box.height / 2};
   const PagePoint corner{lane, std::max(box.centre.y + box.height / 2,
@@ -120,13 +120,13 @@ void connect(TreeLayout& layout, SubtreeShape& shape, const Form& form) {
   shape.to_action = {below, beside, corner, on_circle(shape.action, corner)};
 }
 
-/// Places all within the page, subtrees evenly apart.
+/// Places everything on the page, with subtrees evenly spaced.
 void place(TreeLayout& layout, const Form& form, double width_mm) {
   const auto count = static_cast<double>(layout.subtrees.size());
   const double spare = width_mm - 2 * kMargin - least_width(layout, form);
   const double gap = kLeafGap + (count > 1 ? std::min(spare / (count - 1), kWidestGap) : 0);
   double left = (width_mm - least_width(layout, form) - (count - 1) * (gap - kLeafGap)) / 2;
-  // Long edges are not too flat.
+  // Keeps long edges from being too flat.
   const double selectors = kMargin + layout.node_side * 1.5 + std::max(kDrop, 0.06 * width_mm);
   const double top = selectors + layout.node_side / 2 + kDrop;
   double row_height = 0;
@@ -167,7 +167,7 @@ TreeLayout lay_out(const Tree& tree, const Flavour& flavour, double width_mm) {
   form.narrow = true;
   while (true) {
     TreeLayout layout = without_places(tree, flavour, form);
-    // A tree of a hundred subtrees would not fit with the smallest letters either.
+    // A tree with a hundred subtrees would not even fit with the smallest letters.
     if (least_width(layout, form) <= width_mm - 2 * kMargin || form.sizes.state < 0.5) {
       place(layout, form, width_mm);
       return layout;

@@ -8,11 +8,11 @@ namespace swarmsmith {
 
 struct Tree;
 
-/// Where everything of a drawn behaviour tree stands on the page: the root above, a selector below
-/// it for each subtree, and below each selector its condition in a pointed box and its action in a
-/// circle, as in pictures of machines. Lengths are mm.
+/// Positions of all parts of a drawn behaviour tree: the root at the top, below it a selector for
+/// each subtree, and below each selector its condition in a pointed box and its action in a circle,
+/// as in pictures of machines. Lengths are mm.
 
-/// A condition's box, with its points, or an action's circle, as wide as it is high.
+/// A condition's box including its points, or an action's circle, whose width is its height.
 struct LeafShape {
   PagePoint centre;
   double width = 0;
@@ -21,10 +21,10 @@ struct LeafShape {
 };
 
 struct SubtreeShape {
-  PagePoint selector;  ///< middle of its square
+  PagePoint selector;  ///< centre of its square
   LeafShape condition;
   LeafShape action;
-  /// From node to node.
+  /// Lines between the nodes.
   std::vector<PagePoint> to_selector;
   std::vector<PagePoint> to_condition;
   std::vector<PagePoint> to_action;
@@ -33,18 +33,18 @@ struct SubtreeShape {
 struct TreeLayout {
   double width = 0;
   double height = 0;
-  double node_side = 0;  ///< of the squares of root and selectors
-  double sign_size = 0;  ///< of the letters in them
+  double node_side = 0;  ///< side of the squares of root and selectors
+  double sign_size = 0;  ///< size of the letters in the squares
   PagePoint root;
-  std::vector<SubtreeShape> subtrees;  ///< from left to right, in the tree's order
+  std::vector<SubtreeShape> subtrees;  ///< from left to right, in the order of the tree
 };
 
-/// Condition and action stand side by side where all of them fit into the page, else the action
-/// below its condition; where that is too wide, too, letters get smaller. The height follows. A
-/// pure function.
+/// Condition and action are side by side if all of them fit on the page, else the action is below
+/// its condition; if that is too wide, too, letters are made smaller. The height follows from the
+/// width. A pure function.
 ///
-/// Throws std::invalid_argument when the tree has no subtree, a module is none of the flavour's, or
-/// the page is narrower than `kNarrowestMachine_mm`.
+/// Throws std::invalid_argument if the tree has no subtree, a module does not belong to the
+/// flavour, or the page is narrower than `kNarrowestMachine_mm`.
 TreeLayout lay_out(const Tree& tree, const Flavour& flavour, double width_mm);
 
 }  // namespace swarmsmith

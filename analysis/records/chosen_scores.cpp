@@ -41,7 +41,7 @@ bool has_designs_to_compare(const std::vector<DesignScore>& scores) {
   });
 }
 
-/// What the scores are of, in words.
+/// The origin of the scores, in words.
 std::string purposes_of(const std::vector<DesignScore>& scores) {
   if (std::ranges::all_of(scores, is_of_campaign)) return "tests";
   return std::ranges::any_of(scores, is_of_campaign) ? "tests or later runs" : "later runs";

@@ -8,39 +8,40 @@
 
 namespace swarmsmith {
 
-/// Which scores stand for the designs, and what one value is: the same in figures, tables, tests
-/// and sentences, so that their n are the same.
+/// Selects the scores that represent the designs, and the meaning of one value. Figures, tables,
+/// tests and sentences all use this, so that their n agree.
 
-/// What one value is. Runs of a design are not independent of each other, so that tests over runs
-/// of several designs see more certainty than there is.
+/// The meaning of one value. Runs of a design are not independent of each other, so tests over runs
+/// of several designs overestimate the certainty.
 enum class ScoreUnit {
   Design,  ///< the mean of its runs
   Run,
 };
 
 struct ScoreChoice {
-  /// As DesignScore::purpose; `all`. Empty: of each mission and source the campaign's tests,
-  /// further profiles included, and where there are none what was asked for later. So nothing that
-  /// a user evaluates afterwards changes the numbers of a campaign that tests its winners.
+  /// As DesignScore::purpose, or `all`. Empty: for each mission and source the campaign's tests,
+  /// including further profiles, or the later scores if there are no tests. So later evaluations by
+  /// a user do not change the numbers of a campaign that tests its winners.
   std::string purpose;
-  /// None: a design, but a run where no mission, method and source has more than one design.
+  /// Empty: a design; but a run if no combination of mission, method and source has several
+  /// designs.
   std::optional<ScoreUnit> unit;
 
   friend bool operator==(const ScoreChoice&, const ScoreChoice&) = default;
 };
 
 struct ChosenScores {
-  std::vector<DesignScore> scores;  ///< in their order
+  std::vector<DesignScore> scores;  ///< in their original order
   ScoreUnit unit = ScoreUnit::Design;
   std::string said;  ///< for captions: "a value is a design: the mean of its tests"
 };
 
 ChosenScores chosen(std::vector<DesignScore> scores, const ScoreChoice& choice);
 
-/// A value of a figure, a table or a test.
+/// A value in a figure, a table or a test.
 struct ScoreValue {
-  /// That of the run; for a design that of its first run, with the mean as its score, and purpose
-  /// `all` where its runs have several.
+  /// The score of the run. For a design: the score of its first run with the mean instead of the
+  /// score, and purpose `all` if its runs have several purposes.
   DesignScore score;
   std::vector<double> runs;
 };
@@ -48,8 +49,8 @@ struct ScoreValue {
 /// In the order of the scores.
 std::vector<ScoreValue> values_of(const ChosenScores& taken);
 
-/// A warning where designs have scores of two sources and ran on other seeds in the one than in the
-/// other: their difference then is one of seeds, too. None for robots, whose runs have no seeds.
+/// A warning if designs have scores from two sources but ran on different seeds in them: a
+/// difference may then come from the seeds. No warning for robots, whose runs have no seeds.
 std::optional<std::string> seeds_differ(const std::vector<DesignScore>& scores,
                                         const std::string& first, const std::string& second);
 

@@ -5,15 +5,16 @@
 
 namespace swarmsmith {
 
-/// How names of methods, missions, sources and modules are ordered and shown, in every figure,
-/// table and sentence.
+/// Order and form of the names of methods, missions, sources and modules in all figures, tables and
+/// sentences.
 
-/// By the letters, the source `real` last, since differences are those of simulation to reality.
+/// Alphabetical, but the source `real` comes last, so that differences are simulation minus
+/// reality.
 struct NameOrder {
   bool operator()(std::string_view a, std::string_view b) const;
 };
 
-/// "color_selection" as people write it: "color selection".
+/// "color_selection" in words: "color selection".
 std::string as_words(std::string name);
 
 }  // namespace swarmsmith

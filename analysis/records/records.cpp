@@ -26,7 +26,7 @@ std::optional<CandidateId> maybe_candidate(const Cell& cell) {
   return cell.is_null() ? std::nullopt : std::optional(CandidateId{cell.integer()});
 }
 
-/// " WHERE ..." over the columns mission, method and design of `table`.
+/// " WHERE ..." for the columns mission, method and design of `table`.
 std::string where(const RecordFilter& filter, std::string_view table = "") {
   std::vector<std::string> terms;
   if (!filter.mission.empty())
@@ -37,7 +37,7 @@ std::string where(const RecordFilter& filter, std::string_view table = "") {
   return terms.empty() ? "" : fmt::format(" WHERE {}", fmt::join(terms, " AND "));
 }
 
-/// What stands for the flavour of a design `d`: stores of a schema before 4 do not have it.
+/// SQL for the flavour of a design `d`; a constant in stores with a schema before 4, which lack it.
 Expected<std::string> flavour_column(StoreReader& store) {
   std::string column = "''";
   const auto end = store.query(
@@ -69,7 +69,7 @@ Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, c
 
 Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
   return read<CampaignRecord>(
-      store,  // An imported one has no file that could be run.
+      store,  // an imported campaign has no file that could be run
       "SELECT campaign, name, seed, digest, iif(state = 'imported', '', file) FROM v_campaigns "
       "ORDER BY campaign",
       [](const Cells& row) {
@@ -82,8 +82,8 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
 }
 
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
-  // Candidate, source, instance and seed are those of one score alone, whatever made it. As a join:
-  // SQLite looks through all of a list of rows for each row.
+  // Candidate, source, instance and seed identify one score. This is a LEFT JOIN, because for a
+  // condition with IN, SQLite would search the whole list of rows for each row.
   const std::string transfers =
       "SELECT DISTINCT candidate, source, instance, seed FROM v_evaluations WHERE purpose IN " +
       words_in_sql(is_transfer) + " AND candidate IN (SELECT best_candidate FROM v_designs" +
@@ -114,7 +114,7 @@ Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const Recor
                                              .score = row[10].real()};
                         });
   if (!scores) return scores;
-  // No program writes such a score; no axis and no bin could hold it.
+  // Programs never write such a score; no axis and no bin could contain it.
   const auto wrong = std::ranges::find_if(
       *scores, [](const DesignScore& score) { return !std::isfinite(score.score); });
   if (wrong == scores->end()) return scores;
@@ -130,7 +130,7 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
   return read<DesignRecord>(
       store,
       "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
-      " d.best_candidate, d.best_mean, "  // a LEFT JOIN would make all rows of v_candidates
+      " d.best_candidate, d.best_mean, "  // a LEFT JOIN would compute all rows of v_candidates
       "coalesce((SELECT c.fsm_config FROM v_candidates AS c WHERE c.candidate = d.best_candidate),"
       " ''), " +
           *flavour + " FROM v_designs AS d" + where(filter, "d.") + " ORDER BY d.design",
@@ -238,7 +238,7 @@ std::string search_of(StoreReader& store, DesignId design) {
                   "d.method || '.search' WHERE d.design = {}",
                   design.value),
       [](const Cells& row) { return row[0].text; });
-  // Stores of old schemas, which know of races alone, miss some of it.
+  // Stores with old schemas, which only know races, lack a part of this.
   std::string name = !names || names->empty() ? "" : names->front();
   std::erase(name, '"');
   return name;

@@ -12,27 +12,27 @@
 
 namespace swarmsmith {
 
-/// What figures, tables and tests of a paper begin with: rows of the store's views
-/// (docs/storage.md) as plain values, in the order of the view's keys. They read nothing but the
-/// views, so that anyone can have the same numbers by SQL.
+/// The data for a paper's figures, tables and tests: rows of the store's views (docs/storage.md) as
+/// plain values, in the order of the view's keys. Only the views are read, so that everyone can get
+/// the same numbers by SQL.
 
-/// A figure of more could not be drawn.
+/// A figure with more rows could not be drawn.
 inline constexpr StoreReader::QueryLimits kRecordLimits{
     .rows = 50'000'000,
     .seconds = 600,
     .bytes = std::numeric_limits<std::int64_t>::max(),
     .memory = std::int64_t{1} << 30U};
 
-/// A score that a finished design's winner got outside of its race.
+/// A score of a finished design's winner from outside its race.
 struct DesignScore {
   DesignId design;
   std::string mission;
   std::string method;
   std::int64_t repetition = 0;
   CandidateId candidate;
-  std::string source;   ///< a simulator profile, `real`, or what an import called it
-  std::string purpose;  ///< `test` (on the campaign's own seeds), `score` (asked for later)
-  /// A `score` that its campaign made itself: a test under a further profile of [tests].
+  std::string source;   ///< a simulator profile, `real`, or a name from an import
+  std::string purpose;  ///< `test` (on the campaign's own seeds), `score` (evaluated later)
+  /// A `score` that the campaign itself made: a test under a further profile of [tests].
   bool is_transfer = false;
   std::int64_t pair = 0;
   std::int64_t instance = 0;
@@ -40,16 +40,16 @@ struct DesignScore {
   double score = 0;
 };
 
-/// A campaign that the store holds.
+/// A campaign in the store.
 struct CampaignRecord {
   std::int64_t campaign = 0;  ///< its number in the store, from 1
   std::string name;
   std::int64_t seed = 0;
-  std::string digest;  ///< of what decides its answer
-  std::string file;    ///< normalised
+  std::string digest;  ///< of the settings that decide its answer
+  std::string file;    ///< the normalised file
 };
 
-/// A design and its best machine, the winner when it is finished.
+/// A design and its best machine; that is the winner if the design is finished.
 struct DesignRecord {
   DesignId design;
   std::string mission;
@@ -61,9 +61,9 @@ struct DesignRecord {
   std::int64_t iteration = 0;
   std::optional<CandidateId> best;
   std::optional<double> best_mean;
-  std::string machine;  ///< of the best; text of the grammar, empty without one
-  /// That it is written in; empty for the parameters of a program, and in stores of a schema before
-  /// 4 that no program has written to since.
+  std::string machine;  ///< text of the best machine in the grammar; empty if there is none
+  /// Flavour of the machine's text. Empty for the parameters of a program, and in stores with a
+  /// schema before 4 that no program has written to since.
   std::string flavour;
 };
 
@@ -74,7 +74,7 @@ struct MachineRecord {
   std::string mission;
   std::string method;
   std::int64_t repetition = 0;
-  std::string machine;  ///< text of the grammar, or a program's configuration
+  std::string machine;  ///< text in the grammar, or a program's configuration
   std::string flavour;  ///< as in DesignRecord
 };
 
@@ -89,13 +89,13 @@ struct EliteRecord {
   std::int64_t experiments_used = 0;
 };
 
-/// A candidate on the pair of one step of a race.
+/// The evaluation of a candidate on the pair of one step of a race.
 struct RaceCell {
   std::int64_t step = 0;
   std::int64_t pair = 0;
   CandidateId candidate;
-  std::optional<double> score;  ///< none when rejected
-  std::optional<double> rank;   ///< 1 is best, ties share their mean
+  std::optional<double> score;  ///< empty if rejected
+  std::optional<double> rank;   ///< 1 is best; ties share their mean rank
 };
 
 /// A step of a race, and the test after it.
@@ -122,28 +122,28 @@ struct EliminationRecord {
   std::string reason;
 };
 
-/// An iteration, one race of a design.
+/// An iteration, which is one race of a design.
 struct IterationRecord {
   std::int64_t iteration = 0;
   std::int64_t planned = 0;  ///< iterations planned when it began
-  std::int64_t budget = 0;   ///< experiments that it could use
+  std::int64_t budget = 0;   ///< maximum number of experiments
   std::int64_t configurations = 0;
-  bool postselection = false;  ///< the race after the last, with what was left
+  bool postselection = false;  ///< an additional race at the end, with the remaining budget
 };
 
-/// A candidate and how it did in the races.
+/// A candidate and its results in the races.
 struct SampledRecord {
   CandidateId candidate;
-  std::int64_t iteration = 0;  ///< that it was sampled in
+  std::int64_t iteration = 0;  ///< in which it was sampled
   std::int64_t runs = 0;
   std::optional<double> mean;
 };
 
-/// How often machines have a module, everywhere and in the states that can be reached from the
-/// first one: the others do nothing.
+/// How often machines have a module, counted in all states and in the states reachable from the
+/// first one; other states have no effect.
 struct ModuleCounts {
-  double average_occurrences = 0;  ///< in a machine
-  double occurrence_rate = 0;      ///< part of the machines that have it
+  double average_occurrences = 0;  ///< per machine
+  double occurrence_rate = 0;      ///< share of machines that have it
   double average_reachable = 0;
   double reachable_rate = 0;
 };
@@ -153,7 +153,7 @@ struct ModuleFrequency {
   std::string mission;
   std::string method;
   std::string module;
-  std::optional<ModuleCounts> counts;  ///< none: the method's flavour has no such module
+  std::optional<ModuleCounts> counts;  ///< empty: the method's flavour does not have this module
 };
 
 /// A parameter of a candidate.
@@ -165,44 +165,43 @@ struct ParameterRecord {
   bool is_number = false;
 };
 
-/// The selection; an empty field selects all.
+/// The selection; an empty field selects everything.
 struct RecordFilter {
   std::string mission;
   std::string method;
   std::optional<DesignId> design;
 };
 
-/// Errors: BadInput with SQLite's words when a view is missing (a store of an older schema) or the
-/// time limit of a query was too short.
+/// Errors: BadInput with SQLite's message if a view is missing (a store with an older schema) or
+/// the time limit of a query was too short.
 Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store);
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter);
-/// NotFound when the store has no such candidate.
+/// NotFound if the store has no such candidate.
 Expected<MachineRecord> candidate(StoreReader& store, CandidateId id);
 Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
                                                           const RecordFilter& filter);
-/// Of one design, and one of its iterations.
+/// Cells of one iteration of a design.
 Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                                            std::int64_t iteration);
-/// How the design was searched for, by the name of its search (docs/methods.md); empty for an
-/// iterated race.
+/// The name of the design's search (docs/methods.md); empty for iterated racing.
 std::string search_of(StoreReader& store, DesignId design);
 Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design);
-/// All that a design tried, in the order in which they were sampled.
+/// All candidates that a design tried, in the order in which they were sampled.
 Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId design);
 Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design,
                                              std::int64_t iteration);
 Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design,
                                                       std::int64_t iteration);
-/// The last iteration of the design that has a step; 0 before the first.
+/// The design's last iteration that has a step; 0 if there is none yet.
 Expected<std::int64_t> last_raced_iteration(StoreReader& store, DesignId design);
-/// Of the candidates of one design, or of some of them.
+/// For all candidates of a design, or only for the given ones.
 Expected<std::vector<ParameterRecord>> parameters(StoreReader& store, DesignId design,
                                                   const std::vector<CandidateId>& candidates = {});
 
 /// The rows of a statement over the store's views as CSV (base/text/csv.h): a header, full
-/// precision, null empty. Errors: as above.
+/// precision, null is empty. Errors: as above.
 Expected<std::string> csv_of_rows(StoreReader& store, const std::string& sql);
 
 }  // namespace swarmsmith

@@ -16,21 +16,22 @@ std::string_view class_of(const HtmlTable::Column& column) {
   return column.is_number ? " class=\"n\"" : "";
 }
 
-/// The `<svg>` element of a file, without what may stand before it.
+/// The `<svg>` element of a file, without the text before it.
 std::string_view element_of(std::string_view svg) {
   const std::size_t begin = svg.find("<svg");
   return begin == std::string_view::npos ? svg : svg.substr(begin);
 }
 
-/// A box that scrolls sideways; a keyboard can, too, since it takes the focus. `named` is the id of
-/// the caption.
+/// A box that scrolls sideways, also by keyboard, because it can take the focus. `named` is the id
+/// of its caption.
 std::string scrolling(std::string_view named, std::string_view content) {
   return fmt::format(
       "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-labelledby=\"{}\">{}</div>\n", named,
       content);
 }
 
-/// A table below its caption, which does not scroll with it and so is read whole on a phone.
+/// A table below its caption. The caption does not scroll with the table, so a phone shows all of
+/// it.
 std::string captioned(std::string_view id, std::string_view caption, std::string_view kind,
                       std::string_view content) {
   return fmt::format("<p class=\"caption\" id=\"{}\">{}</p>\n", id, html_escaped(caption)) +

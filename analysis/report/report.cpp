@@ -32,7 +32,7 @@ std::string plural(std::size_t number, std::string_view word) {
   return fmt::format("{}{}", word, number == 1 ? "" : "s");
 }
 
-/// What was asked, in a sentence, and how far it is.
+/// The question in one sentence, and the progress of the designs.
 std::string summary_of(const std::vector<DesignRecord>& designs) {
   if (designs.empty()) return "The store has no designs.";
   std::set<std::string, NameOrder> missions;
@@ -45,7 +45,7 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
     missions.insert(as_words(design.mission));
     methods.insert(design.method);
     ++groups[{design.mission, design.method}];
-    // Machines to compare with have no race; programs may have a time as their budget.
+    // Baselines have no race; programs may have a time as their budget.
     const bool has_race = design.budget > 0 || design.flavour.empty();
     if (design.budget > 0) budgets.push_back(design.budget);
     if (!has_race) baselines.insert(design.method);
@@ -68,7 +68,7 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
                             designs.size(), designs.size() == 1 ? "is" : "are");
 }
 
-/// Up to so many designs have chapters without being asked.
+/// Up to this number of designs, each gets a chapter by default.
 constexpr std::size_t kMostChapters = 3;
 
 void write_chapters(ReportDraft& draft, const std::vector<DesignRecord>& known) {

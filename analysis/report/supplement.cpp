@@ -21,11 +21,11 @@ namespace {
 
 using Files = std::vector<SupplementFile>;
 
-/// Kinds that are drawn of one design; the others compare designs.
+/// Kinds that show one design; the other kinds compare designs.
 constexpr std::array<std::string_view, 3> kOfOneDesign = {"race", "sampling", "parallel"};
 constexpr std::string_view kMachineKind = "machine";
 
-/// "d3-aggregation-watermelon-1"; what no file's name should have becomes "_".
+/// "d3-aggregation-watermelon-1"; characters that are unsuitable for file names become "_".
 std::string file_name_of(const DesignRecord& design) {
   std::string name = fmt::format("{}-{}-{}-{}", to_string(design.design), design.mission,
                                  design.method, design.repetition);
@@ -37,7 +37,7 @@ std::string file_name_of(const DesignRecord& design) {
   return name;
 }
 
-/// One object, made by SQLite from the views.
+/// One JSON object, made by SQLite from the views.
 Expected<std::string> machine_json(StoreReader& store, const DesignRecord& design) {
   std::string text;
   const auto end = store.query(
@@ -55,7 +55,7 @@ Expected<std::string> machine_json(StoreReader& store, const DesignRecord& desig
   return text + "\n";
 }
 
-/// Adds the figure, with its numbers, when the store has something to draw.
+/// Adds the figure and its numbers, if the store has data for it.
 Expected<void> add_figure(Files& files, StoreReader& store, const FigureKind& kind,
                           const FigureOptions& options, const std::string& path,
                           const SupplementOptions& asked) {
@@ -139,7 +139,7 @@ std::string page_of(const DesignRecord& design) {
   return "designs/" + file_name_of(design) + ".html";
 }
 
-/// The report, and the page of each design that it links to.
+/// The report, and the pages of designs to which it links.
 Expected<void> add_report(Files& files, StoreReader& store, const SupplementOptions& asked,
                           const std::vector<DesignRecord>& all) {
   const ReportOptions options{.program = asked.program,
@@ -158,7 +158,7 @@ Expected<void> add_report(Files& files, StoreReader& store, const SupplementOpti
   return {};
 }
 
-/// A table of the store, whole.
+/// A complete table of the store.
 struct TableFile {
   const char* path;
   const char* sql;
@@ -200,7 +200,7 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
   if (!asked) return Unexpected(asked.error());
   for (const CampaignRecord& campaign : *asked) {
     const std::string number = asked->size() == 1 ? "" : fmt::format("-{}", campaign.campaign);
-    // Imported results have no file.
+    // Imported results have no campaign file.
     if (!campaign.file.empty()) files.push_back({"campaign" + number + ".toml", campaign.file});
   }
   if (options.instance_tables) {

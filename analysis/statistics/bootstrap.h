@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// Resampling draws from the stream "bootstrap" of this seed: the same values give the same
-/// interval, whatever else is compared.
+/// Resampling uses the stream "bootstrap" of this seed, so the same values give the same interval,
+/// whatever else is compared.
 inline constexpr std::uint64_t kBootstrapSeed = 1;
 inline constexpr std::size_t kResamples = 10'000;
 
@@ -19,12 +19,13 @@ struct MeanDifference {
   double high = 0;
 };
 
-/// Of independent samples, first - second: each is resampled on its own. Neither is empty.
+/// For independent samples, first - second; each sample is resampled separately. Neither may be
+/// empty.
 MeanDifference mean_difference(std::span<const double> first, std::span<const double> second,
                                std::size_t resamples = kResamples,
                                std::uint64_t seed = kBootstrapSeed);
 
-/// Of paired samples of the same length, not empty: pairs are resampled.
+/// For paired samples of the same length, not empty; pairs are resampled.
 MeanDifference paired_mean_difference(std::span<const double> first, std::span<const double> second,
                                       std::size_t resamples = kResamples,
                                       std::uint64_t seed = kBootstrapSeed);

@@ -20,7 +20,8 @@ double vargha_delaney(std::span<const double> first, std::span<const double> sec
 }
 
 std::string_view magnitude_of(double a12) {
-  // 0.71 - 0.5 is a little less than 0.21 in binary; the bounds belong to the larger effect.
+  // 0.71 - 0.5 is slightly less than 0.21 in binary; a value on a bound counts as the larger
+  // effect.
   constexpr double kRounding = 1e-12;
   const double off = std::abs(a12 - 0.5) + kRounding;
   if (off >= 0.21) return "large";

@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Sums over the blocks' ranks.
+/// Sums over the ranks in all blocks.
 struct RankSums {
   std::vector<double> of_treatments;  ///< R(j)
   double squares = 0;                 ///< A
@@ -19,7 +19,7 @@ struct RankSums {
 RankSums rank_sums(const std::vector<std::vector<double>>& values) {
   RankSums sums{.of_treatments = std::vector<double>(values.front().size())};
   for (const std::vector<double>& block : values) {
-    std::vector<double> costs(block.size());  // the largest value has rank 1
+    std::vector<double> costs(block.size());  // so that the largest value has rank 1
     std::ranges::transform(block, costs.begin(), [](double value) { return -value; });
     const AverageRanks ranks = average_ranks(costs);
     for (std::size_t j = 0; j < block.size(); ++j) {

@@ -6,8 +6,9 @@
 
 namespace swarmsmith {
 
-/// Holm's adjusted p-values, in the order given: when those below a level are taken for real, the
-/// chance that one of them is not is at most that level. Tests without a p are not counted.
+/// Holm's adjusted p-values, in the given order: if all values below a level are called
+/// significant, the probability of even one wrong result is at most that level. Tests without a p
+/// are not counted.
 /// Source: Holm 1979, Scandinavian Journal of Statistics 6(2); R's `p.adjust`.
 std::vector<std::optional<double>> holm_adjusted(std::span<const std::optional<double>> p_values);
 

@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Of values in ascending order.
+/// The values must be in ascending order.
 double sorted_quantile(std::span<const double> sorted, double part) {
   const double place = part * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);

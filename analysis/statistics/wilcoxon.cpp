@@ -10,14 +10,15 @@
 namespace swarmsmith {
 namespace {
 
-/// R computes exact p-values below this many values.
+/// R computes exact p-values for fewer values than this.
 constexpr std::size_t kExactBelow = 50;
 
 double sign_of(double value) {
   return value > 0 ? 1 : (value < 0 ? -1 : 0);
 }
 
-/// By the normal approximation, the statistic moved by half a step towards its expected value.
+/// The normal approximation with continuity correction: the statistic is moved half a step towards
+/// its expected value.
 std::optional<double> approximate_p(double off, double sd, Alternative alternative) {
   const auto lower = [&](double z) {
     if (std::isinf(z)) return z > 0 ? 1.0 : 0.0;
@@ -36,7 +37,7 @@ std::optional<double> approximate_p(double off, double sd, Alternative alternati
       break;
   }
   const double z = (off - correction) / sd;
-  if (std::isnan(z)) return std::nullopt;  // 0 / 0: nothing but ties
+  if (std::isnan(z)) return std::nullopt;  // 0 / 0: there are only ties
   switch (alternative) {
     case Alternative::Greater:
       return lower(-z);
@@ -60,7 +61,7 @@ double exact_p(const Tails& tails, Alternative alternative) {
   return std::min(1.0, 2 * std::min(tails.lower, tails.upper));
 }
 
-/// 1 over m + n choose m, by factors: large samples give 0.
+/// 1 divided by (m + n choose m), computed by factors so that large samples give 0.
 double one_of_all_choices(std::size_t m, std::size_t n) {
   double part = 1;
   for (std::size_t i = 1; i <= std::min(m, n); ++i)

@@ -13,32 +13,33 @@
 
 namespace swarmsmith::cli {
 
-/// Who may connect to a coordinator that is being started, and how it is found.
+/// Flags that say who may connect to a new coordinator, and how clients find it.
 struct AccessFlags {
-  std::string keys;  ///< folder; empty: the default one, where keys are needed
+  std::string keys;  ///< folder of the keys; empty: the default folder, if keys are needed
   bool insecure_plaintext = false;
-  std::string coordinator_file;  ///< empty: beside the store
-  std::string advertise;         ///< host; empty: what it listens on, or this host's name
+  std::string coordinator_file;  ///< empty: a file beside the store
+  std::string
+      advertise;  ///< host name for clients; empty: the listening address, or this host's name
 
   /// Declares --keys, --insecure-plaintext, --coordinator-file and --advertise.
   void declare(Options& options);
 };
 
-/// What flags and files come to for a coordinator that listens on `bind`.
+/// The result of the flags and files, for a coordinator that listens on `bind`.
 struct Access {
   std::optional<ServerKeys> keys;   ///< none: plaintext
-  std::string public_key;           ///< the coordinator's
-  std::filesystem::path local_key;  ///< key file for workers of its own
-  bool insecure_plaintext = false;  ///< plaintext beyond loopback
+  std::string public_key;           ///< of the coordinator
+  std::filesystem::path local_key;  ///< key file for the coordinator's own workers
+  bool insecure_plaintext = false;  ///< allow plaintext beyond loopback
   std::shared_ptr<AllowListWatch> watch;
 };
 
-/// Reads the keys when they are named or needed: always beyond loopback, except with --insecure.
-/// All that is wrong, each with its file.
+/// Reads the keys if they are given or needed. They are always needed beyond loopback, except with
+/// --insecure-plaintext. Returns all errors, each with its file.
 tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,
                                                      const std::string& bind);
 
-/// What others need to find the coordinator.
+/// The file by which clients find the coordinator.
 CoordinatorFile coordinator_file(const AccessFlags& flags, const Access& access,
                                  const std::string& endpoint);
 

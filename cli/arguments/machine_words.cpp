@@ -10,7 +10,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The first word of a text, or all of one, which may have options of another program before it.
+/// Whether the argument is the first one of a machine's text, or all of it. Before the text there
+/// may be options of another program.
 bool begins_machine(std::string_view word) {
   if (!word.starts_with("--")) return false;
   const bool is_whole = word.find(' ') != std::string_view::npos;
@@ -18,9 +19,9 @@ bool begins_machine(std::string_view word) {
          (is_whole && find_controller(word) != std::string_view::npos);
 }
 
-/// Whether the word is a switch of one of the grammars: letters, which a flavour may choose, and
-/// then digits or DIGITSxDIGITS, as no option of the program has; or a word that only trees and
-/// networks have.
+/// Whether the argument is a switch of one of the grammars: letters, which a flavour may choose,
+/// followed by digits or DIGITSxDIGITS (no option of this program looks like that); or a switch
+/// that only trees and networks have.
 bool is_machine_switch(std::string_view word) {
   static constexpr std::array<std::string_view, 3> kWhole = {"--nchildroot", "--nchildsroot",
                                                              "--weights"};
@@ -48,7 +49,7 @@ std::vector<std::string> with_machine_as_one_word(std::vector<std::string> words
   const bool everything = words[i] == "--";
   if (everything) ++i;
   std::string machine;
-  // A value follows its switch, so that only words after a value need to be switches.
+  // Each switch has a value, so only the argument after a value must be a switch.
   bool value_next = false;
   for (; i < words.size(); ++i) {
     if (!everything && !value_next && !is_machine_switch(words[i])) break;

@@ -6,7 +6,7 @@
 
 namespace swarmsmith::cli {
 
-/// `--purpose` and `--per` of all commands about the winners' scores.
+/// Help for `--purpose` and `--per`, for all commands about the winners' scores.
 inline constexpr const char* kPurposeHelp =
     "Which scores: of the campaign's tests, of later evaluations, or all (default: tests, and of a "
     "source without tests what came later)";

@@ -43,7 +43,7 @@ Expected<std::unique_ptr<StoreAtRest>> open_at_rest(const std::string& path,
 }
 
 ExitCode exit_code_of_store(const Error& error) {
-  // Only a store that was not named at all has no place.
+  // The error has no place only if no store was named.
   return error.where.empty() ? ExitCode::Usage : ExitCode::Store;
 }
 

@@ -10,27 +10,28 @@
 
 namespace swarmsmith::cli {
 
-/// The store that a command reads: the word STORE, else `--store`, else SWARMSMITH_STORE.
+/// The store that a command reads: the argument STORE, else `--store`, else SWARMSMITH_STORE.
 struct StoreArgument {
   std::string word;
   std::string option;
 
-  /// Declares both. Without `with_word` only the option.
+  /// Declares the argument and the option, or only the option without `with_word`.
   void declare(Options& options, bool with_word = true);
-  /// Where the store is, or a sentence that says how to name it.
+  /// The path of the store, or an error that says how to name a store.
   Expected<std::string> path() const;
-  /// Opens it; every error means exit code 3, except one of `path`.
+  /// Opens the store. Every error means exit code 3, except an error of `path`.
   Expected<std::unique_ptr<StoreReader>> open() const;
-  /// The same, for numbers that leave the store: refuses one whose rows are not those of one commit
-  /// (storage/whole.h).
+  /// Like `open`, for numbers that are published: refuses a store whose rows do not come from one
+  /// commit (storage/whole.h).
   Expected<std::unique_ptr<StoreReader>> open_whole() const;
 };
 
-/// Opens a store, whose first campaign's file tells what an old schema does not, to add to it.
+/// Opens a store to add data to it. Facts that an old schema lacks are read from the file of its
+/// first campaign.
 Expected<std::unique_ptr<StoreAtRest>> open_at_rest(const std::string& path,
                                                     StoreAtRest::IfMissing if_missing);
 
-/// What to exit with after an error of `open`.
+/// The exit code after an error of `open`.
 ExitCode exit_code_of_store(const Error& error);
 
 }  // namespace swarmsmith::cli

@@ -24,7 +24,7 @@ std::optional<ThingId> parse_thing_id(std::string_view text) {
 }
 
 std::string is_evaluation(const ThingId& id) {
-  // e<candidate * 100,000 + pair>, the letter of the purpose behind it.
+  // The id is e<candidate * 100,000 + pair>, followed by the letter of the purpose.
   return "candidate = " + id.digits + " / 100000 AND id = 'e" + id.digits + id.purpose + "'";
 }
 

@@ -10,9 +10,9 @@
 
 namespace swarmsmith::cli {
 
-/// The mission, profile, flavour or robot of a flag: built in, or a file. All that is wrong with a
-/// file but the last thing is printed, the last is the error; `flag` is where, when the file has no
-/// place for it.
+/// Finds the mission, profile, flavour or robot that a flag names: a built-in one, or a file.
+/// Prints all errors of a file except the last one, which is returned. An error without a place in
+/// the file gets `flag` as its place.
 Expected<Mission> find_mission_or_complain(const std::string& word, const std::string& flag,
                                            Output& output);
 Expected<Profile> find_profile_or_complain(const std::string& word, const std::string& flag,

@@ -21,14 +21,14 @@ struct AssessArguments {
   std::string robot;
 };
 
-/// The first built-in robot that the flavour fits; the RVR if there is none.
+/// The first built-in robot that fits the flavour; the RVR if none fits.
 std::string robot_for(const Flavour& flavour) {
   for (const std::string& name : robot_names())
     if (!misfit(flavour, find_robot(name, {}).value())) return name;
   return rvr().name;
 }
 
-/// The profile of the robot's name, or the RVR's.
+/// The profile with the robot's name; the RVR's profile if there is none.
 std::string profile_for(const Robot& robot) {
   const std::vector<std::string> names = profile_names();
   return std::ranges::count(names, robot.name) > 0 ? robot.name : rvr().name;

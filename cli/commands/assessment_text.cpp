@@ -39,7 +39,7 @@ std::string rate_line(std::string_view module, const Rate& rate) {
       outside ? " outside" : ""));
 }
 
-/// A paragraph with the second and further lines indented.
+/// A paragraph in which all lines after the first are indented.
 std::string in_lines(const std::string& text) {
   std::string lines;
   std::string line;

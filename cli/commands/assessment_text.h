@@ -6,7 +6,7 @@
 
 namespace swarmsmith::cli {
 
-/// The report as tables of at most 100 columns: checks, notes about them, rates, a summary.
+/// The report as tables of at most 100 columns: checks, notes about the checks, rates, a summary.
 std::string assessment_text(const assessment::Report& report, const assessment::Subject& subject);
 
 /// The report as one JSON object on one line: flavour, profile, robot, passed, and an array of

@@ -16,7 +16,7 @@ struct BackupArguments {
   StoreArgument store;
 };
 
-/// `backup STORE COPY`, or `backup COPY` with the store from option or environment.
+/// `backup STORE COPY`, or `backup COPY` with the store from the option or the environment.
 ExitCode run_backup(BackupArguments& arguments, Output& output) {
   std::vector<std::string>& words = arguments.words;
   if (!arguments.out.empty()) words.push_back(arguments.out);
@@ -39,7 +39,7 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
     return fail(output, about_copy ? ExitCode::Failed : ExitCode::Store, made.error());
   }
   if (made->migrated != 0) {
-    // Schemas before 4 do not say in which flavour machines are written; the campaign's file does.
+    // Schemas before 4 do not store the flavour of machines; the campaign's file has it.
     const auto named = open_at_rest(copy, StoreAtRest::IfMissing::Refuse);
     if (!named) return fail(output, ExitCode::Failed, named.error());
   }

@@ -32,7 +32,7 @@ std::string decimals(double value, const char* format) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-/// What all races may use: experiments, or the programs' own time.
+/// The budget of all races: experiments, or the running time of the programs.
 std::string budget_text(const Campaign& campaign, const CampaignPlan& plan) {
   if (campaign.race.max_time > 0) {
     return "as many as a time of " + json_number(campaign.race.max_time) + " a design is good for";
@@ -40,7 +40,7 @@ std::string budget_text(const Campaign& campaign, const CampaignPlan& plan) {
   return grouped(plan.experiments) + " (at most " + grouped(plan.largest_budget) + " a design)";
 }
 
-/// Who evaluates, and how fast.
+/// The evaluator, and its speed.
 std::string evaluation_text(const Campaign& campaign, const CampaignPlan& plan) {
   if (plan.evaluation_s) {
     return decimals(*plan.evaluation_s * 1e3, "%.3g") + " ms on one core of this machine";

@@ -8,15 +8,15 @@
 
 namespace swarmsmith::cli {
 
-/// All commands, in the order of the help. A new one: a file of its own with its `declare_`
-/// function, which CMakeLists.txt lists, a line here, an entry in commands.cpp, a section in
+/// All commands, in the order of the help. A new command needs: its own file with its `declare_`
+/// function, listed in CMakeLists.txt; a line here; an entry in commands.cpp; a section in
 /// docs/command-line.md.
 std::span<const ProgramCommand> commands();
 
-/// Runs `swarmsmith` with the words after its name (console/program.h).
+/// Runs `swarmsmith` with the arguments after its name (console/program.h).
 ExitCode run_program(const std::vector<std::string>& arguments, Output& output);
 
-/// docs/command-line.md tells what each does.
+/// docs/command-line.md describes each command.
 CommandRun declare_run(Options& options);
 CommandRun declare_init(Options& options);
 CommandRun declare_check(Options& options);
@@ -52,9 +52,9 @@ CommandRun declare_merge(Options& options);
 CommandRun declare_recover(Options& options);
 CommandRun declare_version(Options& options);
 
-/// Becomes the program swarmsmith-track, whose commands docs/tracking.md tells.
+/// Replaces this process by swarmsmith-track; docs/tracking.md describes its commands.
 ExitCode run_track(const std::vector<std::string>& words, Output& output);
-/// Becomes the program swarmsmith-robot, whose commands docs/robot-runtime.md tells.
+/// Replaces this process by swarmsmith-robot; docs/robot-runtime.md describes its commands.
 ExitCode run_robot(const std::vector<std::string>& words, Output& output);
 
 }  // namespace swarmsmith::cli

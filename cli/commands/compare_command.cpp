@@ -119,7 +119,8 @@ std::string matrix_json(const Comparison& comparison) {
       .text();
 }
 
-/// What was asked for; else sources where there are several, and methods where there are not.
+/// Compares as the arguments say; by default by source if there are several sources, else by
+/// method.
 Expected<Comparison> compared_by(StoreReader& store, const CompareArguments& arguments) {
   ComparisonOptions options = arguments.options;
   const bool is_matrix = arguments.matrix || arguments.table == "matrix";
@@ -137,7 +138,7 @@ Expected<Comparison> compared_by(StoreReader& store, const CompareArguments& arg
   return compare(store, options);
 }
 
-/// With what the names in its tables mix up.
+/// The comparison, with notes on missions and profiles that share a name but differ.
 Expected<Comparison> compared(StoreReader& store, const CompareArguments& arguments) {
   auto comparison = compared_by(store, arguments);
   if (!comparison) return comparison;
@@ -171,7 +172,7 @@ ExitCode run_compare(CompareArguments& arguments, Output& output) {
     for (const std::string& note : comparison->notes)
       print_note(output, note);
   } else if (arguments.csv) {
-    // By mission there are no pairs.
+    // A comparison by mission has no pairs.
     const bool groups = arguments.table.empty() && comparison->options.by == CompareBy::Mission;
     write_data(output, csv_of(*comparison, groups ? "groups" : arguments.table));
     for (const std::string& note : comparison->notes)

@@ -10,10 +10,10 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Runs that are held at a time.
+/// Runs in memory at a time.
 constexpr std::size_t kBatch = 64;
 
-/// The sentence about a run that is not as it is stored; nothing when it is.
+/// A sentence if the run differs from the stored one; else nothing.
 std::optional<std::string> objection(const StoredRun& run, const Again& again) {
   if (again.end == Again::End::Scored) {
     if (run.outcome && same_bits(*run.outcome, again.result)) return std::nullopt;

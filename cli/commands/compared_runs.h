@@ -11,21 +11,22 @@
 
 namespace swarmsmith::cli {
 
-/// "e81200007", or "c812, seed 7" for what the store does not hold.
+/// "e81200007", or "c812, seed 7" for an evaluation that is not in the store.
 std::string name_of(const StoredRun& run);
 /// "score 3, state digest 00ff..."
 std::string values_text(double score, std::uint64_t digest);
-/// Both values, who gave the stored one, and why they may differ.
+/// Both values, which worker gave the stored value, and possible reasons for the difference.
 std::string difference_text(const StoredRun& run, const SimulationResult& result);
 
-/// An evaluation that came out otherwise than it is stored, or that cannot be made again.
+/// An evaluation whose new result differs from the stored one, or that cannot be repeated.
 struct Difference {
   std::string id;
   std::string sentence;
 };
 
-/// Evaluates stored evaluations again, each where its crash harms no other process, and compares
-/// bits; that it has no score is an outcome too. Errors: no process can be started.
+/// Repeats stored evaluations and compares the bits. They run in a child process, so that a crash
+/// harms no other process; an evaluation without a score is compared, too. Errors: no process can
+/// be started.
 Expected<std::vector<Difference>> compare_again(StoredRuns& runs, std::span<const std::string> ids,
                                                 Counter& counter);
 

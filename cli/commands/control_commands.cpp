@@ -1,5 +1,4 @@
-// pause, resume, cancel, extend and forgive: what people ask of a campaign that runs, or
-// that rests.
+// pause, resume, cancel, extend and forgive: users' commands to a campaign, running or not.
 
 #include <sys/types.h>
 #include <algorithm>
@@ -25,7 +24,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A coordinator that is starting writes its file after having read its stores.
+/// A coordinator that is starting writes its file only after it has read its stores.
 constexpr std::chrono::milliseconds kLookAgain{100};
 constexpr int kLooks = 100;
 
@@ -37,11 +36,11 @@ struct Arguments {
   std::optional<std::int64_t> budget;
 };
 
-/// The words, sorted.
+/// The arguments, sorted by kind.
 struct Wish {
   std::string store;  ///< empty: only the coordinator is named
   std::vector<DesignId> designs;
-  std::vector<std::string> whom{};  ///< of `forgive`
+  std::vector<std::string> whom{};  ///< keys and hosts for `forgive`
 };
 
 std::optional<DesignId> design_in(const std::string& word) {
@@ -50,7 +49,7 @@ std::optional<DesignId> design_in(const std::string& word) {
   return DesignId{std::stoll(id->digits)};
 }
 
-/// STORE KEY..., without STORE where the store or the coordinator is named otherwise.
+/// Reads STORE KEY..., or KEY... if the store or the coordinator is named in another way.
 void sort_names(const Arguments& arguments, Wish& wish) {
   std::error_code none;
   const bool is_named = !wish.store.empty() || arguments.coordinator.is_named() ||
@@ -104,13 +103,13 @@ Expected<void> check(const Arguments& arguments, const Wish& wish) {
   return {};
 }
 
-/// Left behind by a coordinator of this host that was killed.
+/// Whether the file was left behind by a killed coordinator of this host.
 bool is_stale(const CoordinatorFile& file) {
   return file.host == name_of_this_host() && kill(static_cast<pid_t>(file.pid), 0) != 0 &&
          errno == ESRCH;
 }
 
-/// Whether the file of the coordinator that runs now is there, after having waited for it.
+/// Waits for the file of the running coordinator, and returns whether it is there.
 bool stands(const std::filesystem::path& file) {
   for (int look = 0; look < kLooks; ++look) {
     const auto found = read_coordinator_file(file);
@@ -120,7 +119,7 @@ bool stands(const std::filesystem::path& file) {
   return false;
 }
 
-/// A command to one campaign, for one design after the other.
+/// Sends a command to one campaign, for each design in turn.
 class Control {
  public:
   Control(Output& output, const Arguments& arguments, Wish wish)
@@ -155,7 +154,8 @@ class Control {
   }
 
  private:
-  /// The campaign runs: the file beside the store says where, or the environment.
+  /// The coordinator's file of a running campaign: the file beside the store, or the one named in
+  /// the environment.
   std::string file_of_runner(const Error& in_use) {
     const std::filesystem::path beside = coordinator_file_of(real_store(wish_.store));
     const std::string named = environment("SWARMSMITH_COORDINATOR");
@@ -179,7 +179,7 @@ class Control {
     });
   }
 
-  /// All that were named, whatever becomes of one; the first that fails makes the exit code.
+  /// Sends all commands, even if one of them fails. Returns the exit code of the first failure.
   template <class Ask>
   ExitCode each(const Ask& ask) {
     ExitCode code = ExitCode::Done;
@@ -189,7 +189,7 @@ class Control {
         write(command, *done);
         continue;
       }
-      // A coordinator answers with a sentence alone.
+      // A coordinator's answer is only a sentence, so this error is recognised by its text.
       if (done.error().message.find(kNotInQuarantine) != std::string::npos) {
         fail(output_, ExitCode::NoSuchId, done.error());
         if (code == ExitCode::Done) code = ExitCode::NoSuchId;
@@ -203,7 +203,7 @@ class Control {
     return code;
   }
 
-  /// One for each design, key or host that is named; one for all.
+  /// One command for each design, key or host named; one command for all if none is named.
   std::vector<CommandRow> commands() const {
     CommandRow command{.kind = arguments_.kind,
                        .step = std::nullopt,

@@ -37,8 +37,8 @@ struct DashboardArguments {
   std::vector<std::string> designs;
 };
 
-/// Asks the coordinator that runs a campaign how it goes, at most once a second, and only while
-/// somebody looks.
+/// Asks the coordinator of a running campaign for its status, at most once a second, and only while
+/// a page is asking.
 class LiveNumbers {
  public:
   LiveNumbers(CoordinatorArgument coordinator, std::string file)
@@ -67,7 +67,7 @@ class LiveNumbers {
   Clock::time_point next_{};
 };
 
-/// Errors: what is wrong with one of the stores, or with its name.
+/// Errors: a store, or its name, is wrong.
 Expected<std::vector<DashboardStore>> stores_of(const DashboardArguments& arguments) {
   std::vector<std::string> names = arguments.stores;
   if (names.empty() && !store_of_environment().empty()) names.push_back(store_of_environment());
@@ -77,7 +77,7 @@ Expected<std::vector<DashboardStore>> stores_of(const DashboardArguments& argume
   for (const std::string& name : names) {
     const auto reader = StoreReader::open(name);
     if (!reader) return Unexpected(reader.error());
-    // Stores of before schema 4 have no such view: the error says how to make a copy.
+    // Stores before schema 4 have no such view; the error says how to make a copy.
     auto seen = (*reader)->query(
         "SELECT 1 FROM v_campaigns", {}, [](const auto&) {}, [](const auto&) {});
     if (!seen) {
@@ -86,12 +86,13 @@ Expected<std::vector<DashboardStore>> stores_of(const DashboardArguments& argume
     }
     stores.push_back({std::filesystem::absolute(name), std::nullopt});
   }
-  // One coordinator is asked: that of the first store. Its others are matched by nothing.
+  // Only the coordinator of the first store is asked, so the other stores have no index in its
+  // status.
   stores.front().place = 0;
   return stores;
 }
 
-/// One file instead of a server.
+/// Writes one file instead of starting a server.
 ExitCode write_snapshot(const DashboardArguments& arguments, Output& output) {
   const auto stores = stores_of(arguments);
   if (!stores) {
@@ -104,7 +105,7 @@ ExitCode write_snapshot(const DashboardArguments& arguments, Output& output) {
         output, ExitCode::Usage,
         Error{ErrorKind::BadInput, "takes one store; `merge` makes one of several", "--export"});
   }
-  // Before the work of minutes: a name that will not do.
+  // Refuses an unsuitable name now, before minutes of work.
   const std::filesystem::path file(arguments.file);
   if (const auto place = output_place(file, FileKind::WebPage); !place)
     return fail(output, ExitCode::Failed, place.error());

@@ -7,7 +7,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The store's digest; of several campaigns a line each follows, with what they have alone.
+/// The store's digest. For several campaigns, one line each follows, with the digest of that
+/// campaign alone.
 void write(Output& output, StoreReader& store) {
   const std::string digest = store.digest();
   const std::vector<StoredCampaign> campaigns = store.campaigns();

@@ -24,7 +24,7 @@ struct EvaluateOptions : EvaluateArguments {
   RecordingArguments recording;
 };
 
-/// For people: mean and interval.
+/// Mean and interval, for people.
 void write_summary(std::ostream& out, const std::vector<double>& scores) {
   const MeanInterval summary = mean_interval(scores);
   const auto shown = [](double value) {
@@ -40,7 +40,8 @@ void write_summary(std::ostream& out, const std::vector<double>& scores) {
   out << "  n " << scores.size() << "\n";
 }
 
-/// Also counts the cycles of a run that takes seconds; for others it would cost more than it says.
+/// Adds a counter of the cycles, for runs that take seconds; for shorter runs it is not worth its
+/// cost.
 Recorder with_counter(Recorder recorder, const Mission& mission, Counter& counter) {
   constexpr std::int64_t kLongRun = 500'000;  // robots times cycles
   if (std::int64_t{mission.robots} * mission.cycles < kLongRun) return recorder;
@@ -52,12 +53,12 @@ Recorder with_counter(Recorder recorder, const Mission& mission, Counter& counte
           sensors};
 }
 
-/// One run as it is printed.
+/// A run as it is printed.
 struct Told {
   const EvaluationJob* job = nullptr;
   std::int64_t seed = 0;
   double score = 0;
-  std::optional<ScoreKeeper::Kept> kept;  ///< nothing: it is printed only
+  std::optional<ScoreKeeper::Kept> kept;  ///< empty: the score is only printed
 };
 
 using How = ScoreKeeper::Kept::How;
@@ -95,7 +96,7 @@ std::string as_line(const Told& told) {
   return text + "\n";
 }
 
-/// Both scores of one place.
+/// The error for two different scores of the same evaluation.
 Error conflict_of(const Told& told) {
   return {ErrorKind::Conflict,
           "seed " + std::to_string(told.seed) + " gives score " + json_number(told.score) +
@@ -112,7 +113,7 @@ std::int64_t runs_of(const EvaluationPlan& plan) {
   return static_cast<std::int64_t>(runs);
 }
 
-/// Runs the jobs one after the other, and tells of each run.
+/// Runs the jobs one after the other, and prints each run.
 class Evaluation {
  public:
   Evaluation(const EvaluationPlan& plan, const RecordingArguments& recording, Output& output)
@@ -138,7 +139,7 @@ class Evaluation {
       if (job.keeps_profile) keeper_->keep_profile(job.profile);
       for (std::size_t i = 0; i < job.seeds.size(); ++i)
         run_one(job, i, recording->recorder());
-      // A design at a time, so that little is lost when this is ended.
+      // Commits after each design, so that little is lost if this process is stopped.
       if (!keeper_) continue;
       if (auto written = keeper_->commit(); !written) {
         return fail(output_, ExitCode::Store, written.error());
@@ -157,7 +158,7 @@ class Evaluation {
   }
 
  private:
-  /// A line a job: the runs above are too many to be looked at.
+  /// One line per job, because there are too many runs above to read.
   void write_summaries() {
     answer_ << "\n";
     for (const auto& [job, scores] : by_job_) {
@@ -207,7 +208,7 @@ class Evaluation {
     print_error(output_, conflict_of(told));
   }
 
-  /// A campaign would reject it, so it is neither counted nor stored.
+  /// A campaign would reject this score, so it is neither counted nor stored.
   void reject(const EvaluationJob& job, std::int64_t seed, double score) {
     rejected_ = true;
     if (output_.json)

@@ -16,7 +16,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// What the child says of a run: how it ended, score, state digest.
+/// The child's message about a run: how it ended, score, state digest.
 using Message = std::array<std::uint64_t, 3>;
 
 Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
@@ -24,13 +24,13 @@ Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
     const SimulationResult result = evaluate(run);
     if (std::isfinite(result.score)) return {.end = Again::End::Scored, .result = result};
   } catch (const std::exception&) {
-    // The reason of a run without a score is of no interest here.
+    // The reason why the run has no score is not used.
   }
   return {.end = Again::End::Failed, .result = {}};
 }
 
-/// The child: says what it finds until it is done or dead. Its words on the error stream are those
-/// of a crash that is expected.
+/// Runs in the child process: reports the results until it has finished or dies. Its error stream
+/// goes to /dev/null, because only expected crashes write to it.
 [[noreturn]] void evaluate_and_tell(std::span<const StoredRun> runs, const EvaluateRun& evaluate,
                                     int to) {
   const struct rlimit none = {};
@@ -41,13 +41,13 @@ Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
     const Message message = {static_cast<std::uint64_t>(again.end),
                              std::bit_cast<std::uint64_t>(again.result.score),
                              again.result.state_digest};
-    // Shorter than PIPE_BUF: all of it or nothing.
+    // The message is shorter than PIPE_BUF, so it is written as a whole or not at all.
     if (::write(to, message.data(), sizeof message) != sizeof message) _exit(1);
   }
   _exit(0);
 }
 
-/// The next word of the child; nothing when it is done or dead.
+/// The next message of the child; empty if the child has finished or died.
 std::optional<Again> hear(int from) {
   Message message{};
   std::size_t got = 0;
@@ -62,7 +62,7 @@ std::optional<Again> hear(int from) {
                .result = {.score = std::bit_cast<double>(message[1]), .state_digest = message[2]}};
 }
 
-/// Hears a child of its own about `runs`, until it is done or dead.
+/// Starts a child for `runs` and collects its messages until it has finished or died.
 Expected<std::vector<Again>> evaluate_in_child(std::span<const StoredRun> runs,
                                                const EvaluateRun& evaluate) {
   std::array<int, 2> ends{};

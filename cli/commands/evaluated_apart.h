@@ -9,22 +9,22 @@
 
 namespace swarmsmith::cli {
 
-/// How an evaluation that was made once more came out.
+/// The result of repeating an evaluation.
 struct Again {
   enum class End {
     Scored,
-    Failed,  ///< the simulation threw, or its score is not finite: there is no score
-    Killed,  ///< its process died of it
+    Failed,  ///< the simulation threw, or the score is not finite: there is no score
+    Killed,  ///< the evaluation killed its process
   };
   End end = End::Scored;
-  SimulationResult result;  ///< when it has a score
+  SimulationResult result;  ///< if there is a score
 };
 
 using EvaluateRun = std::function<SimulationResult(const StoredRun&)>;
 
-/// Evaluates the runs in a child process, so that what kills the process is an outcome as any
-/// other; the next ones get a new process. In the order of `runs`. Not for programs with several
-/// threads. Errors: no process can be started.
+/// Evaluates the runs in a child process, so that a crash is an outcome like any other; the runs
+/// after it get a new process. The results are in the order of `runs`. Not for programs with
+/// several threads. Errors: no process can be started.
 Expected<std::vector<Again>> evaluate_apart(std::span<const StoredRun> runs,
                                             const EvaluateRun& evaluate);
 

@@ -62,14 +62,14 @@ void write_outcome(Output& output, const std::string& id, const EvaluationHistor
   write_line(output, "replay", "swarmsmith replay " + id + " STORE");
 }
 
-/// What control software it is, by how its text begins.
+/// The kind of control software, from the beginning of its text.
 const char* name_of_text(const std::string& text) {
   if (text.starts_with("--network")) return "network";
   if (text.starts_with("--nroot") || text.starts_with("--bt-config")) return "tree";
   return "machine";
 }
 
-/// The steps as people read them: without tests nothing is marked, and no candidate leaves.
+/// The steps as people read them: without tests, no elimination is shown.
 Rows told_steps(const EvaluationHistory& history) {
   Rows steps = history.steps;
   if (history.is_race()) return steps;

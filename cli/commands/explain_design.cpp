@@ -20,7 +20,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A part of the search that is over, and its best; a walk that the final stage ended has none.
+/// A finished part of the search, and its best candidate. A walk of simulated annealing that the
+/// final stage cut short has no best candidate.
 struct StoryPart {
   std::string line;
   std::string name;
@@ -31,7 +32,7 @@ struct StoryPart {
 
 struct Story {
   DesignRecord design;
-  std::string search;  ///< "none" of what was given, drawn or imported
+  std::string search;  ///< "none" for machines that were given, drawn or imported
   std::vector<StoryPart> parts;
   std::optional<SampledRecord> winner;
   bool shows_costs = false;
@@ -60,13 +61,14 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
     for (const EliteRecord& elite : *best) {
       if (elite.rank == 1 && elite.iteration == begun.iteration) part.best = elite;
     }
-    // One that has just begun has no end to tell of.
+    // A part that has just begun has no result to show.
     if (!part.best && begun.iteration == all->back().iteration) continue;
     if (part.best) {
       part.spent = part.best->experiments_used - used;
       used = part.best->experiments_used;
     }
-    // What races spend adds up to what the design used; what they may spend does not.
+    // The experiments spent by the races add up to the experiments used by the design; their
+    // budgets do not.
     if (search == nullptr)
       part.line += fmt::format(": {} configurations, {} of at most {} experiments",
                                begun.configurations, part.spent, begun.budget);
@@ -91,7 +93,7 @@ std::string difference(const Story& story, const EliteRecord& last, const StoryP
                      story.mean(before.best->mean), to_string(before.best->candidate), before.name);
 }
 
-/// Who won, where it was made, and what the last part said of it.
+/// The winner, where the search made it, and its result in the last part.
 std::string sentence(const Story& story, const StoredStages& stages) {
   std::vector<const StoryPart*> ended;
   for (const StoryPart& part : story.parts) {

@@ -9,9 +9,9 @@
 
 namespace swarmsmith::cli {
 
-/// How a design came to its winner, in the words of its search: its iterations, generations or
-/// other parts with the best of each, and what the final stage said of the winner. `is_written`: a
-/// process writes the store.
+/// Explains how a design found its winner, in the terms of its search: its iterations, generations
+/// or other parts with the best candidate of each, and the winner's result in the final stage.
+/// `is_written`: a process is writing the store.
 ExitCode explain_design(Output& output, StoreReader& store, const ThingId& id, bool is_written);
 
 }  // namespace swarmsmith::cli

@@ -31,7 +31,7 @@ struct ExportArguments {
   std::string irace_version = "4";
 };
 
-/// The number behind the letter of an id.
+/// The number after the letter of an id.
 Expected<std::string> digits_of(const std::string& text, char letter, const char* option) {
   const auto id = parse_thing_id(text);
   if (id && id->letter == letter) return id->digits;
@@ -39,7 +39,8 @@ Expected<std::string> digits_of(const std::string& text, char letter, const char
   return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
 }
 
-/// Machines with what a person wants to know of each; `selected` gives (design, candidate).
+/// SQL for machines, with the facts about each that people want to know; `selected` returns
+/// (design, candidate).
 Expected<std::string> statement(const ExportArguments& arguments) {
   const std::string& what = arguments.what;
   std::string selected =
@@ -88,7 +89,7 @@ CandidateId candidate_of(const std::vector<StoreReader::Cell>& cells) {
   return {cells[kCandidate].integer()};
 }
 
-/// With parameters and modules, which are JSON already.
+/// JSON with parameters and modules, which are JSON in the store already.
 Expected<std::string> as_json(const Rows& rows, MachineFiler& filer) {
   JsonPiece machines{"["};
   // Both are JSON objects in the store.
@@ -124,7 +125,7 @@ ExitCode write_text(const ExportArguments& arguments, const std::string& text, O
   return done ? ExitCode::Done : fail(output, ExitCode::Failed, done.error());
 }
 
-/// Not machines, but what they were scored in.
+/// Whether starts or patches are wanted instead of machines.
 bool asks_for_table(const ExportArguments& arguments) {
   return arguments.what == "starts" || arguments.what == "patches";
 }
@@ -163,7 +164,7 @@ std::vector<CandidateId> candidates_of(const Rows& rows) {
   return candidates;
 }
 
-/// Nothing to export is ordinary, unless the user named it.
+/// It is not an error if there is nothing to export, unless the user named it.
 ExitCode nothing_found(const ExportArguments& arguments, Output& output) {
   if (arguments.design.empty() && arguments.candidate.empty()) {
     print_note(output, "the store has no such machines yet");
@@ -176,7 +177,7 @@ ExitCode nothing_found(const ExportArguments& arguments, Output& output) {
                     : "the store has no such machine of " + arguments.design);
 }
 
-/// Comments, heads and texts; to a folder a file each: d3-c812.fsm.
+/// Writes comments, heads and texts; in a folder one file each: d3-c812.fsm.
 ExitCode write_machines(const ExportArguments& arguments, const Rows& rows, MachineFiler& filer,
                         Output& output) {
   std::error_code not_there;
@@ -205,7 +206,7 @@ std::string names_of(const std::vector<ScoredMission>& missions) {
   return names;
 }
 
-/// Starts or patches of one mission, as `evaluate` reads them.
+/// The starts or patches of one mission, in the format that `evaluate` reads.
 ExitCode write_table(const ExportArguments& arguments, StoreReader& store, Output& output) {
   MissionFilter filter{.mission = arguments.mission, .design = {}};
   if (!arguments.design.empty()) {

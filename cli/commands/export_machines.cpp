@@ -58,8 +58,8 @@ struct World {
   Profile profile;
 };
 
-/// The mission and the profile as the store's campaign has them. Where it has no profile, e-pucks
-/// get the published one; files of RVRs have none.
+/// The mission and the profile of the store's campaign. If it has no profile, e-pucks get the
+/// published one; files of RVRs have none.
 Expected<World> world_of(StoreReader& store, DesignId design, const std::string& name) {
   const auto stored = store.campaign_of(design);
   if (!stored) return Unexpected(stored.error());
@@ -116,7 +116,7 @@ Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineEx
                     std::move(*bytes)};
 }
 
-/// Of the original's modules: on the RVR, of the e-puck's machines and trees.
+/// Flavours that use the original modules: on the RVR, and of the e-puck's machines and trees.
 constexpr std::array<std::string_view, 3> kOriginalFlavours = {"watermelon-argos3",
                                                                "chocolate-epuck", "maple-epuck"};
 
@@ -126,8 +126,8 @@ bool is_of_epucks(const MachineRecord& candidate, StoreReader& store) {
   return stored && stored->flavour->reference != kRvrModel;
 }
 
-/// Behaviours of another flavour do something else with the same numbers. Each flavour is named
-/// once.
+/// Notes that behaviours of another flavour do something else with the same numbers. Names each
+/// flavour once.
 void remark_flavours(StoreReader& store, const std::vector<CandidateId>& candidates,
                      Output& output) {
   std::set<std::string> remarked(kOriginalFlavours.begin(), kOriginalFlavours.end());
@@ -145,7 +145,7 @@ void remark_flavours(StoreReader& store, const std::vector<CandidateId>& candida
   }
 }
 
-/// Of e-pucks; each profile once.
+/// Notes on the profiles of e-pucks; each profile once.
 void remark_profiles(StoreReader& store, const std::vector<CandidateId>& candidates,
                      Output& output) {
   std::set<std::string> remarked;
@@ -167,8 +167,8 @@ ExitCode code_of(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
 }
 
-/// Only machines have experiment files, and trees of e-pucks. Where some are among others, the
-/// others are left out.
+/// Only machines, and trees of e-pucks, have experiment files. If the list contains some of these,
+/// the other candidates are left out.
 Expected<std::vector<CandidateId>> with_experiments(StoreReader& store,
                                                     const std::vector<CandidateId>& candidates) {
   std::vector<CandidateId> machines;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The design that is named, or the store's only one.
+/// The named design, or the store's only one.
 Expected<DesignId> wanted_design(StoreReader& store, const std::string& word) {
   const auto designs = known_designs(store);
   if (!designs) return Unexpected(designs.error());
@@ -47,7 +47,7 @@ bool is_folder(const std::string& place) {
   return place.ends_with('/') || fs::is_directory(place, ignored);
 }
 
-/// Nothing is overwritten.
+/// Does not overwrite files.
 Expected<void> write_tables(const fs::path& folder,
                             const std::map<std::string, std::string>& tables) {
   std::error_code trouble;
@@ -62,7 +62,7 @@ Expected<void> write_tables(const fs::path& folder,
   return {};
 }
 
-/// Before R works for it.
+/// Checks the output place before R starts to work.
 Expected<void> check_place(const std::string& place) {
   const auto found = output_place(place, FileKind::Gzip);
   if (!found) return Unexpected(found.error());

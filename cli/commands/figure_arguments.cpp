@@ -11,7 +11,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The number behind `letter` in d3 or c812.
+/// The number after `letter` in d3 or c812.
 Expected<std::int64_t> number_of(const std::string& text, char letter, const char* option) {
   const auto id = parse_thing_id(text);
   if (id && id->letter == letter) return std::stoll(id->digits);

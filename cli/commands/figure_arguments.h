@@ -12,7 +12,7 @@
 
 namespace swarmsmith::cli {
 
-/// The words of the command `figure`, as typed.
+/// The arguments of the command `figure`, as typed.
 struct FigureArguments {
   std::string kind;
   StoreArgument store;
@@ -24,15 +24,15 @@ struct FigureArguments {
   std::vector<std::string> seeds;
   std::string purpose;
   std::string per;
-  FigureOptions options;  ///< what needs no reading
+  FigureOptions options;  ///< options that need no parsing
 
   void declare(Options& words);
 };
 
-/// Those that are drawn from views, then those that simulate.
+/// The figures drawn from views, then the figures that simulate.
 std::vector<FigureKind> all_figure_kinds();
 
-/// What the words mean, before any store is opened. Errors: BadInput, with the option.
+/// Parses the arguments before any store is opened. Errors: BadInput, with the option.
 Expected<FigureOptions> read_options(const FigureArguments& arguments);
 
 }  // namespace swarmsmith::cli

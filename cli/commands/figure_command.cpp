@@ -14,7 +14,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A line a kind, with its options below it.
+/// One line per kind, with its options below it.
 std::string kinds_text() {
   std::string text = "Kinds:\n";
   for (const FigureKind& kind : all_figure_kinds()) {
@@ -36,7 +36,7 @@ std::string kinds_json() {
   return JsonObject().add("kinds", json_list(all_figure_kinds(), kind_json)).text() + "\n";
 }
 
-/// Rows below the headline; a row may have line feeds in quotes.
+/// The number of rows below the headline; quoted cells may contain line feeds.
 std::size_t rows_of_csv(const std::string& csv) {
   std::size_t rows = 0;
   bool quoted = false;
@@ -47,7 +47,7 @@ std::size_t rows_of_csv(const std::string& csv) {
   return rows == 0 ? 0 : rows - 1;
 }
 
-/// The ending of the file's name, which says what is written; ".svg" for standard output.
+/// The ending of the file's name, which selects the format; ".svg" for standard output.
 Expected<std::string> figure_ending(const FigureArguments& arguments, const Output& output) {
   if (arguments.file.empty() || arguments.file == "-") {
     if (!output.json) return std::string(".svg");
@@ -77,7 +77,7 @@ Expected<std::string> bytes_of(Figure figure, const std::string& ending, const s
                    "-o");
 }
 
-/// "winners-3.png" of "winners.png".
+/// "winners-3.png" for page 3 of "winners.png".
 std::filesystem::path numbered(const std::filesystem::path& file, std::size_t number) {
   std::filesystem::path page = file;
   page.replace_filename(file.stem().string() + "-" + std::to_string(number) +
@@ -85,10 +85,10 @@ std::filesystem::path numbered(const std::filesystem::path& file, std::size_t nu
   return page;
 }
 
-/// Higher than these rsvg-convert draws no picture of 300 dots an inch: 32,767 of them.
+/// rsvg-convert cannot draw a higher picture at 300 dots per inch: its limit is 32,767 dots.
 constexpr std::size_t kMostPagesOfPicture = 11;
 
-/// Each page as a picture of its own.
+/// Writes each page as a separate picture.
 ExitCode write_pages(const std::vector<std::string>& pages, const std::string& file,
                      Output& output) {
   std::vector<std::string> files;
@@ -115,7 +115,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
     return fail(output, ExitCode::Usage, *refused);
   const auto ending = figure_ending(arguments, output);
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
-  // What a paper leaves out, numbers never had: a script may name all its files with --paper.
+  // --paper removes elements that tables do not have, so it is allowed for all files of a script.
   if ((*ending == ".csv" || *ending == ".tex") && !arguments.font.empty()) {
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file", "--font"});

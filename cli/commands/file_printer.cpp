@@ -10,7 +10,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// One name a line, or the names as JSON.
+/// One name per line, or all names as JSON.
 void list(const CarriedFiles& files, Output& output) {
   if (output.json) {
     output.out << JsonObject().add(files.kind + "s", files.names).text() << "\n";

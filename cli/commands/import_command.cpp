@@ -25,7 +25,7 @@ struct ImportOptions : ImportArguments {
   std::string out;
 };
 
-/// What a campaign file begins with: where it came from, and what can be changed in it.
+/// The first lines of a campaign file: where it came from, and what can be changed in it.
 std::string heading(const fs::path& scenario, const Campaign& campaign) {
   return "# The race of irace's scenario " + scenario.string() +
          ",\n"
@@ -38,7 +38,7 @@ std::string heading(const fs::path& scenario, const Campaign& campaign) {
          normalised_text(campaign);
 }
 
-/// [workers], which no normalised text has.
+/// The table [workers], which the normalised text leaves out.
 std::string workers_text(const Campaign& campaign) {
   if (!campaign.local_workers) return "";
   return "\n[workers]\nlocal = " + std::to_string(*campaign.local_workers) + "\n";
@@ -57,7 +57,8 @@ ExitCode import_scenario(const ImportOptions& arguments, Output& output) {
   }
   for (const std::string& warning : setup->warnings)
     print_note(output, "warning: " + warning);
-  // As irace's: an exported folder has it, and R knows no larger integer.
+  // The same range as irace's seeds: an exported folder contains the seed, and R has no larger
+  // integers.
   const std::uint64_t drawn = 1 + std::random_device()() % 2'147'483'647;
   if (!setup->seed) {
     print_note(output, "the scenario has no seed; the campaign gets " + std::to_string(drawn));
@@ -79,7 +80,7 @@ ExitCode import_scenario(const ImportOptions& arguments, Output& output) {
   return ExitCode::Done;
 }
 
-/// Results go into a store, a scenario becomes a campaign file.
+/// Results are added to a store; a scenario becomes a campaign file.
 ExitCode run_import(const ImportOptions& arguments, Output& output) {
   if (!arguments.into.empty()) {
     if (arguments.out.empty()) return import_into_store(arguments, output);

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Says at most so many errors.
+/// Prints at most kMost errors.
 ExitCode fail_all(Output& output, const std::vector<Error>& errors) {
   constexpr std::size_t kMost = 20;
   for (std::size_t i = 0; i < std::min(kMost, errors.size()); ++i)
@@ -39,10 +39,10 @@ ExitCode fail_all(Output& output, const std::vector<Error>& errors) {
   return ExitCode::Usage;
 }
 
-/// The store that is imported into, locked, and what it holds.
+/// The store that receives the import, locked, and its contents.
 struct Target {
   std::unique_ptr<StoreAtRest> store;
-  std::unique_ptr<StoreReader> reader;  ///< none of a new store
+  std::unique_ptr<StoreReader> reader;  ///< null for a new store
   std::vector<KnownDesign> designs;
 };
 
@@ -64,7 +64,7 @@ Expected<Target> open_target(const std::string& path, StoreAtRest::IfMissing if_
   return target;
 }
 
-/// What was imported, for people who look at the store later.
+/// A note on the import, for people who look at the store later.
 EventRow note_of(const ImportArguments& arguments, const std::string& what, std::size_t count) {
   const std::string file = fs::path(arguments.file).filename().string();
   return {.severity = "info",
@@ -111,14 +111,14 @@ ExitCode add_campaign(const ImportArguments& arguments, Target target, Addition 
   return ExitCode::Done;
 }
 
-/// The name of the campaign that a file becomes: that of the file, where it is a name.
+/// The name of the campaign made from a file: the file's name, if it is a valid one.
 std::string campaign_name(const ImportArguments& arguments) {
   if (!arguments.name.empty()) return arguments.name;
   const std::string stem = fs::path(arguments.file).stem().string();
   return is_name(stem) ? stem : "imported";
 }
 
-/// Says so when a design of the store has a mission of an imported one's name that is another.
+/// Prints a note if an imported mission differs from a mission of the store with the same name.
 Expected<void> compare_missions(const Addition& addition, StoreReader& store, Output& output) {
   const auto worlds = DesignWorlds::read(store);
   if (!worlds) return Unexpected(worlds.error());
@@ -148,7 +148,7 @@ Expected<void> compare_missions(const Addition& addition, StoreReader& store, Ou
   return {};
 }
 
-/// That of --flavour, if it is given.
+/// The flavour of --flavour, if it is given.
 Expected<std::optional<Flavour>> said_flavour(const ImportArguments& arguments, Output& output) {
   if (arguments.flavour.empty()) return std::optional<Flavour>();
   auto found = find_flavour_or_complain(arguments.flavour, "--flavour", output);

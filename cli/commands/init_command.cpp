@@ -77,7 +77,7 @@ void replace_all(std::string& text, std::string_view what, std::string_view with
   }
 }
 
-/// Those that the simulated robot has.
+/// The flavours for the simulated robot.
 std::vector<std::string> names_of_flavours() {
   std::vector<std::string> names;
   for (const Flavour* flavour : flavours_for(kRvrModel))
@@ -85,7 +85,7 @@ std::vector<std::string> names_of_flavours() {
   return names;
 }
 
-/// A commented campaign file that runs as it is.
+/// A campaign file with comments that runs without changes.
 std::string campaign_template(const std::string& mission, const std::string& flavour) {
   std::string text(kTemplate);
   replace_all(text, "@MISSION@", mission);

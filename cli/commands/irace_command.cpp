@@ -20,19 +20,19 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// irace ends with 1, whatever is wrong.
+/// Prints the errors. The exit code of irace is 1 for all errors.
 ExitCode complain(Output& output, const std::vector<Error>& errors) {
   for (const Error& error : errors)
     print_error(output, error);
   return ExitCode::Failed;
 }
 
-/// Flags of ours, which hold from the first line on.
+/// Reads our own flags, so that they hold from the first line on.
 void read_flags(const IraceSettings& settings, Output& output) {
   output.json = settings.is_on("--json");
   output.verbose = settings.is_on("--verbose");
   if (settings.is_on("--no-color")) output.color = false;
-  // irace's lines tell what a person wants to know, and errors are explained.
+  // irace's lines say what the user wants to know, and errors are explained.
   if (output.verbose) {
     set_log_level(LogLevel::Debug);
   } else {
@@ -54,7 +54,7 @@ void print_help(Output& output) {
              << wrapped(command.details) << '\n';
 }
 
-/// R's files and the store are not copies of each other: .Rdata becomes .db.
+/// The store is not a copy of R's log file, so .Rdata in its name becomes .db.
 std::filesystem::path store_file(std::filesystem::path log_file) {
   const std::string ending = log_file.extension().string();
   if (ending == ".Rdata" || ending == ".RData" || ending == ".rda")
@@ -73,7 +73,7 @@ Expected<std::filesystem::path> finished_store(const IraceCommandLine& line,
                    "--log-file");
 }
 
-/// --store, else the log file, else a place that goes afterwards.
+/// The place of --store, else of the log file, else a temporary place.
 Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
                               const IraceSetup& setup) {
   if (const IraceSetting* store = line.settings.find("--store")) {
@@ -113,7 +113,7 @@ ExitCode check(Output& output, const IraceSetup& setup) {
   return check_target(output, setup, campaign);
 }
 
-/// What is made of a finished run.
+/// Runs an action that needs a finished run.
 ExitCode after_run(Output& output, const IraceCommandLine& line, const IraceSetup& setup) {
   const auto finished = finished_store(line, setup);
   if (!finished) return fail(output, ExitCode::Failed, finished.error());

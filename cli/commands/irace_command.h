@@ -8,9 +8,9 @@
 
 namespace swarmsmith::cli {
 
-/// `swarmsmith irace`: the words after it are irace's own and those of docs/command-line.md.
+/// `swarmsmith irace`: takes the options of irace and those in docs/command-line.md.
 ExitCode run_irace(const std::vector<std::string>& given, Output& output);
-/// Its options.
+/// The options of `swarmsmith irace`.
 std::vector<DeclaredOption> irace_declared();
 
 }  // namespace swarmsmith::cli

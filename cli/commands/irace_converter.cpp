@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes away again, with what is in it.
+/// A folder that is deleted with its contents by the destructor.
 class ScratchFolder {
  public:
   static Expected<ScratchFolder> make() {
@@ -48,24 +48,24 @@ class ScratchFolder {
 
 constexpr std::size_t kLargestLog = std::size_t{4} << 30U;  // bytes
 
-/// A script of ours, with two files or folders.
+/// One of our R scripts, with two files or folders as arguments.
 struct Script {
   std::string name;
   std::string_view text;
   fs::path from;
   fs::path to;
   std::string verb;     ///< for the counter: "converted"
-  std::string without;  ///< what to do where there is no R
+  std::string without;  ///< advice if there is no R
 };
 
-/// Waits for R; the reason why it refused, empty when it has done it.
+/// Runs R until it ends. Returns its reason for refusing, or an empty text if it succeeded.
 Expected<std::string> run_script(const Script& script, const fs::path& folder, const fs::path& log,
                                  Output& output) {
   const fs::path file = folder / script.name;
   if (auto written = write_whole_file(file.string(), script.text); !written)
     return Unexpected(written.error());
   ChildProcess process;
-  // Texts are UTF-8, whatever the user's language is.
+  // Texts are UTF-8 in any locale of the user.
   const auto started = process.start(
       {"Rscript", "--vanilla", file.string(), script.from.string(), script.to.string()},
       ChildProcess::Streams::Held, {"LC_ALL=C.UTF-8"});
@@ -82,7 +82,7 @@ Expected<std::string> run_script(const Script& script, const fs::path& folder, c
       const std::string& reason = process.last_line();
       return reason.empty() ? "it says no reason" : reason;
     }
-    process.last_line();  // R would wait for a reader of its errors
+    process.last_line();  // reads all errors, because R would wait for a reader
     counter.tell(0, 1);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -18,7 +18,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// What can be listed: rows of a view, with the columns that fit on a screen and all of them.
+/// A kind of thing that can be listed: rows of a view, with the columns that fit on a screen and
+/// all columns.
 struct Kind {
   std::string_view name;
   std::string_view from;
@@ -65,7 +66,8 @@ struct LsArguments {
   std::optional<std::int64_t> limit;
 };
 
-/// The person's own words go into the statement: it may only read.
+/// The user's own text becomes part of the statement; this is safe because the connection is
+/// read-only.
 std::string statement(const Kind& kind, const LsArguments& arguments, bool all_columns,
                       bool several_campaigns, bool has_principals) {
   std::string columns(all_columns ? "*" : kind.columns);
@@ -96,7 +98,7 @@ Cell real_cell(double value) {
   return {.type = Cell::Type::Real, .text = json_number(value)};
 }
 
-/// Those that are built in: what needs no store.
+/// The built-in flavours, for which no store is needed.
 Rows flavour_rows() {
   Rows rows{
       .columns = {"flavour", "reference", "states", "transitions", "behaviours", "conditions"},
@@ -111,7 +113,7 @@ Rows flavour_rows() {
   return rows;
 }
 
-/// The same of robots.
+/// The built-in robots.
 Rows robot_rows() {
   Rows rows{.columns = {"robot", "mass_kg", "track_m", "max_speed_mps", "proximity_sensors",
                         "light_sensors", "ground_points", "neighbours", "neighbours_range_m"},

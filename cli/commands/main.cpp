@@ -27,7 +27,8 @@ int main(int argc, char** argv) {
     return static_cast<int>(
         fail(output, ExitCode::Store, {swarmsmith::ErrorKind::Corrupt, message, failure.file()}));
   } catch (const std::exception& error) {
-    // What the environment refused: a full disk, no memory, a store that goes away under us.
+    // Failures of the environment: a full disk, no memory, a store that disappears while it is
+    // used.
     return static_cast<int>(fail(output, ExitCode::Failed, sentence_of_fault(error)));
   }
 }

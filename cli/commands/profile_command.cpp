@@ -16,7 +16,7 @@ struct PrintedArguments {
   std::string file;
 };
 
-/// All that a user's profile says, with what its base says, as a file.
+/// A user's profile together with the values of its base, as a file.
 tl::expected<std::string, std::vector<Error>> whole_profile(const std::string& word) {
   const auto profile = find_profile(word, ".");
   if (!profile) return tl::unexpected(profile.error());

@@ -36,9 +36,9 @@ constexpr const char* kViews =
     "FROM sqlite_master AS v JOIN pragma_table_info(v.name) AS c "
     "WHERE v.type = 'view' AND v.name GLOB 'v_*' GROUP BY v.name ORDER BY v.name";
 
-/// `query SQL STORE`, `query SQL` (the store from option or environment), `query STORE`; also
-/// `query STORE SQL`. A statement has blanks; a store's name that has them must be given with
-/// --store.
+/// Takes the statement from the arguments: `query SQL STORE`, `query SQL` (the store from the
+/// option or the environment), `query STORE`; also `query STORE SQL`. The argument with blanks is
+/// the statement; a store whose name has blanks must be given with --store.
 std::string take_sql(QueryArguments& arguments) {
   std::vector<std::string>& words = arguments.words;
   const bool named = !arguments.store.option.empty();
@@ -55,7 +55,7 @@ std::string take_sql(QueryArguments& arguments) {
   return sql;
 }
 
-/// Nothing within the limits is not an answer.
+/// Within the limits there was no row at all, so there is no answer.
 ExitCode fail_without_a_row(const StoreReader::QueryLimits& limits, Output& output) {
   return fail(
       output, ExitCode::Failed,
@@ -64,7 +64,7 @@ ExitCode fail_without_a_row(const StoreReader::QueryLimits& limits, Output& outp
                   limits.seconds));
 }
 
-/// Writes rows as they come: a table of millions is not held.
+/// Writes rows as they arrive, so that a table of millions of rows is never in memory.
 ExitCode write_csv(StoreReader& store, const std::string& sql, StoreReader::QueryLimits limits,
                    Output& output) {
   limits.bytes = std::numeric_limits<std::int64_t>::max();

@@ -14,12 +14,12 @@ namespace swarmsmith::cli {
 /// Arguments of `replay` for a real run.
 struct RealReplayWords {
   RealRunId id;
-  std::optional<std::int64_t> beside;  ///< so many simulations, on the seeds 1, 2, ...
-  std::string seeds;                   ///< or on these
+  std::optional<std::int64_t> beside;  ///< number of simulations, on the seeds 1, 2, ...
+  std::string seeds;                   ///< or the seeds of the simulations
   RecordingArguments recording;
 };
 
-/// `replay r7`: scores the stored cycles again, and shows them beside simulations.
+/// `replay r7`: scores the stored cycles again, and shows the run beside simulations.
 ExitCode replay_real(std::unique_ptr<StoreReader> store, const RealReplayWords& words,
                      Output& output);
 

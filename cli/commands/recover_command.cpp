@@ -17,14 +17,14 @@ namespace {
 struct RecoverArguments {
   std::string damaged;
   std::string out;
-  std::string second;  ///< the same as a word
+  std::string second;  ///< the same as a second argument
   std::string campaign;
   std::string without_key;
 };
 
-/// What is printed at the end.
+/// Facts that are printed at the end.
 struct Report {
-  std::vector<Rebuilt::Design> designs;  ///< by the ids of the new store
+  std::vector<Rebuilt::Design> designs;  ///< with the ids of the new store
   std::vector<std::string> complaints;
   std::optional<Recovery::Without> without;
 };
@@ -123,7 +123,7 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
   output.out << file << ": " << end.evaluations << " evaluations, digest " << end.digest << "\n";
 }
 
-/// The file that a person names for a campaign whose row is lost.
+/// Adds the campaign of the file that the user named, if the campaign's row is lost.
 Expected<void> put_campaign(Recovery& recovery, const std::string& file) {
   if (!recovery.campaigns().empty() || file.empty()) return {};
   const auto campaign = read_campaign(file);
@@ -132,7 +132,7 @@ Expected<void> put_campaign(Recovery& recovery, const std::string& file) {
   return {};
 }
 
-/// Derives what follows from scores anew, where this program can play the races.
+/// Computes again everything that follows from scores, if this program can replay the races.
 Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored, Report& report) {
   if (stored.state == "imported") return {};
   auto plans = plans_of(stored.row);

@@ -25,7 +25,7 @@ struct ReplayArguments {
   std::string seeds;
   RecordingArguments recording;
 
-  /// The real run that is meant, if any.
+  /// The real run that the arguments name, if any.
   std::optional<RealRunId> real_run() const {
     const auto thing = parse_thing_id(id);
     if (!thing || thing->letter != 'r') return std::nullopt;
@@ -61,7 +61,7 @@ std::string as_json(const StoredRun& run, const SimulationResult& result) {
          "\n";
 }
 
-/// The line that says how the comparison went.
+/// The line with the result of the comparison.
 std::string as_line(const StoredRun& run, const SimulationResult& result) {
   const std::string values = values_text(result.score, result.state_digest);
   if (run.outcome) return name_of(run) + ": same bits as stored: " + values;
@@ -70,7 +70,7 @@ std::string as_line(const StoredRun& run, const SimulationResult& result) {
                        : "; the store holds no such evaluation to compare with");
 }
 
-/// What a picture says of the run, besides the mission and the times.
+/// The text about the run in a picture, besides the mission and the times.
 std::vector<std::string> details_of(const StoredRun& run, const SimulationResult& result) {
   return {run.candidate, "seed " + std::to_string(run.seed), "score " + score_text(result.score)};
 }
@@ -93,7 +93,7 @@ ExitCode replay_one(const StoredRun& run, const ReplayArguments& arguments, Outp
   return fail(output, ExitCode::Failed, difference_text(run, result));
 }
 
-/// The run that the words name.
+/// The run that the arguments name.
 Expected<StoredRun> find_run(StoredRuns& runs, const ReplayArguments& arguments) {
   const auto id = parse_thing_id(arguments.id);
   if (!id || id->letter == 'd') {
@@ -110,7 +110,7 @@ Expected<StoredRun> find_run(StoredRuns& runs, const ReplayArguments& arguments)
   return runs.candidate(*id, *arguments.seed);
 }
 
-/// Every difference is an error of its own; the answer counts them.
+/// Prints every difference as a separate error; the answer contains the number of differences.
 ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   if (!runs.has_machines()) return fail(output, ExitCode::Usage, programs_scored("--sample"));
   const auto ids = runs.sample(count);
@@ -135,7 +135,7 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   return different->empty() ? ExitCode::Done : ExitCode::Failed;
 }
 
-/// What cannot be meant, before any store is opened.
+/// Finds arguments that make no sense together, before any store is opened.
 std::optional<Error> complaint_about(const ReplayArguments& arguments) {
   const bool has_company = arguments.beside || !arguments.seeds.empty();
   if (has_company && !arguments.real_run()) {
@@ -158,7 +158,7 @@ std::optional<Error> complaint_about(const ReplayArguments& arguments) {
 }
 
 ExitCode run_replay(ReplayArguments arguments, Output& output) {
-  // With --sample there is no id, so that the first word is the store.
+  // With --sample there is no id, so the first argument is the store.
   if (arguments.sample && arguments.store.word.empty())
     std::swap(arguments.id, arguments.store.word);
   auto complaint = complaint_about(arguments);

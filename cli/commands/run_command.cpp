@@ -35,7 +35,7 @@ CommandRun declare_run(Options& options) {
     if (!campaigns) return ExitCode::Usage;
     RunOptions run{.access = arguments->access};
     arguments->http.put(run, *campaigns);
-    // Without the dashboard, no pages of numbers are served either.
+    // Without the dashboard, the pages with numbers are not served either.
     if (arguments->http.no_dashboard && arguments->http.http.empty()) run.http.clear();
     if (!arguments->workers.empty()) {
       const auto launch = parse_workers(arguments->workers, campaigns->front().launch);

@@ -8,7 +8,7 @@
 
 namespace swarmsmith::cli {
 
-/// The picture of the tests of a design's winner, for a report (trajectories_figure.cpp).
+/// A picture of the test runs of a design's winner, for a report (trajectories_figure.cpp).
 Expected<std::string> runs_from_above(const StoreArgument& argument, DesignId design);
 
 }  // namespace swarmsmith::cli

@@ -18,13 +18,14 @@ struct ShowArguments {
   StoreArgument store;
 };
 
-/// A part of what is shown: its name in JSON and as a headline, and its rows.
+/// A part of the output: its name in JSON and as a headline, and its rows.
 struct Part {
   std::string name;
   std::string sql;
 };
 
-/// What a design's winner got outside of its race, by source. Before schema 4 all of it was tests.
+/// The scores of a design's winner from outside its race, by source. Before schema 4, all of them
+/// were tests.
 std::string scores_of(const std::string& number, const std::string& purpose, bool has_purposes) {
   const std::string of = has_purposes ? " AND purpose = '" + purpose + "'" : "";
   return "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
@@ -33,7 +34,7 @@ std::string scores_of(const std::string& number, const std::string& purpose, boo
          number + of + " GROUP BY candidate, source";
 }
 
-/// Statements that show a thing; the first one has one row if it exists.
+/// Statements that show a thing; the first statement returns one row if the thing exists.
 std::vector<Part> parts_of_design(const std::string& number, bool has_purposes) {
   std::vector<Part> parts = {
       {"design", "SELECT * FROM v_designs WHERE design = " + number},
@@ -68,9 +69,9 @@ std::vector<Part> parts_of_evaluation(const ThingId& id) {
   return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
 }
 
-/// A store of before has no logs of robots.
+/// Older stores have no logs of robots.
 constexpr std::int64_t kSchemaOfLogs = 10;
-/// A store of before has no checks of runs.
+/// Older stores have no checks of runs.
 constexpr std::int64_t kSchemaOfChecks = 13;
 constexpr std::string_view kChecks = "checks";
 
@@ -136,7 +137,7 @@ std::string as_lines(const Rows& rows) {
   return text;
 }
 
-/// The thing itself as lines, the rest as tables.
+/// The thing itself as lines, the other parts as tables.
 void write_text(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
   output.out << as_lines(rows.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -148,7 +149,7 @@ void write_text(Output& output, const std::vector<Part>& parts, const std::vecto
   }
 }
 
-/// One object, a key a part.
+/// One object with one key per part.
 void write_json(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
   JsonObject object;
   object.add(parts.front().name, row_as_json(rows.front(), 0));
@@ -157,7 +158,7 @@ void write_json(Output& output, const std::vector<Part>& parts, const std::vecto
   output.out << object.text() << "\n";
 }
 
-/// In place of numbers of iterations, where the search has none.
+/// Replaces the numbers of iterations if the search does not have iterations.
 void tell_rounds(Rows& rows, const StoredStages& stages, const ThingId& id) {
   const std::string design = to_string(design_of_thing(id));
   const SearchOptions* search = stages.search(design);

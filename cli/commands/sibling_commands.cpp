@@ -9,7 +9,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Becomes the program; when it is not there, says `missing`.
+/// Replaces this process by the program; prints `missing` if it does not exist.
 ExitCode become(std::string program, const std::vector<std::string>& words,
                 const std::string& missing, Output& output) {
   std::error_code trouble;

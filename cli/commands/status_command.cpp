@@ -35,18 +35,19 @@ struct StatusArguments {
   bool watch = false;
 };
 
-/// Names of the first version of the JSON, beside those of the second until the version after it.
+/// The names in the first version of the JSON. They stay beside the names of the second version
+/// until the next version.
 constexpr const char* kCampaign = "SELECT * FROM v_campaign_status";
 constexpr const char* kDesigns =
     "SELECT design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
     "best_mean, reason FROM v_designs ORDER BY design";
-/// The last ones.
+/// The latest commands.
 constexpr const char* kCommands =
     "SELECT number, kind, design, budget, step, who, at FROM v_commands "
     "ORDER BY number DESC LIMIT 20";
 constexpr const char* kFailures = "SELECT count(*) AS failures FROM v_failures";
 
-/// What a store says besides the state of its campaigns.
+/// Other facts from a store, besides the state of its campaigns.
 struct StoredFacts {
   Rows campaign;
   Rows designs;
@@ -61,7 +62,7 @@ Expected<StoredFacts> read_facts(StoreReader& store) {
                                   {kDesigns, &facts.designs},
                                   {kFailures, &failures},
                                   {kCommands, &facts.commands}}) {
-    if (sql == kCommands && store.schema() < 3) continue;  // there were none
+    if (sql == kCommands && store.schema() < 3) continue;  // older stores have no commands
     auto found = select(store, sql);
     if (!found) return Unexpected(found.error());
     letter_ids(*found);
@@ -83,7 +84,8 @@ void write_text(Output& output, const LiveStatus& status, const StoredFacts& fac
     output.out << as_shown(line, Layout::Escaped) << "\n";
 }
 
-/// States and stages are those of the campaigns: the store has what its last writer said.
+/// Replaces states and stages by those in `campaigns`, because the store has only the ones that its
+/// last writer wrote.
 void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns, bool is_written) {
   const std::size_t state = facts.campaign.column("state");
   for (std::size_t i = 0; i < facts.campaign.cells.size() && i < campaigns.size(); ++i)
@@ -101,7 +103,7 @@ void correct(StoredFacts& facts, const std::vector<CampaignStatus>& campaigns, b
     cells.push_back({StoreReader::Cell::Type::Text, stages[cells.front().text]});
 }
 
-/// What a coordinator says, with what its store knows besides.
+/// The coordinator's status, together with other facts from its store.
 std::string json_of(const LiveStatus& status, const StoredFacts& facts) {
   Rows paused{.columns = {"design"}};
   for (const CampaignStatus& campaign : *status.campaigns) {
@@ -119,8 +121,8 @@ std::string json_of(const LiveStatus& status, const StoredFacts& facts) {
       .text();
 }
 
-/// Where a coordinator is asked: at the address or by the file that a person names, else by the
-/// file beside the store. NotFound when nothing says that one runs.
+/// The coordinator to ask: the one that the user named by its address or file, else the one of the
+/// file beside the store. NotFound if no coordinator seems to be running.
 Expected<FoundCoordinator> coordinator_of(const StatusArguments& arguments) {
   CoordinatorSearch search;
   search.role = "reader";
@@ -145,14 +147,14 @@ Expected<FoundCoordinator> coordinator_of(const StatusArguments& arguments) {
 Screen screen_of(const Output& output) {
   winsize size = {};
   if (output.out_is_terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-    // The last line stays free: a line end there would scroll.
+    // The last line stays empty: a line end there would scroll.
     return {size.ws_col, size.ws_row > 1 ? size.ws_row - 1U : 23U};
   }
   constexpr auto kAll = std::numeric_limits<std::size_t>::max();
   return {kAll, kAll};
 }
 
-/// A screenful in place of the one before, without a blank one between.
+/// Draws the lines over the previous screen, without clearing it in between.
 void redraw(Output& output, const std::vector<std::string>& lines) {
   output.out << Verbatim{"\x1b[H"};
   for (const std::string& line : lines)
@@ -171,7 +173,7 @@ void write_live(const StatusArguments& arguments, Output& output, const LiveStat
   }
 }
 
-/// The coordinator's own word, as it came where JSON is wanted.
+/// Prints the coordinator's status; if JSON is wanted, exactly as it arrived.
 Expected<void> show_live(const StatusArguments& arguments, Output& output) {
   constexpr auto kPatience = std::chrono::seconds(3);
   const auto coordinator = coordinator_of(arguments);
@@ -212,9 +214,9 @@ ExitCode show_stored(const StatusArguments& arguments, Output& output, bool& run
   return ExitCode::Done;
 }
 
-/// Once, or again and again until there is nothing more to see.
+/// Prints the status once, or repeatedly until nothing more can change.
 ExitCode run_status(const StatusArguments& arguments, Output& output) {
-  // A person looks at a terminal, a file fills up.
+  // A terminal is redrawn often; a file would become too long.
   const auto pause = std::chrono::seconds(output.out_is_terminal ? 1 : 5);
   const bool has_store = arguments.store.path().has_value();
   bool was_live = false;
@@ -222,7 +224,7 @@ ExitCode run_status(const StatusArguments& arguments, Output& output) {
     bool running = true;
     const auto live = show_live(arguments, output);
     if (!live && !has_store) {
-      // A coordinator that was there and is gone has come to its end.
+      // A coordinator that was running and no longer answers has finished.
       return was_live ? ExitCode::Done : fail(output, ExitCode::Unreachable, live.error());
     }
     if (!live) {

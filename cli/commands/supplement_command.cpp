@@ -33,7 +33,7 @@ struct SupplementArguments {
   std::string folder;
 };
 
-/// A PDF beside every SVG.
+/// Adds a PDF for every SVG.
 Expected<void> add_pdfs(Files& files, Output& output) {
   Counter counter(output, "made", "PDFs");
   const auto of = std::ranges::count_if(
@@ -52,7 +52,7 @@ Expected<void> add_pdfs(Files& files, Output& output) {
   return {};
 }
 
-/// Where robots and patches were in the runs that scored the winners.
+/// The places of robots and patches in the runs that gave the winners' scores.
 Expected<Files> instance_tables(StoreReader& store) {
   const auto missions = scored_missions(store);
   if (!missions) return Unexpected(missions.error());
@@ -69,7 +69,7 @@ Expected<Files> instance_tables(StoreReader& store) {
   return files;
 }
 
-/// As `sha256sum -c` reads it: all files but itself.
+/// In the format of `sha256sum -c`: all files except this one.
 std::string checksums_of(const Files& files) {
   std::string text;
   for (const SupplementFile& file : files)
@@ -77,7 +77,7 @@ std::string checksums_of(const Files& files) {
   return text;
 }
 
-/// Everything in a folder beside the wanted one first, which gets its name when it is complete.
+/// Writes everything into a folder beside the final one, and renames it when it is complete.
 Expected<void> write_folder(const fs::path& folder, const Files& files) {
   const fs::path unfinished = folder.string() + ".unfinished-" + std::to_string(getpid());
   const auto failed = [&](const Error& error) {
@@ -100,7 +100,7 @@ Expected<void> write_folder(const fs::path& folder, const Files& files) {
 }
 
 ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
-  // "out/" and "out" are one folder.
+  // "out/" and "out" are the same folder.
   fs::path folder = fs::path(arguments.folder).lexically_normal();
   if (folder.filename().empty()) folder = folder.parent_path();
   if (std::error_code ignored; fs::exists(fs::symlink_status(folder, ignored))) {
@@ -111,7 +111,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
   const auto store = arguments.store.open_whole();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool with_pdfs = find_program("rsvg-convert").has_value();
-  // A program without pages has none to give.
+  // A program that was built without pages cannot add a dashboard.
   std::function<Expected<std::string>()> dashboard;
   if (!page_files().empty()) {
     dashboard = [&] { return snapshot_page(*arguments.store.path(), {.version = program_name()}); };

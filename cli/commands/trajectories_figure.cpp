@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t kTests = 4;
 constexpr std::int64_t kTestsOfReport = 2;
 
-/// The candidate that is meant: itself, or the best of a design.
+/// The candidate to draw: the named one, or the best one of the design.
 Expected<CandidateId> candidate_of(StoreReader& store, const FigureOptions& options) {
   if (options.candidate) return *options.candidate;
   const auto found = designs(store, options.filter);
@@ -32,7 +32,7 @@ Expected<CandidateId> candidate_of(StoreReader& store, const FigureOptions& opti
   return unexpected(ErrorKind::NotFound, "this design has no best machine yet", "--design");
 }
 
-/// Seeds of the first stored tests that were simulated.
+/// Seeds of the first stored tests by simulation.
 Expected<std::vector<std::int64_t>> seeds_of_tests(StoreReader& store, CandidateId candidate,
                                                    std::int64_t most) {
   const auto rows = select(store,
@@ -51,7 +51,7 @@ Expected<std::vector<std::int64_t>> seeds_of_tests(StoreReader& store, Candidate
       "--candidate");
 }
 
-/// Adds the run's picture, and its rows to the table.
+/// Adds the run's picture to the panels, and its rows to the table.
 Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv) {
   ArenaPicture picture{.title = "seed " + std::to_string(run.seed),
                        .details = {},
@@ -86,12 +86,12 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
   return {};
 }
 
-/// Runs of one machine from above, side by side, with a row a robot and instant in the table. They
-/// are simulated again: of the candidate, else of the winner of the design; on the seeds, else on
-/// the first of the stored tests.
+/// Runs of one machine from above, side by side, and a table with one row per robot and instant.
+/// The runs are simulated again: of the named candidate, else of the design's winner; on the given
+/// seeds, else on the seeds of the first stored tests.
 ///
 /// Errors: BadInput (no machine is named, a run cannot be simulated), NotFound (no such tests),
-/// Conflict when a run is stored and does not come out again with the same bits.
+/// Conflict if a stored run does not give the same bits again.
 Expected<Figure> film_all(StoreReader& store, const FigureOptions& options,
                           std::int64_t most_tests) {
   const auto candidate = candidate_of(store, options);

@@ -16,7 +16,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Scores that are evaluated again by default: well below a second.
+/// Default number of scores that are evaluated again; they take well below a second.
 constexpr std::int64_t kUsualSample = 64;
 constexpr std::int64_t kLargest = 2'147'483'647;
 
@@ -26,7 +26,7 @@ struct VerifyArguments {
   std::optional<std::int64_t> seed;
 };
 
-/// What was evaluated again, and what came out otherwise.
+/// The evaluations that were repeated, and those with a different result.
 struct Sampled {
   std::int64_t seed = 0;
   std::size_t evaluations = 0;
@@ -71,12 +71,13 @@ void write_text(Output& output, const Verification& found, const std::optional<S
   output.out << "\n";
 }
 
-/// Without --seed other evaluations each time, so that a worker cannot know in advance which.
+/// Without --seed, each call chooses other evaluations, so that a worker cannot know them in
+/// advance.
 std::int64_t drawn_seed() {
   return static_cast<std::int64_t>(std::random_device{}() % kLargest);
 }
 
-/// Nothing where no campaign of the store simulates.
+/// Empty if no campaign of the store simulates.
 Expected<std::optional<Sampled>> evaluate_again(std::unique_ptr<StoreReader> store,
                                                 const VerifyArguments& arguments, Output& output) {
   auto runs = StoredRuns::open(std::move(store));

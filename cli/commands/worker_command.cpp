@@ -10,7 +10,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// How the program learns where the coordinator is.
+/// The arguments that tell the worker program where the coordinator is.
 Expected<std::vector<std::string>> where_words(const std::string& connect,
                                                const std::string& coordinator) {
   if (connect.empty() == coordinator.empty()) {

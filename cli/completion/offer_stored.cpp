@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the values of a kind are in a store: two columns, the value and what it is.
+/// The query for the values of a kind in a store; its two columns are the value and its
+/// description.
 struct StoredKind {
   std::string_view kind;
   std::string_view query;
@@ -59,7 +60,7 @@ void offer_of_store(const fs::path& store, std::string_view query, Offer& offer)
   const auto reader = StoreReader::open(store);
   if (!reader) return;
   const StoreReader::QueryLimits limits{.rows = 1000, .seconds = 0.5, .bytes = 1 << 20};
-  // What a store does not have, such as real runs in an older one, is not offered.
+  // Kinds that a store lacks, such as real runs in an older store, offer no values.
   (void)(*reader)->query(
       std::string(query), limits, [](const auto&) {},
       [&](const std::vector<StoreReader::Cell>& cells) {
@@ -110,11 +111,11 @@ void offer_stored(std::string_view kind, std::span<const std::string> words, Off
     if (const auto store = store_in_words(words, fs::current_path()))
       offer_of_store(*store, stored->query, offer);
   } catch (const std::exception&) {
-    // A damaged store has no values.
+    // A damaged store offers no values.
     offer.words.resize(before);
     offer_built_in(kind, offer);
   }
-  // A mission of the store may be a built-in one.
+  // A mission of the store may also be built in.
   std::set<std::string> known;
   std::erase_if(offer.words,
                 [&](const Offer::Word& word) { return !known.insert(word.text).second; });

@@ -10,14 +10,14 @@
 
 namespace swarmsmith::cli {
 
-/// Values of the kinds DESIGN, CANDIDATE (winners and elites), RUN (real runs), MISSION, METHOD,
-/// SOURCE and PARAMETER, from the store that the words are about; names of PROFILE, FLAVOUR and
-/// MISSION that every program has; BEST, the word for all winners. At most 1,000 values, and those
-/// that a store gives within half a second.
+/// Offers completions. From the store on the command line: values of the kinds DESIGN, CANDIDATE
+/// (winners and elites), RUN (real runs), MISSION, METHOD, SOURCE and PARAMETER. Built in: names of
+/// PROFILE, FLAVOUR and MISSION, and BEST, the word for all winners. Offers at most 1,000 values,
+/// and only those that the store returns within half a second.
 void offer_stored(std::string_view kind, std::span<const std::string> words, Offer& offer);
 
-/// The store that the words name: the first that is an SQLite file, with or without an option
-/// before it; else SWARMSMITH_STORE; else the only one with the ending .db in `folder`.
+/// The store on the command line: the first argument, or value of an option (--store=FILE), that is
+/// an SQLite file; else SWARMSMITH_STORE; else the .db file in `folder`, if there is only one.
 std::optional<std::filesystem::path> store_in_words(std::span<const std::string> words,
                                                     const std::filesystem::path& folder);
 

@@ -100,7 +100,7 @@ AnswerCache::SoFar AnswerCache::get_within(const std::string& question, const st
     so_far.seconds = so_far.shared ? 0 : so_far.answer->seconds;
     return so_far;
   }
-  // Under way still, or in the place of it another that began later.
+  // The computation is still running, or a later one has replaced it.
   if (const auto own = under_way_.find(question); own != under_way_.end())
     own->second.is_late = true;
   so_far.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -112,7 +112,7 @@ void AnswerCache::finish(const std::string& question, const std::string& stamp,
                          std::uint64_t number, const Answer& answer) {
   const auto own = under_way_.find(question);
   if (own == under_way_.end() || own->second.number != number) {
-    // A later one took its place.
+    // A later computation has replaced this one.
     return;
   }
   const UnderWay way = own->second;

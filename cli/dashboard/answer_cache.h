@@ -16,20 +16,20 @@
 
 namespace swarmsmith::cli {
 
-/// An answer as it goes out.
+/// An answer as it is sent.
 struct KeptAnswer {
   int status = 200;
   std::string type;
-  std::string packed;  ///< its bytes, by gzip
+  std::string packed;  ///< the body, compressed by gzip
   std::string etag;
-  double seconds = 0;  ///< that it took
-  /// It is worth keeping: no error, and not cut short.
+  double seconds = 0;  ///< time that the computation took
+  /// Whether the answer may be kept: it is not an error and was not truncated.
   bool is_good = true;
-  bool is_final = false;  ///< it stays as it is
+  bool is_final = false;  ///< it never changes
 };
 
-/// Answers that are the same for all clients: equal questions at the same time share one
-/// computation, and the newest answers are kept, least recently used ones dropped.
+/// A cache of answers that are the same for all clients. Equal questions at the same time share one
+/// computation. The least recently used answers are dropped first.
 class AnswerCache {
  public:
   using Answer = std::shared_ptr<const KeptAnswer>;
@@ -37,32 +37,32 @@ class AnswerCache {
 
   explicit AnswerCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// The answer to `question`, made by `make` unless one is kept, or under way, that is final, that
-  /// was made of the same `stamp` (empty: of no known one), or whose making began at `oldest` or
-  /// later. `shared` is set when nothing was made for this question.
+  /// Returns the answer to `question`. Calls `make` unless a valid answer is kept or being
+  /// computed: one that is final, that has the same `stamp` (empty: not known), or whose
+  /// computation began at `oldest` or later. Sets `shared` if nothing was computed for this call.
   Answer get(const std::string& question, const std::string& stamp, Clock::time_point oldest,
              const std::function<KeptAnswer()>& make, bool& shared);
 
-  /// Of a computation: whether it goes on, or waits for its turn. Set by who computes.
+  /// Whether a computation is running or waits for its turn. Set by the thread that computes.
   using Turn = std::shared_ptr<std::atomic<bool>>;
-  /// An answer, or how far it is.
+  /// An answer, or the progress of its computation.
   struct SoFar {
-    Answer answer;         ///< null while it is not there
-    double seconds = 0;    ///< since its making began, or that it took
-    bool goes_on = false;  ///< it does not wait for its turn
+    Answer answer;         ///< null until the computation ends
+    double seconds = 0;    ///< since the computation began, or how long it took
+    bool goes_on = false;  ///< running: it does not wait for its turn
     bool shared = false;   ///< see `get`
   };
-  /// The same, made in a thread of its own that lives as long as it takes. When the answer is not
-  /// there after `patience`, the next client finds it under way; then, whatever it is, it is
-  /// the answer for the next kLate, so that it can be fetched from a store that goes on.
+  /// Like `get`, but computes in a separate thread without a time limit. If the answer takes longer
+  /// than `patience`, the next client joins the same computation; its answer is then valid for
+  /// kLate in any case, so that the client can fetch it although the store keeps changing.
   SoFar get_within(const std::string& question, const std::string& stamp, Clock::time_point oldest,
                    std::function<KeptAnswer()> make, const Turn& turn,
                    std::chrono::milliseconds patience);
   static constexpr std::chrono::seconds kLate{30};
 
-  /// What was kept may be wrong now, but for what is final.
+  /// Marks kept answers as outdated, except final ones.
   void forget();
-  /// Until no thread of get_within works.
+  /// Waits until all threads of get_within have ended.
   void wait_for_all();
   ~AnswerCache() { wait_for_all(); }
 
@@ -72,11 +72,11 @@ class AnswerCache {
     std::string stamp;
     Clock::time_point when;
     Answer answer;
-    Clock::time_point until{};  ///< it is the answer in any case
+    Clock::time_point until{};  ///< valid until then in any case
   };
-  using Order = std::list<Kept>;  ///< newest use first
+  using Order = std::list<Kept>;  ///< most recently used first
 
-  /// Holding the mutex, as the next two.
+  /// The caller holds the mutex, also for the next two functions.
   Answer kept_for(const std::string& question, const std::string& stamp, Clock::time_point oldest,
                   bool& is_late);
   void keep(const std::string& question, const std::string& stamp, Clock::time_point when,
@@ -95,9 +95,9 @@ class AnswerCache {
     std::shared_future<Answer> answer;
     std::uint64_t forgotten = 0;
     Turn turn{};
-    bool is_late = false;  ///< a client has to ask again
+    bool is_late = false;  ///< a client has to ask again for the answer
   };
-  std::map<std::string, UnderWay> under_way_;  ///< the newest of each question
+  std::map<std::string, UnderWay> under_way_;  ///< the newest computation for each question
   std::uint64_t begun_ = 0;
   std::size_t bytes_ = 0;
   std::uint64_t forgotten_ = 0;
@@ -105,12 +105,12 @@ class AnswerCache {
   int working_ = 0;  ///< threads of get_within
 };
 
-/// Runs at most so many at a time, queues so many, and refuses the others.
+/// Lets a limited number of threads run at a time, queues a limited number, and refuses the others.
 class Turnstile {
  public:
   Turnstile(int at_a_time, int waiting) : at_a_time_(at_a_time), most_waiting_(waiting) {}
 
-  /// A place, while it lives.
+  /// Permission to run, as long as the object exists.
   class Pass {
    public:
     explicit Pass(Turnstile& turnstile) : turnstile_(&turnstile) {}
@@ -124,11 +124,12 @@ class Turnstile {
    private:
     Turnstile* turnstile_;
   };
-  /// Waits for a place; nothing when too many wait already, after `patience`, or once it is closed.
+  /// Waits for a pass. Empty if too many threads wait already, after `patience`, or once it is
+  /// closed.
   std::optional<Pass> enter(std::chrono::milliseconds patience = std::chrono::hours(1));
-  /// Turns away all who wait, and all who come.
+  /// Refuses all waiting threads and all later ones.
   void close();
-  /// How many wait now.
+  /// The number of waiting threads.
   int waiting();
 
  private:

@@ -44,7 +44,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kCacheBytes = std::size_t{32} << 20U;
-/// An answer as young as that is not made again for the next who asks.
+/// A younger answer is given to other clients without computing it again.
 constexpr std::chrono::milliseconds kFresh{500};
 /// Numbers older than this are stale.
 constexpr std::chrono::seconds kStale{5};
@@ -72,7 +72,7 @@ class Dashboard final : public HttpSite {
  public:
   explicit Dashboard(DashboardOptions options)
       : options_(std::move(options)), boot_(random_hex(2)), user_(name_of_user()) {}
-  /// Threads that compute use all of this.
+  /// The threads that compute answers use all these members.
   ~Dashboard() override {
     heavy_.close();
     light_.close();
@@ -113,7 +113,7 @@ class Dashboard final : public HttpSite {
     return published_;
   }
 
-  /// When `live` was made last.
+  /// The time of the last `live` answer.
   Clock::time_point told() const {
     const std::scoped_lock lock(mutex_);
     return told_;
@@ -130,7 +130,7 @@ class Dashboard final : public HttpSite {
     }
     if (!found.answer) return not_yet_response(request, found);
     const double passed = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    // An answer made in the background cost what it took there.
+    // For an answer that was computed in the background, the time that it took there.
     const double spent = found.seconds > 0 ? 1e3 * found.seconds : found.shared ? 0 : passed;
     SiteAnswer answer = data_response(request, *found.answer);
     answer.headers.emplace_back("Server-Timing", fmt::format("total;dur={:.1f}", spent));
@@ -138,7 +138,7 @@ class Dashboard final : public HttpSite {
     return answer;
   }
 
-  /// The question's text, the same for equal questions.
+  /// A text that is the same for equal questions.
   static std::string key_of(const SiteRequest& request) {
     std::string key = request.path;
     for (const auto& [name, value] : request.parameters)
@@ -159,7 +159,7 @@ class Dashboard final : public HttpSite {
       return found;
     };
     for (const auto& [name, value] : request.parameters) {
-      // What is handed on would end there.
+      // A value that is passed on would end at the zero byte.
       if (value.find('\0') != std::string::npos)
         return made("", young,
                     [&name = name] { return bad_input("may not hold a zero byte", name); });
@@ -181,14 +181,14 @@ class Dashboard final : public HttpSite {
     if (path == "query") return made("", young, [&] { return query(request, asked); });
     if (const auto routed = route_of(path)) {
       const Pattern& pattern = *routed->pattern;
-      // A page asks when `live` has told it of something new: older answers lack it.
+      // A page asks when `live` has shown a change; older answers do not contain it.
       const std::string stamp = stamp_of(asked.file);
       const auto oldest = std::max(young, told());
       const auto turn = std::make_shared<std::atomic<bool>>(false);
       if (options_.is_snapshot)
         return made(stamp, oldest, [&] { return ask(request, asked, pattern, routed->id, *turn); });
       SiteRequest later = request;
-      later.is_gone = {};  // the client may disconnect, and fetch the answer
+      later.is_gone = {};  // the client may disconnect and fetch the answer later
       return cache_.get_within(
           key, stamp, oldest,
           [this, later = std::move(later), &asked, &pattern, id = routed->id, turn] {
@@ -209,7 +209,7 @@ class Dashboard final : public HttpSite {
       try {
         return make();
       } catch (const std::exception& failure) {
-        // A store that cannot be read any more (StoreFailure), or no memory.
+        // A store that cannot be read any more (StoreFailure), or too little memory.
         return unexpected(ErrorKind::Unavailable, failure.what());
       }
     }();
@@ -244,7 +244,7 @@ class Dashboard final : public HttpSite {
   }
 
   Expected<Answer> query(const SiteRequest& request, const DashboardStore& store) {
-    // Together with the statement's own time less than a connection lives.
+    // Together with the statement's own time limit, this is less than a connection may last.
     constexpr std::chrono::seconds kPatience{2};
     const auto turn = sql_.enter(kPatience);
     if (!turn) return busy();
@@ -363,8 +363,8 @@ class Dashboard final : public HttpSite {
   std::string user_;
   StoreReaders readers_;
   AnswerCache cache_{kCacheBytes};
-  // A page of results asks for some twenty pictures and tables at once, and a person has several
-  // pages open. Who waits costs a sleeping thread.
+  // A page with results asks for some twenty pictures and tables at once, and a person may have
+  // several pages open. A waiting client costs only a sleeping thread.
   Turnstile heavy_{2, 128};
   Turnstile light_{6, 128};
   Turnstile sql_{1, 4};
@@ -395,7 +395,7 @@ Expected<void> write_token(const std::filesystem::path& file, const std::string&
         std::string("the token of the dashboard cannot be written: ") + std::strerror(errno),
         file.string());
   };
-  // A new file, so that no process has it open already.
+  // Makes a new file, so that no other process can have it open.
   ::unlink(file.c_str());
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (fd < 0) return failed();

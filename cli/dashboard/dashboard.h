@@ -14,39 +14,43 @@
 
 namespace swarmsmith::cli {
 
-/// A store of the dashboard; the first one is c1.
+/// A store of the dashboard; the first store is c1.
 struct DashboardStore {
   std::filesystem::path file;
-  /// Its place among the campaigns of the coordinator that publishes; none: it is not run there.
+  /// The index of the campaign in the status that the coordinator publishes; empty if the
+  /// coordinator does not run it.
   std::optional<std::size_t> place{};
-  /// It is kept open between answers: this process writes it, or reads it once and ends.
+  /// The store stays open between answers, because this process writes it, or reads it once and
+  /// ends.
   bool stays_open = false;
 };
 
 struct DashboardOptions {
   std::vector<DashboardStore> stores{};
-  /// Carries out what a person asks of a campaign; a sentence that says what was done, when it is
-  /// on disk. Empty: acts are refused.
+  /// Carries out a user's command on a campaign. Returns a sentence that says what was done, once
+  /// the command is on disk. If the function is empty, commands are refused.
   std::function<Expected<std::string>(const std::filesystem::path& store, const CommandRow&)> act{};
-  /// The program that runs statements: `swarmsmith`.
+  /// The program that runs SQL statements: `swarmsmith`.
   std::string program{};
   std::string version{};  ///< of this program
-  /// For a file that is given away: it has nothing of this host, this process or this moment.
+  /// Makes a file for other people: it contains nothing about this host, this process or the
+  /// current time.
   bool is_snapshot = false;
-  /// What is asked before each `live`: it may publish. Empty: nothing.
+  /// Called before each `live`, so that it can publish a status. May be empty.
   std::function<void()> before_live{};
-  /// A question that takes longer is answered 202, and fetched later. Less than a connection lives.
+  /// A question that takes longer is answered with 202, and its answer is fetched later. Shorter
+  /// than a connection may last.
   std::chrono::milliseconds patience{5000};
 };
 
-/// The pages of the dashboard and what they ask for (docs/http-api.md).
+/// The pages of the dashboard and the answers to their questions (docs/http-api.md).
 std::shared_ptr<HttpSite> make_dashboard(DashboardOptions options);
 
-/// Secret of 32 random bytes, as text.
+/// A secret of 32 random bytes, as text.
 std::string new_token();
-/// Beside the store, for its owner alone: "demo.db.token".
+/// The token file beside the store, readable only by its owner: "demo.db.token".
 std::filesystem::path token_file_of(const std::filesystem::path& store);
-/// Writes it, mode 0600. Errors: Unavailable.
+/// Writes the token file with mode 0600. Errors: Unavailable.
 Expected<void> write_token(const std::filesystem::path& file, const std::string& token);
 
 }  // namespace swarmsmith::cli

@@ -14,7 +14,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// One of a few words, or nothing.
+/// A parameter that must be one of a few words, or missing.
 Expected<std::string> word_of(const Question& question, const std::string& name,
                               std::initializer_list<const char*> words) {
   const std::string& given = question.text(name);
@@ -64,21 +64,22 @@ Expected<FigureOptions> options_of(const Question& question) {
   return options;
 }
 
-/// The option as it stands in an address.
+/// Changes an option's name to the name of the parameter in the address.
 Error in_words_of_addresses(Error error) {
   if (error.where.starts_with("--")) error.where.erase(0, 2);
   return error;
 }
 
-/// What there is nothing of yet is an answer: a browser complains of every request that fails.
+/// A figure without data yet is a normal answer, because browsers complain about every failed
+/// request.
 Expected<Answer> nothing_or_error(const Error& error) {
   if (error.kind != ErrorKind::NotFound && error.kind != ErrorKind::BadInput)
     return Unexpected(in_words_of_addresses(error));
   return json_answer(answer_object().add("nothing", error.message));
 }
 
-/// A snapshot has picture and table of each figure, one after the other: what takes a second is
-/// made once for both.
+/// A snapshot asks for the picture and then the table of each figure; a figure may take a second,
+/// so it is made once for both.
 Expected<Figure> made(const FigureKind& kind, const Question& question,
                       const FigureOptions& options) {
   if (!question.is_snapshot) return kind.make(question.store, options);

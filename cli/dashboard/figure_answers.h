@@ -5,10 +5,11 @@
 namespace swarmsmith::cli {
 
 /// A figure as `figure` writes it; the id is "box.svg" or "box.csv".
-/// {"v":1,"nothing":"..."} where there is nothing to draw yet, with what to do.
+/// {"v":1,"nothing":"..."} if there is nothing to draw yet, with advice on what to do.
 Expected<Answer> figure_answer(const Question& question);
 
-/// Tests of sources or methods as `compare --csv` has them; the id is "pairs.csv" or "groups.csv".
+/// Statistical tests of sources or methods as in `compare --csv`; the id is "pairs.csv" or
+/// "groups.csv".
 Expected<Answer> comparison_answer(const Question& question);
 
 }  // namespace swarmsmith::cli

@@ -19,9 +19,9 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A version moves with all that pages show of a design: its steps, its state, its tests, what
-/// people asked of it. The last step may be of the iteration before: its survivors are not those
-/// who race now.
+/// The version of a design changes with everything that the pages show of it: its steps, its state,
+/// its tests, users' commands. The last step may belong to the previous iteration; its survivors
+/// are not the candidates of the current race.
 constexpr const char* kDesigns =
     "SELECT d.design, d.campaign, "
     "coalesce((SELECT s.alive_after FROM race_step AS s WHERE s.design = d.design AND s.iteration "
@@ -33,7 +33,7 @@ constexpr const char* kDesigns =
     "(SELECT count(*) FROM v_commands AS c WHERE c.design = d.design) AS version "
     "FROM v_designs AS d ORDER BY d.design";
 
-/// Merged stores hold several campaigns: their names, and the state of those that are not finished.
+/// Names of the campaigns in a merged store, and the states of the unfinished ones.
 struct Head {
   std::string name;
   std::string state;
@@ -80,7 +80,7 @@ struct CauseText {
   const char* todo;
 };
 
-/// As docs/observability.md, shorter.
+/// A short form of the texts in docs/observability.md.
 constexpr std::array<CauseText, kIdleCauses> kCauseTexts{{
     {IdleCause::StartUp, "new workers get what they must know", "It passes by itself."},
     {IdleCause::Barrier, "races wait for the last results of a step",
@@ -257,8 +257,8 @@ void History::add(const LiveStatus& status, Time now) {
 JsonObject History::json(double after_s) const {
   const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
   std::vector<const Sample*> shown;
-  // As it was told: else a sample would come again after its own time. The coarse rings until the
-  // finer ones begin.
+  // Compares the rounded time that was sent; otherwise the last sample would be sent again. Coarser
+  // rings are used only for the time before the finer ones begin.
   for (std::size_t i = rings_.size(); i-- > 0;) {
     const double until = i == 0 || rings_[i - 1].samples.empty()
                              ? std::numeric_limits<double>::infinity()

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::int64_t kMostIterations = 1'000'000;
 
-/// The iteration that is asked for, else the last one that has a step: most of an iteration's time
-/// goes before its first step ends, and a page shows the race before it until then.
+/// The requested iteration, else the last one with a step. Most of an iteration's time passes
+/// before its first step ends, and until then the page shows the race before it.
 Expected<std::int64_t> iteration_of(const Question& question) {
   const auto last = rows_of(question, fmt::format("SELECT coalesce(max(iteration), 0) FROM "
                                                   "v_iterations WHERE design = {}",
@@ -45,7 +45,7 @@ Expected<std::int64_t> iteration_of(const Question& question) {
                     "iteration");
 }
 
-/// A value of each candidate in each step; those that were dropped before have none any more.
+/// A value for each candidate in each step; candidates that were dropped earlier have none.
 JsonPiece cells_of(const RaceMatrix& matrix, std::span<const RaceMatrix::Row> shown,
                    std::optional<double> RaceMatrix::Cell::*value) {
   return json_list(matrix.steps, [&](const RaceMatrix::Step& step) {
@@ -63,7 +63,7 @@ JsonPiece column_of(const Rows& rows, std::size_t column) {
   });
 }
 
-/// What is sampled: all elites, and of the others so many, evenly.
+/// The sample: all elites, and a limited number of other candidates, evenly spaced.
 struct Sample {
   std::int64_t total = 0;
   std::set<std::int64_t> elites;
@@ -93,7 +93,7 @@ Expected<Sample> sample_of(const Question& question, std::int64_t wanted) {
   return sample;
 }
 
-/// What an iteration is called, and why it is not a race, if it is not one.
+/// The name of an iteration, and a note if it is not a race.
 struct RoundTexts {
   std::string title{};
   std::string note{};
@@ -142,7 +142,7 @@ Expected<Answer> race_answer(const Question& question) {
   shown = shown.first(std::min(shown.size(), static_cast<std::size_t>(*rows)));
   const auto by_step = [&](const auto& of) { return json_list(race->steps, std::mem_fn(of)); };
   const auto by_row = [&](const auto& of) { return json_list(shown, std::mem_fn(of)); };
-  // A later campaign of a finished design (`extend`) begins new iterations.
+  // A later run of a finished design (`extend`) begins new iterations.
   const bool ended = !over->cells.empty();
   return json_answer(
       answer_object()
@@ -206,7 +206,7 @@ Expected<Answer> parameters_answer(const Question& question) {
   if (!rows) return Unexpected(rows.error());
   const std::string& asked = question.text("names");
   const std::vector<std::string_view> names = split(asked, ',');
-  // In the order in which they first occur.
+  // Values in the order of their first occurrence.
   std::vector<std::string> order;
   std::map<std::string, std::vector<std::string>> values;
   for (std::size_t i = 0; i < rows->cells.size(); ++i) {

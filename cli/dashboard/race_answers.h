@@ -4,10 +4,10 @@
 
 namespace swarmsmith::cli {
 
-/// Who raced in an iteration: scores by step, candidates in the order of how far they came.
+/// The race of an iteration: scores by step, candidates ordered by how far they came.
 Expected<Answer> race_answer(const Question& question);
 
-/// Parameters of a sample of a design's candidates, and of all its elites.
+/// The parameters of all elites of a design, and of a sample of its other candidates.
 Expected<Answer> parameters_answer(const Question& question);
 
 }  // namespace swarmsmith::cli

@@ -15,7 +15,7 @@ constexpr std::size_t kMostUnpacked = std::size_t{256} << 20U;
 constexpr const char* kPagePolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-/// For all but pages: figures have styles of their own, and nothing else.
+/// For everything except pages: figures contain their own styles, and nothing else is allowed.
 constexpr const char* kDataPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'; sandbox";
 
@@ -72,7 +72,8 @@ const PageFile* find_page(std::string_view path) {
   return nullptr;
 }
 
-/// The response as the client accepts it: 304 if it has it, compressed if it can unpack it.
+/// The response in a form that the client accepts: 304 if the client has it already, compressed if
+/// the client can decompress it.
 SiteAnswer outgoing(const SiteRequest& request, const KeptAnswer& kept, const char* policy) {
   SiteAnswer answer{.status = kept.status, .type = kept.type, .body = {}};
   answer.headers.emplace_back("Content-Security-Policy", policy);

@@ -32,7 +32,7 @@ constexpr std::array<Pattern, 18> kRoutes = {{
     {"views", views_answer},
 }};
 
-/// The id in the path, where the pattern fits.
+/// The id in the path if the path matches the pattern.
 std::optional<std::string> fit(std::string_view pattern, std::string_view path) {
   std::string id;
   while (!pattern.empty() && !path.empty()) {

@@ -23,14 +23,14 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Which run is meant.
+/// The run that the id names.
 struct RunName {
   ThingId id;
   std::int64_t seed = 0;  ///< of a candidate, or of a simulation beside a real run; else 0
-  std::string profile;    ///< in place of the candidate's own; empty: its own
+  std::string profile;    ///< used instead of the candidate's own profile; empty: its own
 };
 
-/// "7" as a seed; 0 when it is none.
+/// "7" as a seed; 0 if the text is not a seed.
 std::int64_t seed_of(std::string_view text) {
   std::int64_t seed = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -59,7 +59,7 @@ Expected<RunName> name_of_run(const std::string& text) {
 }
 
 Expected<StoredRun> find_run(const Question& question, const RunName& name) {
-  // Runs own their reader.
+  // Each run has its own reader.
   auto reader = StoreReader::open(question.file);
   if (!reader) return Unexpected(reader.error());
   if (name.id.letter == 'r')
@@ -72,7 +72,7 @@ Expected<StoredRun> find_run(const Question& question, const RunName& name) {
   auto profile = built_in_profile(name.profile);
   if (!profile) return bad_input(profile.error().message, name.profile);
   run->profile = std::move(*profile);
-  // What the store has of that seed was made under its own profile.
+  // The stored result for that seed was made under the candidate's own profile.
   run->id.clear();
   run->outcome.reset();
   return run;
@@ -88,7 +88,7 @@ std::string hex(std::uint64_t digest) {
   return fmt::format("{:016x}", digest);
 }
 
-/// Names of colours mean others in browsers.
+/// Browsers use other colours for the same names.
 std::string css_color(Rgb color) {
   return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
 }
@@ -109,7 +109,7 @@ std::vector<Point> corners_of(const Rectangle& area) {
   return {{c.x - x, c.y - y}, {c.x + x, c.y - y}, {c.x + x, c.y + y}, {c.x - x, c.y + y}};
 }
 
-/// In its own frame: a disc, or a polygon.
+/// In the object's own frame: a disc or a polygon.
 JsonObject outline_json(const Outline& outline) {
   JsonObject object;
   std::visit(
@@ -164,7 +164,7 @@ JsonObject arena_json(const Arena& arena) {
                             })));
 }
 
-/// Poses in whole millimetres and milliradians, each column an array.
+/// Poses in whole millimetres and milliradians, one array per column.
 class Track {
  public:
   void add(const Pose& pose) {
@@ -172,7 +172,7 @@ class Track {
     put(y_, pose.y);
     put(theta_, pose.theta);
   }
-  /// Where it is not known.
+  /// For cycles without a known pose.
   void add_nothing() {
     for (std::string* column : {&x_, &y_, &theta_})
       *column += column->empty() ? "null" : ",null";
@@ -195,7 +195,7 @@ class Track {
   std::string theta_;
 };
 
-/// [[cycle, value], ...]: the value from that cycle on.
+/// [[cycle, value], ...]: the value holds from that cycle on.
 class Changes {
  public:
   void add(int cycle, const std::string& json) {
@@ -214,7 +214,7 @@ class Changes {
   int count_ = 0;
 };
 
-/// One colour for a robot's lights: what they all show, else the first that is on.
+/// One colour for a robot's lights: the common colour, else the first light that is on.
 std::string light_of(const Leds& leds) {
   const std::string all = leds_text(leds);
   constexpr std::size_t kOne = 7;  // "#00ff00"
@@ -243,7 +243,7 @@ struct RobotColumns {
   }
 };
 
-/// The score of what was seen so far, at each cycle; none at the start.
+/// The score up to each cycle; there is none at the start.
 class RunningScore {
  public:
   RunningScore(const Mission& mission, const Arena& arena) : scorer_(mission.rule, arena) {}
@@ -273,7 +273,7 @@ JsonPiece objects_json(const std::vector<Track>& tracks, const Arena& arena) {
   return {"[" + text + "]"};
 }
 
-/// The built-in profiles that say how this robot falls short.
+/// The built-in profiles for this robot.
 std::vector<std::string> profiles_of(const Robot& robot) {
   std::vector<std::string> names = profile_names();
   std::erase_if(names, [&](const std::string& name) {
@@ -341,17 +341,17 @@ Answer simulated_answer(const Question& question, const StoredRun& run) {
           .add("objects", objects_json(objects, arena))
           .add("behaviours", behaviours)
           .add("score_at", score.json()),
-      // What the store holds of it may still come.
+      // The store may get a result for this run later.
       known);
 }
 
-/// By CycleKind of tracking.
+/// The names are in the order of CycleKind in tracking.
 std::string kind_of_pose(std::int64_t kind) {
   constexpr std::array<const char*, 4> kKinds{"measured", "interpolated", "degraded", "missing"};
   return kind < 0 || kind > 3 ? "" : kKinds.at(static_cast<std::size_t>(kind));
 }
 
-/// null: a version before checks scored it.
+/// null: the run was scored by a version without checks.
 JsonPiece checks_json(const RealRunRows& rows) {
   if (rows.checks.empty()) return {"null"};
   return json_list(rows.checks, [](const RealCheckRow& check) {
@@ -432,7 +432,7 @@ Expected<Answer> trajectory_answer(const Question& question) {
   }
   const auto run = find_run(question, *name);
   if (run) return simulated_answer(question, *run);
-  // The store has it, but it cannot be simulated. This is not an error.
+  // The run is in the store, but it cannot be simulated. This is not an error.
   if (run.error().kind != ErrorKind::BadInput || run.error().where == name->profile)
     return Unexpected(run.error());
   return json_answer(answer_object().add("nothing", to_string(run.error())));

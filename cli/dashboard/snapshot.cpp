@@ -20,7 +20,7 @@ namespace swarmsmith::cli {
 namespace {
 
 constexpr std::size_t kMostCode = std::size_t{4} << 20U;
-/// Runs of each winner: simulated again, some 20 kB each.
+/// Number of runs per winner; each is simulated again and takes some 20 kB.
 constexpr int kTestRuns = 3;
 constexpr int kRaceRuns = 1;
 
@@ -31,7 +31,7 @@ struct Path {
   Parameters parameters{};
 };
 
-/// As the pages write it (encodeURIComponent).
+/// Encoded as in the pages (encodeURIComponent).
 std::string encoded(std::string_view text) {
   constexpr std::string_view kPlain = "-_.!~*'()";
   constexpr std::string_view kDigits = "0123456789ABCDEF";
@@ -60,12 +60,12 @@ std::string key_of(const Path& path) {
   return key;
 }
 
-/// What the pages ask for, in the order of asking.
+/// The questions of the pages, in the order in which they are asked.
 class Paths {
  public:
   explicit Paths(StoreReader& store) : store_(store) {}
 
-  /// Of the store as a whole.
+  /// Questions about the store as a whole.
   Expected<void> add_store() {
     for (const char* path :
          {"live", "workers", "c1", "c1/events", "c1/convergence", "c1/scores", "c1/leaderboard",
@@ -127,7 +127,7 @@ class Paths {
     add({"c1/figures/" + kind + ".csv", parameters});
   }
 
-  /// The first column.
+  /// The first column of the result.
   Expected<std::vector<std::string>> column(const std::string& sql) const {
     const auto rows = select(store_, sql);
     if (!rows) return Unexpected(rows.error());
@@ -137,7 +137,7 @@ class Paths {
     return texts;
   }
 
-  /// The winner, the last elites and their ancestors; some of the winner's runs.
+  /// The winner, the last elites and their ancestors, and some runs of the winner.
   Expected<void> add_best(const std::string& design) {
     const auto candidates = column(
         "WITH RECURSIVE best(candidate) AS (SELECT best_candidate FROM v_designs WHERE design = " +
@@ -158,7 +158,8 @@ class Paths {
         column("SELECT coalesce(best_candidate, 0) FROM v_designs WHERE design = " + design);
     if (!best) return Unexpected(best.error());
     for (const auto& [purpose, count] : {std::pair("test", kTestRuns), {"race", kRaceRuns}}) {
-      // With the number itself, SQLite finds the candidate's rows by an index.
+      // The number itself is in the statement so that SQLite finds the candidate's rows by an
+      // index.
       const auto runs = column("SELECT id FROM v_evaluations WHERE candidate = " + best->front() +
                                " AND purpose = '" + purpose +
                                "' AND status = 'ok' ORDER BY pair LIMIT " + std::to_string(count));
@@ -169,7 +170,7 @@ class Paths {
       }
     }
     const auto real = column("SELECT id FROM v_real_runs WHERE design = " + design);
-    if (!real) return {};  // a store of before real runs
+    if (!real) return {};  // the store is older than real runs
     for (const std::string& run : *real)
       add({"c1/runs/" + run + "/trajectory"});
     return {};
@@ -207,7 +208,7 @@ std::string file_named(std::string_view path) {
   return "";
 }
 
-/// Code that stands in a page must not end its element.
+/// Code inside a page must not close its own element.
 std::string inlined(std::string code) {
   for (std::size_t at = 0; (at = code.find("</", at)) != std::string::npos; at += 3)
     code.replace(at, 2, "<\\/");

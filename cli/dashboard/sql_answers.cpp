@@ -12,7 +12,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Triggers when the client disconnects.
+/// Triggers `interrupt` when the client disconnects.
 class Watch {
  public:
   explicit Watch(const std::function<bool()>& is_gone) {
@@ -35,7 +35,7 @@ class Watch {
   std::jthread thread_;
 };
 
-/// The program's sentence without its name and the statement, which the user has typed.
+/// The program's error message without the program's name and the statement, which the user knows.
 std::string sentence_of(std::string_view errors, const std::string& sql) {
   constexpr std::string_view kName = "swarmsmith: ";
   if (errors.starts_with(kName)) errors.remove_prefix(kName.size());
@@ -65,7 +65,7 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
   } else {
     words.insert(words.end(), {"--json", "--lists"});
   }
-  // After a blank, a comment is not taken for an option.
+  // With a blank in front, an SQL comment is not read as an option.
   const std::string word = " " + sql;
   words.push_back(word);
   const auto begin = std::chrono::steady_clock::now();
@@ -96,7 +96,7 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
         "sql");
   }
   if (csv) return Answer{.type = kCsvType, .body = end->output.text};
-  // {"columns":...}: as `query --json --lists`, with the time.
+  // {"columns":...}: as from `query --json --lists`, with the time.
   std::string body = end->output.text;
   if (body.empty() || body.front() != '{')
     return unexpected(ErrorKind::Unavailable, "the statement gave no answer");

@@ -24,7 +24,7 @@ namespace {
 using Cell = StoreReader::Cell;
 
 constexpr std::int64_t kMostNumber = 1'000'000'000'000;
-/// Of a family that went on for longer, the nearest.
+/// If there are more ancestors, the nearest ones are shown.
 constexpr int kMostAncestors = 100;
 
 std::string cell_of(const Rows& rows, std::size_t row, std::string_view column) {
@@ -36,14 +36,14 @@ std::optional<JsonObject> first_row(const Rows& rows) {
   return rows.cells.empty() ? std::nullopt : std::optional(row_as_json(rows, 0));
 }
 
-/// The first error among them.
+/// Returns the first error among the rows.
 Expected<void> all_read(std::initializer_list<const Expected<Rows>*> all) {
   for (const Expected<Rows>* rows : all)
     if (!*rows) return Unexpected(rows->error());
   return {};
 }
 
-/// Where a column is a text of JSON, its value.
+/// The JSON value in a column that contains JSON as text.
 JsonPiece json_in(const std::string& text) {
   return {nlohmann::json::accept(text) ? text : json_text(text)};
 }
@@ -57,14 +57,14 @@ Expected<Answer> columns_answer(const Question& question, const std::string& sql
   return json_answer(object);
 }
 
-/// " WHERE design = 3", as the parameter says.
+/// " WHERE design = 3", from the parameter.
 Expected<std::string> of_design(const Question& question) {
   const auto design = question.design_parameter();
   if (!design) return Unexpected(design.error());
   return *design ? " WHERE design = " + std::to_string((*design)->value) : std::string();
 }
 
-/// What happened, from one of the store's lists of it.
+/// An entry of one of the store's lists of events.
 struct Happening {
   std::string at;
   std::optional<std::int64_t> seq;
@@ -73,13 +73,13 @@ struct Happening {
   std::string data;
 };
 
-/// A list of things that happened, its first column the time. Audits that found the same bits, some
-/// a second, are none: they would hide all else. A failure is shown once, by v_failures, which
-/// knows most of it.
+/// A list of events; its first column is the time. Audits that found the same bits are left out:
+/// there are some each second, and they would hide everything else. A failure is shown only once,
+/// from v_failures, which has the most details.
 struct List {
   const char* kind;
   const char* severity;
-  const char* sql;  ///< with {} for a condition on `at`
+  const char* sql;  ///< {} is the place of a condition on `at`
 };
 
 constexpr std::array<List, 4> kLists = {{
@@ -131,7 +131,7 @@ Expected<Rows> ancestors_of(const Question& question, const std::string& parent)
   return all;
 }
 
-/// The mean of the winner's tests with its interval; null without any.
+/// The mean of the winner's tests with its interval; null if there are no tests.
 Expected<std::optional<JsonObject>> tests_of(const Question& question) {
   const auto rows =
       rows_of(question, fmt::format("SELECT score FROM v_design_scores WHERE design = {} AND "
@@ -150,7 +150,7 @@ Expected<std::optional<JsonObject>> tests_of(const Question& question) {
                            .add("high", interval.mean + interval.half_width));
 }
 
-/// Of v_real_runs, and `reasons` of the last scoring.
+/// Columns of v_real_runs, and `reasons` of the last scoring.
 constexpr std::array<std::string_view, 23> kRealRunColumns = {
     "id",       "run",    "name",     "candidate",  "design",           "mission",
     "source",   "score",  "verdict",  "counts",     "measured_verdict", "overridden_by",
@@ -353,7 +353,7 @@ Expected<Answer> modules_answer(const Question& question) {
 }
 
 Expected<Answer> real_runs_answer(const Question& question) {
-  // A store of before has none.
+  // Older stores do not have them.
   constexpr std::int64_t kFirstSchema = 5;
   const auto where = of_design(question);
   if (!where) return Unexpected(where.error());
@@ -398,7 +398,7 @@ Expected<Answer> views_answer(const Question& question) {
 }
 
 Expected<std::vector<JsonPiece>> stored_workers(StoreReader& store, bool is_written) {
-  // As a live one has its fields; what only a coordinator's memory knows is null.
+  // Has the fields of a live worker; those known only to a coordinator are null.
   const auto rows = select(
       store,
       fmt::format("SELECT worker AS number, {} AS state, host, job, client, slots, NULL AS held, "

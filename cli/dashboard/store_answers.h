@@ -4,7 +4,7 @@
 
 namespace swarmsmith::cli {
 
-/// Of a store as a whole, of its designs and candidates.
+/// Answers about a store as a whole, its designs and its candidates.
 
 Expected<Answer> campaign_answer(const Question& question);
 Expected<Answer> events_answer(const Question& question);
@@ -19,7 +19,7 @@ Expected<Answer> modules_answer(const Question& question);
 Expected<Answer> real_runs_answer(const Question& question);
 Expected<Answer> views_answer(const Question& question);
 
-/// Workers that the store knows, as `live` names their fields.
+/// The workers in the store, with the field names of `live`.
 Expected<std::vector<JsonPiece>> stored_workers(StoreReader& store, bool is_written);
 
 }  // namespace swarmsmith::cli

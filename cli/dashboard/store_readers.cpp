@@ -15,7 +15,7 @@ Expected<StoreReaders::Reader> StoreReaders::take(const DashboardStore& store) {
   const File file{facts.st_dev, facts.st_ino};
   if (may_keep) {
     const std::scoped_lock lock(mutex_);
-    // Another file under the name is another store.
+    // A different file with the same name is another store.
     std::erase_if(kept_,
                   [&](const Kept& kept) { return kept.name == store.file && kept.file != file; });
     const auto found = std::ranges::find(kept_, store.file, &Kept::name);
@@ -35,7 +35,7 @@ StoreReaders::Reader StoreReaders::lent(StoreReader* reader, const std::filesyst
                                         File file) {
   return {reader, [this, name, file](StoreReader* back) {
             std::unique_ptr<StoreReader> returned(back);
-            // After a failure of the disk nothing is known of it.
+            // After a disk failure, the state of the reader is not known.
             if (std::uncaught_exceptions() > 0) return;
             returned->rest();
             const std::scoped_lock lock(mutex_);

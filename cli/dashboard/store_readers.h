@@ -16,9 +16,10 @@
 
 namespace swarmsmith::cli {
 
-/// Readers of the stores that stay open, kept from one answer to the next: opening one takes SQLite
-/// some milliseconds, most of an answer, to read what tables and views there are. Of other stores
-/// none is kept: while it is open, its writer cannot fold the log into the file at its end.
+/// Keeps readers open between answers, for the stores that stay open: opening a store takes SQLite
+/// some milliseconds, most of the time of an answer, to read its tables and views. Readers of other
+/// stores are not kept, because an open reader prevents the writer from folding the log into the
+/// file when it ends.
 class StoreReaders {
  public:
   using Reader = std::unique_ptr<StoreReader, std::function<void(StoreReader*)>>;
@@ -32,7 +33,7 @@ class StoreReaders {
     File file;
     std::unique_ptr<StoreReader> reader;
   };
-  /// Of all stores: as many as answers are made at the same time, mostly.
+  /// For all stores together: about as many as there are answers at the same time.
   static constexpr std::size_t kMost = 4;
 
   Reader lent(StoreReader* reader, const std::filesystem::path& name, File file);
@@ -41,8 +42,8 @@ class StoreReaders {
   std::vector<Kept> kept_;
 };
 
-/// Says whether a store's files have changed, without opening them. Empty while they change: the
-/// clock of files is too coarse to tell what comes next.
+/// Shows whether a store's files have changed, without opening them. Empty while they are changing:
+/// file times are too coarse to show the next change.
 std::string stamp_of(const std::filesystem::path& file);
 
 }  // namespace swarmsmith::cli

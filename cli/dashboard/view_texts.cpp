@@ -23,7 +23,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(' ') - from + 1);
 }
 
-/// Links and code are for readers of the page.
+/// Removes links and code marks, which only readers of the page need.
 std::string plain(std::string_view text) {
   std::string kept;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -39,7 +39,7 @@ std::string plain(std::string_view text) {
   return kept;
 }
 
-/// "used, budget" apart.
+/// Splits "used, budget" into its names.
 std::vector<std::string> names_in(std::string_view text) {
   std::vector<std::string> names;
   for (const std::string_view name : split(text, ','))
@@ -47,10 +47,11 @@ std::vector<std::string> names_in(std::string_view text) {
   return names;
 }
 
-/// "### v_designs: a design, that is one race", and below it rows "| used, budget | meaning |".
+/// Reads headings such as "### v_designs: a design, that is one race", and the rows "| used, budget
+/// | meaning |" below them.
 ViewTexts read_page() {
   ViewTexts views;
-  std::vector<ViewText*> here;  // that the rows are about
+  std::vector<ViewText*> here;  // the views of the rows that follow
   for (const std::string_view line : split_lines(kStoragePage)) {
     if (line.starts_with("#")) {
       here.clear();

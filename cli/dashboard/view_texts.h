@@ -5,7 +5,7 @@
 
 namespace swarmsmith::cli {
 
-/// What docs/storage.md says of the public schema; empty where it says nothing.
+/// The description of the public schema in docs/storage.md; empty if there is none.
 
 /// "one row a campaign".
 std::string text_of_view(std::string_view view);

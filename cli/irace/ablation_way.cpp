@@ -25,7 +25,7 @@ std::optional<std::int64_t> id_of(const std::string& text) {
   return is_id ? std::optional(std::stoll(text)) : std::nullopt;
 }
 
-/// The one configuration of a file.
+/// Reads a file with one configuration.
 Expected<Configuration> read_configuration(const IraceSetting& setting, const std::string& name,
                                            const IraceSetup& setup, const std::string& option) {
   const std::filesystem::path file = absolute_path(name, setting.folder);
@@ -46,8 +46,8 @@ Expected<Configuration> read_configuration(const IraceSetting& setting, const st
 struct RSwitch {
   std::string_view brief;
   std::string_view name;
-  std::string_view ours;    ///< empty: not there
-  std::string_view advice;  ///< in place of one that is not there
+  std::string_view ours;    ///< empty: there is no such option
+  std::string_view advice;  ///< what to use instead if there is no such option
 };
 
 constexpr std::array<RSwitch, 10> kSwitches = {

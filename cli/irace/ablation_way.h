@@ -12,7 +12,7 @@
 
 namespace swarmsmith::cli {
 
-/// From one configuration to another one, each of a finished run, or of a configurations file.
+/// The two configurations of an ablation, each from a finished run or from a configurations file.
 struct AblationWay {
   std::string from;  ///< irace's ids, or names of files
   std::string to;
@@ -20,16 +20,17 @@ struct AblationWay {
   Configuration target;
 };
 
-/// What --ablation-source and --ablation-target name; without them the run's first configuration
-/// and its best one.
+/// The configurations named by --ablation-source and --ablation-target; by default the first one of
+/// the run and its best one.
 Expected<AblationWay> ablation_way(const IraceSettings& settings, const IraceSetup& setup,
                                    const std::filesystem::path& finished);
 
-/// What an ablation's store has in its name: each way to ask is a campaign of its own.
+/// The suffix of the name of the ablation's store: ablations with other options are other
+/// campaigns.
 std::string ablation_ending(const IraceSettings& settings, AblationType type);
 
-/// The words of R's program `ablation` as those of irace: -S 1 is --ablation-source 1. An error
-/// says what to write for those that are not there.
+/// Translates the options of R's program `ablation` to options of irace: -S 1 becomes
+/// --ablation-source 1. For options that do not exist, the error says what to use instead.
 Expected<std::vector<std::string>> words_of_r_ablation(std::vector<std::string> words);
 
 }  // namespace swarmsmith::cli

@@ -11,11 +11,11 @@
 namespace swarmsmith::cli {
 namespace {
 
-constexpr int kDigits = 7;  // what R shows
+constexpr int kDigits = 7;  // significant digits in R's output
 
-/// What a number needs at kDigits significant digits.
+/// The digits that a number needs at kDigits significant digits.
 struct Shape {
-  int digits = 1;  ///< significant ones that are not trailing zeros
+  int digits = 1;  ///< significant ones, without trailing zeros
   int exponent = 0;
   bool negative = false;
 };
@@ -29,10 +29,10 @@ Shape shape_of(double value) {
           .negative = std::signbit(value)};
 }
 
-/// What all numbers of a column need together.
+/// The format of all numbers of a column.
 struct Format {
   int decimals = 0;
-  int mantissa = 0;  ///< decimals of the scientific form
+  int mantissa = 0;  ///< decimals in scientific form
   bool scientific = false;
 };
 

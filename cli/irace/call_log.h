@@ -10,16 +10,17 @@
 
 namespace swarmsmith::cli {
 
-/// What irace shows of each run with debugLevel 2: the call, how long it took, and what the target
-/// said (irace facts, 22). From the rows of a run.
+/// The report on each run that irace prints with debugLevel 2: the call, its time, and the output
+/// of the target (irace facts, 22). Made from the rows of a run.
 class CallLog {
  public:
   CallLog(swarmsmith::Target target, InstanceTexts instances)
       : target_(std::move(target)), instances_(std::move(instances)) {}
 
-  /// Learns which pair has which instance and seed.
+  /// Keeps the instance and seed of a pair.
   void take(const PairRow& pair) { pairs_[{pair.purpose, pair.number}] = pair; }
-  /// Three lines; nothing of a pair that is not known. `switches`: the configuration's.
+  /// Three lines; empty if the pair is not known. `switches`: the command-line switches of the
+  /// configuration.
   std::string text(const EvaluationRow& run, const std::string& switches,
                    const std::string& date) const;
 

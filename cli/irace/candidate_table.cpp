@@ -22,7 +22,7 @@ const CandidateTable::Candidate* CandidateTable::find(std::int64_t number) const
   return found == candidates_.end() ? nullptr : &found->second;
 }
 
-/// R shows missing texts as <NA>, missing numbers as NA.
+/// R shows missing texts as <NA>, but missing numbers as NA.
 std::vector<std::string> CandidateTable::cells(std::size_t parameter,
                                                std::span<const std::int64_t> numbers) const {
   const std::string& name = space_[parameter].name;

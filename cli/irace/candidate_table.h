@@ -12,22 +12,22 @@
 
 namespace swarmsmith::cli {
 
-/// The candidates of a design as irace shows configurations (irace facts, 24). Numbers are irace's
-/// ids.
+/// The candidates of a design, shown as irace shows configurations (irace facts, 24). Numbers are
+/// irace's ids.
 class CandidateTable {
  public:
   explicit CandidateTable(ParameterSpace space) : space_(std::move(space)) {}
 
-  /// Corrupt, when the row's parameters cannot be read.
+  /// Corrupt if the row's parameters cannot be read.
   Expected<void> add(const CandidateRow& row);
 
-  /// A line a configuration below the parameters' names: "NA" where one is inactive. With
-  /// `metadata` also the columns .ID. and .PARENT. around them.
+  /// One line per configuration below the parameters' names: "NA" where a parameter is inactive.
+  /// With `metadata` also the columns .ID. and .PARENT. around them.
   std::string configurations(std::span<const std::int64_t> numbers, bool metadata = false) const;
-  /// A line a configuration: the number, two blanks after the longest, switches and values. What
-  /// people's scripts look for.
+  /// One line per configuration: the number, padded to the longest one and two blanks, then
+  /// switches and values. Users' scripts search for this format.
   std::string command_lines(std::span<const std::int64_t> numbers) const;
-  /// The JSON object and the command line of one; empty for a number that never was.
+  /// The JSON object and the command line of a configuration; empty for an unknown number.
   std::string parameters(std::int64_t number) const;
   std::string command_line(std::int64_t number) const;
 

@@ -24,8 +24,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// How many runs each configuration has at most: `firstTest` pairs, so many times; in a race the
-/// training instances once (R's ablation()).
+/// The number of pairs per configuration: `firstTest` blocks, times --ablation-instances; in a
+/// race, each training instance once (R's ablation()).
 Expected<std::int64_t> pairs_wanted(const IraceSettings& settings, const IraceSetup& setup,
                                     AblationType type) {
   const auto times = settings.number("--ablation-instances");
@@ -40,8 +40,8 @@ Expected<std::int64_t> pairs_wanted(const IraceSettings& settings, const IraceSe
   return setup.race.deterministic ? std::min(count, instances) : count;
 }
 
-/// The scenario's campaign with the way in place of its race: the other settings of its races
-/// decide nothing here.
+/// The scenario's campaign with the ablation instead of its race. Its other race settings have no
+/// effect here.
 Expected<Campaign> campaign_for(const IraceSetup& setup, const AblationWay& way, AblationType type,
                                 std::int64_t pairs, std::uint64_t seed) {
   const Configuration ends[] = {way.source, way.target};
@@ -71,15 +71,14 @@ Expected<Campaign> campaign_for(const IraceSetup& setup, const AblationWay& way,
   return campaign;
 }
 
-/// The place of the table of all runs; empty where none is asked for.
+/// The path of the table of all runs; empty if it is not wanted.
 std::string table_file(const IraceSettings& settings) {
   const IraceSetting* setting = settings.find("--ablation-csv");
   if (setting == nullptr) return {};
   return absolute_path(std::get<std::string>(setting->value), setting->folder).string();
 }
 
-/// Prints steps once they are over, and keeps all runs as a table: of the rows of a store, and
-/// those that come.
+/// Prints finished steps, and writes a table of all runs, from stored rows and from new ones.
 class AblationReport final : public RunListener {
  public:
   AblationReport(Output& output, const IraceSetup& setup, const Campaign& campaign,
@@ -98,7 +97,7 @@ class AblationReport final : public RunListener {
                  !std::filesystem::is_directory(status);
   }
 
-  /// What an earlier process made.
+  /// Reads the results of an earlier process.
   Expected<void> go_on_from(StoreReader& store) {
     store.each_answer_row([this](const Row& row) { take(row); });
     for (const StoredScore& score : store.scores())
@@ -120,10 +119,11 @@ class AblationReport final : public RunListener {
   void update(const LiveStatus& live, TimePoint now) override { console_.update(live, now); }
   void finish(const LiveStatus&) override {}
 
-  /// The design's, as it was told last.
+  /// The latest state of the design.
   const DesignStateRow& state() const { return state_; }
 
-  /// The table is whole at any time. A pipe or a device gets it once, when all of it is there.
+  /// The file of the table is complete at any time. A pipe or a device gets the table once, at the
+  /// end.
   Expected<void> write(bool is_over) const {
     if (file_.empty() || (is_stream_ && !is_over)) return {};
     std::string text = "configuration,step,on_path,changed,pair,instance,seed,cost\n";
@@ -154,7 +154,7 @@ class AblationReport final : public RunListener {
         irace_date(), table.configurations(best), table.command_lines(best));
   }
 
-  /// What could not be read or written on the way.
+  /// The first error in reading or writing so far.
   Expected<void> fault() const {
     if (fault_) return Unexpected(*fault_);
     return {};
@@ -164,7 +164,7 @@ class AblationReport final : public RunListener {
   struct Member {
     CandidateRow row;
     Configuration configuration;
-    std::vector<double> costs;  ///< a pair each; NaN where it was not run
+    std::vector<double> costs;  ///< one per pair; NaN if the pair was not run
   };
 
   void take(const Row& row) {
@@ -175,7 +175,7 @@ class AblationReport final : public RunListener {
                        to_string(candidate->id)};
         return;
       }
-      // What came after the last stored step comes again, and costs of it are known.
+      // Rows after the last stored step come again; costs of such a candidate may be known already.
       members_.try_emplace(
           number_of(candidate->id),
           Member{*candidate, std::move(*configuration),
@@ -201,7 +201,8 @@ class AblationReport final : public RunListener {
         status == EvaluationStatus::Ok ? to_cost(score) : std::numeric_limits<double>::infinity();
   }
 
-  /// A call of a targetEvaluator has a number of its own, and the run's instance and seed.
+  /// The evaluation of a targetEvaluator has its own pair number, but the instance and seed of the
+  /// run.
   std::size_t place_of(const EvaluationKey& key) const {
     if (key.purpose == Purpose::Race) return static_cast<std::size_t>(key.pair - 1);
     const PairRow& own = pairs_.at({key.purpose, key.pair});
@@ -234,7 +235,7 @@ class AblationReport final : public RunListener {
     return text;
   }
 
-  /// The runs that were made, and their mean cost.
+  /// The number of runs, and their mean cost.
   static std::pair<std::size_t, double> runs_and_mean(const std::vector<double>& costs) {
     std::size_t runs = 0;
     double sum = 0;
@@ -246,7 +247,7 @@ class AblationReport final : public RunListener {
     return {runs, sum / static_cast<double>(runs)};
   }
 
-  /// Those that are over and were not told.
+  /// Prints the finished steps that were not printed yet.
   void tell_steps() {
     for (; elites_.contains(told_ + 1); ++told_) {
       counter_.tell(wanted_, wanted_);
@@ -267,18 +268,18 @@ class AblationReport final : public RunListener {
   const ParameterSpace& space_;
   Configuration target_;
   std::size_t n_pairs_;
-  Purpose counted_;  ///< of the evaluations that say the costs
+  Purpose counted_;  ///< purpose of the evaluations that give the costs
   IraceConsole console_;
   Counter counter_;
-  std::string file_;  ///< of the table; empty for none
+  std::string file_;  ///< path of the table; empty: no table
   bool is_stream_ = false;
   std::map<std::int64_t, Member> members_;
   std::map<std::pair<Purpose, std::int64_t>, PairRow> pairs_;
   std::map<std::int64_t, std::vector<std::int64_t>> elites_;  ///< by iteration, best first
   DesignStateRow state_;
-  std::int64_t told_ = 0;    ///< iterations
-  std::int64_t made_ = 0;    ///< runs of the current one
-  std::int64_t wanted_ = 0;  ///< by it
+  std::int64_t told_ = 0;    ///< iterations printed so far
+  std::int64_t made_ = 0;    ///< finished runs of the current iteration
+  std::int64_t wanted_ = 0;  ///< runs that the current iteration needs
   std::optional<Error> fault_;
 };
 
@@ -306,7 +307,7 @@ ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup&
                                         [&campaign](const StorePlace&) { return *campaign; });
   campaign->store = store.file();
   AblationReport report(output, setup, *campaign, way->target, table_file(settings));
-  // Says at once whether the table can be written.
+  // Fails now if the table cannot be written.
   if (auto written = report.write(false); !written) return failed(written.error());
   const bool begins = may_begin(*campaign);
   if (begins && !output.quiet) {

@@ -10,41 +10,42 @@
 
 namespace swarmsmith::cli {
 
-/// What `swarmsmith irace` does besides a run, a file an action.
+/// The actions of `swarmsmith irace` other than a run; one source file per action.
 
 /// irace's --check: calls the target for the given configurations and two random ones, on one
-/// instance with one seed, in this process, and prints each call and what came of it. `campaign` is
-/// the setup's. Failed, when a call fails or the race could not even begin.
+/// instance with one seed, in this process, and prints each call and its result. `campaign` is the
+/// campaign of the setup. Failed if a call fails or if the race could not even begin.
 ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& campaign);
 
 /// irace's --only-test: evaluates the configurations of a file on the test instances and prints
-/// their costs. The evaluations are kept like those of a run, and continue like those: in `store`
-/// if that was named, else in one of their own beside it.
+/// their costs. The evaluations are stored, and can be continued, like those of a run: in `store`
+/// if the user named it, else in a separate store beside it.
 ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
                    const StorePlace& store, bool is_named, const IraceSlots& slots);
 
-/// Whether the campaign's store holds it to its end, but for test instances and which
-/// configurations run on them.
+/// Whether the store holds a finished run of this campaign that differs only in its test instances
+/// or in the choice of configurations to test.
 bool has_other_tests(const Campaign& campaign);
-/// R's testing_fromlog(): the winners of the finished run in `store` on the setup's test instances.
-/// A campaign of its own, in a store beside it.
+/// R's testing_fromlog(): tests the winners of the finished run in `store` on the setup's test
+/// instances. This is a separate campaign, in a store beside it.
 ExitCode test_elites(Output& output, const IraceSetup& setup, const StorePlace& store,
                      const IraceSlots& slots);
 
-/// irace's --init: writes templates of all files into the current folder, but none over a file that
-/// is there.
+/// irace's --init: writes templates of all files into the current folder, but does not overwrite
+/// files.
 ExitCode write_templates(Output& output);
 
 /// R's psRace(): one more race of configurations that the run in `finished` found, from the
-/// beginning and on new pairs, until one is left or its budget is used. A run of its own, in a
-/// store beside `finished`.
+/// beginning and on new pairs, until one remains or the budget is used. This is a separate run, in
+/// a store beside `finished`.
 ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSetup& setup,
                     const std::filesystem::path& finished, const IraceSlots& slots);
 
-/// R's ablation(): the way from a configuration of the run in `finished` to its best one, parameter
-/// by parameter, each time the change that costs least on training instances.
-/// Prints steps and the best configuration on the way; where asked to, keeps all runs in a CSV
-/// file, too. A campaign of its own, in a store beside `finished`, which continues like a run.
+/// R's ablation(): changes a configuration of the run in `finished` to its best one, parameter by
+/// parameter, each time with the change that gives the lowest cost on training instances.
+/// Prints the steps and the best configuration on the way; on request writes all runs to a CSV
+/// file, too. This is a separate campaign, in a store beside `finished`; it can be continued like a
+/// run.
 ExitCode ablate(Output& output, const IraceSettings& settings, const IraceSetup& setup,
                 const std::filesystem::path& finished, const IraceSlots& slots);
 

@@ -21,13 +21,12 @@ namespace {
 constexpr std::int64_t kSeed = 1'234'567;  // irace facts, 21
 constexpr std::size_t kRandom = 2;
 
-/// The given configurations, but for forbidden ones, and random ones; an error when no race can
-/// begin.
+/// The given configurations, except forbidden ones, and random ones; an error if no race can begin.
 Expected<std::vector<Configuration>> contestants(const IraceSetup& setup, const Scenario& race,
                                                  const Repair& repair) {
   std::vector<Configuration> all = setup.initial;
   std::erase_if(all, [&](const Configuration& c) { return setup.space.is_forbidden(c); });
-  // The run itself would say no: so should its check.
+  // A scenario that the run would refuse must be refused by its check, too.
   auto run = IteratedRace::start(setup.space, race, setup.initial, repair);
   if (!run) return Unexpected(run.error());
   auto sampled = IteratedRace::start(setup.space, race, {}, repair);
@@ -43,7 +42,7 @@ Expected<std::vector<Configuration>> contestants(const IraceSetup& setup, const 
   return all;
 }
 
-/// Calls programs and tells about it.
+/// Calls programs and prints their results.
 class Trial {
  public:
   Trial(Output& output, const Target& target)

@@ -112,7 +112,7 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
     }
   });
   if (error) return Unexpected(*error);
-  // What came after the last step is not known to the run, and comes again.
+  // Rows after the last step are not replayed yet; they come again.
   if (steps.empty()) return {};
   const std::int64_t current = steps.back().iteration;
   write(fmt::format("# {}: Going on after {} experiments\n", date_(), steps.back().used));
@@ -143,7 +143,7 @@ void IraceConsole::add(std::optional<std::size_t> /*campaign*/, const Row& row, 
   if (const auto* elite = std::get_if<EliteRow>(&row)) {
     elites_.push_back(*elite);
   } else if (const auto* candidate = std::get_if<CandidateRow>(&row)) {
-    // The row is our own: what is wrong with it is found when it is read from a store.
+    // Ignores an error: the row is our own, and the error is reported when it is read from a store.
     (void)candidates_.add(*candidate);
   } else if (const auto* iteration = std::get_if<IterationRow>(&row)) {
     end_race();
@@ -232,7 +232,7 @@ void IraceConsole::end_race() {
 
 void IraceConsole::add_state(const DesignStateRow& row) {
   used_ = row.used;
-  // A race tells its state after each step, too.
+  // A race also reports its state after each step.
   if (!elites_.empty() || row.state != DesignState::Racing) end_race();
   if (row.reason.empty() || row.reason == reason_) return;
   reason_ = row.reason;
@@ -244,7 +244,7 @@ void IraceConsole::add_state(const DesignStateRow& row) {
 }
 
 void IraceConsole::add_event(const EventRow& event) {
-  // A failure is shown in full where the command ends.
+  // A failure is printed in full at the end of the command.
   if (event.kind == "evaluation failed" || event.kind == "campaign stopped") return;
   const auto field = [&](std::string_view key) {
     return std::ranges::find(event.fields, key, &EventField::first);
@@ -279,7 +279,7 @@ void IraceConsole::add_event(const EventRow& event) {
 void IraceConsole::update(const LiveStatus& live, TimePoint /*now*/) {
   if (live.trouble == trouble_) return;
   trouble_ = live.trouble;
-  // Even when quiet: nothing goes on until a person has helped.
+  // Printed even with --quiet: the run stops until a person has helped.
   if (!trouble_.empty()) output_.err << "warning: nothing can be stored: " << trouble_ << std::endl;
 }
 

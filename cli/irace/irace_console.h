@@ -17,37 +17,39 @@
 
 namespace swarmsmith::cli {
 
-/// What the console must know of a run besides its rows.
+/// The facts about a run that the console needs besides its rows.
 struct IraceRun {
   Scenario race;
   ParameterSpace space;
   std::uint64_t seed = 0;
   std::int64_t n_iterations = 0;  ///< planned at the start
-  std::int64_t budget = 0;        ///< experiments; 0 with max_time, where the run finds it
+  std::int64_t budget = 0;        ///< experiments; 0 with max_time, for which the run estimates it
   std::int64_t debug_level = 0;
-  swarmsmith::Target target{};  ///< what is called, for debugLevel 2
-  InstanceTexts instances{};    ///< what it is called for
+  swarmsmith::Target target{};  ///< the program that is called, for debugLevel 2
+  InstanceTexts instances{};    ///< its instances
 };
 
-/// Date, time and zone, as they begin irace's lines: now, or of a time.
+/// Date, time and zone as at the beginning of irace's lines: the current time, or the given one.
 std::string irace_date();
 std::string irace_date(std::time_t time);
 
-/// "the sum of ranks" or "the mean value": by what configurations are listed.
+/// "the sum of ranks" or "the mean value": the order in which configurations are listed.
 std::string irace_order(const Scenario& scenario);
 
-/// Tells irace's users how a run goes: irace's lines, from the rows that the run makes (irace
-/// facts, 24). Costs, not scores. Writes to standard output, as irace does; with --quiet nothing.
+/// Shows the progress of a run to irace's users: prints irace's lines from the rows of the run
+/// (irace facts, 24). Shows costs, not scores. Writes to standard output, as irace does; nothing
+/// with --quiet.
 class IraceConsole final : public RunListener {
  public:
-  /// `date` gives the date of each line.
+  /// `date` returns the date for each line.
   IraceConsole(
       Output& output, IraceRun run, TimePoint begin,
       std::function<std::string()> date = [] { return irace_date(); });
 
-  /// The block that says what will be done.
+  /// The first block, which describes the run.
   void write_begin();
-  /// What a store knows of a run that goes on: a line an iteration, the table of the last one.
+  /// Prints the stored part of a run that continues: one line per iteration, and the table of the
+  /// last iteration.
   Expected<void> go_on_from(StoreReader& store);
 
   void restore(std::size_t campaign, const Row& row) override;
@@ -59,7 +61,8 @@ class IraceConsole final : public RunListener {
   void write(const std::string& text);
   void begin_iteration(const IterationRow& row);
   void add_step(const RaceStepRow& row, std::optional<double> wall_s);
-  /// The end of a race's table, its best and its elites, once they are known.
+  /// Ends the table of a race, and prints its best configuration and its elites once they are
+  /// known.
   void end_race();
   void add_state(const DesignStateRow& row);
   void add_run(const EvaluationRow& row);
@@ -70,16 +73,16 @@ class IraceConsole final : public RunListener {
   std::function<std::string()> date_;
   CandidateTable candidates_;
   CallLog calls_;
-  bool bounds_;  ///< whether there is a column for them
+  bool bounds_;  ///< whether there is a column for bounds
   bool in_table_ = false;
   std::optional<RaceStepRow> last_step_;
   std::vector<EliteRow> elites_;           ///< of the race that ends
-  std::int64_t used_ = 0;                  ///< experiments of the run
-  std::int64_t iteration_ = 0;             ///< that runs
-  std::int64_t used_before_ = 0;           ///< the current race
-  std::optional<std::int64_t> remaining_;  ///< experiments, as max_time is good for
+  std::int64_t used_ = 0;                  ///< experiments that the run has used
+  std::int64_t iteration_ = 0;             ///< the current one
+  std::int64_t used_before_ = 0;           ///< experiments used before the current race
+  std::optional<std::int64_t> remaining_;  ///< experiments, estimated from max_time
   TimePoint last_;                         ///< when the last line of the table was written
-  std::string reason_;                     ///< why it ended, once that was said
+  std::string reason_;                     ///< why the race ended, once that was printed
   std::string trouble_;
 };
 

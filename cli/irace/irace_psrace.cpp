@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kIdsOption = "--psrace-ids";
 constexpr const char* kBudgetOption = "--psrace-max-experiments";
 
-/// A number of experiments; up to 1 it is a share of the run's maxExperiments, rounded up.
+/// The number of experiments. A value up to 1 is a share of the run's maxExperiments, rounded up.
 Expected<std::int64_t> budget_of(const IraceSettings& settings, const IraceSetup& setup) {
   const auto text = settings.text(kBudgetOption);
   if (!text || text->empty())
@@ -43,13 +43,13 @@ Expected<std::int64_t> budget_of(const IraceSettings& settings, const IraceSetup
         "is a share of maxExperiments, which this scenario does not set: give a number of "
         "experiments, such as 200",
         kBudgetOption);
-  // 0.07 of 100 is 7, and 7.000000000000001 in binary.
+  // 0.07 of 100 is 7, but 7.000000000000001 in binary.
   constexpr double kRounding = 1e-9;
   return static_cast<std::int64_t>(
       std::ceil(number * static_cast<double>(setup.race.max_experiments) - kRounding));
 }
 
-/// Those that were asked for, else the best of every iteration and the elites of the last one, or
+/// The ids that the user gave; else the best of every iteration and the elites of the last one, or
 /// all elites.
 Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings,
                                                    const StoredConfigurations& stored) {
@@ -101,7 +101,7 @@ ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSe
   if (!text) return fail(output, ExitCode::Failed, text.error());
   again.configurations_text = std::move(*text);
   again.repair_configuration.clear();
-  // Other pairs than those of the run.
+  // A different seed, so that the pairs differ from those of the run.
   again.seed = seed_of(setup, StorePlace::at(finished)) + 1;
   Scenario& race = again.race;
   race.max_experiments = *budget;

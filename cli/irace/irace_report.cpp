@@ -20,7 +20,7 @@ double cost_of(const EvaluationRow& row) {
                                             : std::numeric_limits<double>::infinity();
 }
 
-/// Keeps of a store's rows what the report needs, in whatever order they come.
+/// Collects the rows for the report, in any order.
 class Collector {
  public:
   explicit Collector(const ParameterSpace& space) : result_{.candidates = CandidateTable(space)} {}
@@ -37,7 +37,8 @@ class Collector {
         instances_[{Purpose::Test, pair->number}] = pair->instance;
         result_.test_seeds[pair->instance] = pair->seed;
       } else if (pair->purpose == Purpose::Evaluator && pair->instance < 0) {
-        // Of a test instance, so that it is not taken for a training instance.
+        // The number of a test instance is negative, so that it is not mistaken for a training
+        // instance.
         instances_[{Purpose::Evaluator, pair->number}] = -pair->instance;
       }
     } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
@@ -54,7 +55,7 @@ class Collector {
         result_.best.push_back({number_of(elite.candidate), to_cost(elite.mean), elite.runs});
       }
     }
-    // Where an evaluator says the costs, the runs have none.
+    // If an evaluator gives the costs, the runs themselves have none.
     for (const Purpose purpose : {Purpose::Test, Purpose::Evaluator}) {
       for (const EvaluationRow& row : evaluations_) {
         const auto instance = instances_.find({purpose, row.key.pair});
@@ -158,7 +159,7 @@ std::string result_json(const IraceResult& result, const std::string& store, std
         .add("parameters", JsonPiece{parameters.empty() ? "{}" : parameters})
         .add("command_line", result.candidates.command_line(best.number));
   };
-  // JSON has no infinity: a rejection is null.
+  // JSON has no infinity, so a rejection is null.
   const auto test_json = [&](const auto& test) {
     const auto& [key, cost] = test;
     const auto drawn = result.test_seeds.find(key.second);

@@ -27,7 +27,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::int64_t kLargestSeed = 2'147'483'647;  // irace's
+constexpr std::int64_t kLargestSeed = 2'147'483'647;  // limit of irace
 
 std::string times_line(TimePoint begin) {
   rusage own{};
@@ -45,7 +45,7 @@ std::string times_line(TimePoint begin) {
       wall.count());
 }
 
-/// The events of `run --json` with costs in place of scores.
+/// The events of `run --json`, with costs instead of scores.
 class CostEvents final : public RunListener {
  public:
   explicit CostEvents(Progress& progress) : progress_(progress) {}
@@ -73,8 +73,8 @@ class CostEvents final : public RunListener {
   Progress& progress_;
 };
 
-/// Passes everything on, and notes whether anything was evaluated: a finished run may have been
-/// extended.
+/// Passes everything on, and notes whether anything was evaluated, because a finished run may have
+/// been extended.
 class WorkWatch final : public RunListener {
  public:
   explicit WorkWatch(RunListener& teller) : teller_(teller) {}
@@ -137,8 +137,8 @@ class ScenarioRun {
   }
 
  private:
-  /// With a budget of time the first estimate depends on how many runs are made at a time: one that
-  /// goes on keeps the number that it began with, whatever this machine has.
+  /// With a time budget, the first estimate depends on the number of parallel runs. A run that
+  /// continues keeps its original number, even if this computer has another number of cores.
   void keep_parallel() {
     const std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored || stored->race.max_time <= 0) return;
@@ -150,8 +150,8 @@ class ScenarioRun {
     campaign_.race.parallel = stored->race.parallel;
   }
 
-  /// How many experiments more are asked for than the store was made with, when that is all that
-  /// differs: there is a command for it.
+  /// The number of experiments by which the new budget exceeds the stored one, if nothing else
+  /// differs. The command `extend` adds them.
   std::int64_t experiments_more() const {
     std::optional<Campaign> stored = stored_campaign(place_.file());
     if (!stored) return 0;
@@ -179,13 +179,14 @@ class ScenarioRun {
             .instances = campaign_.missions.front().instances};
   }
 
-  /// When the store's run ended; empty where it does not hold this run to its end.
+  /// The date when the store's run ended; empty if the store does not hold this run or it is not
+  /// finished.
   std::string date_of_end() const {
     const auto store = store_of(campaign_);
     return store != nullptr && store->finished() ? end_date(*store) : "";
   }
 
-  /// Who has changed the target since then must know.
+  /// Tells users who have changed the target since then that it was not run.
   void tell_that_nothing_ran(const std::string& ended) {
     ended_ = ended;
     const std::string text = nothing_ran_text(ended_, place_.file());
@@ -193,7 +194,7 @@ class ScenarioRun {
     if (!output_.json && !output_.quiet) output_.out << "# " << text << '\n';
   }
 
-  /// Whether the store holds this run, to its end.
+  /// Whether the store holds this run and it is finished.
   bool is_finished() const {
     const auto store = store_of(campaign_);
     return store != nullptr && store->finished();
@@ -211,7 +212,8 @@ class ScenarioRun {
     const auto result = read_irace_result(**store, setup_.space);
     if (!result) return fail(output_, ExitCode::Failed, result.error());
     const auto seed = static_cast<std::int64_t>(campaign_.seed);
-    // The race ended without a best configuration, as when the target rejected all of them.
+    // The race ended without a best configuration, for example because the target rejected all of
+    // them.
     const bool has_failed = result->state.state == DesignState::Stopped;
     if (output_.json) {
       output_.out << result_json(*result, place_.is_kept() ? place_.file().string() : "", seed);
@@ -240,7 +242,7 @@ class ScenarioRun {
 
   std::string finished_testing() const { return fmt::format("# {}: Finished testing\n", date()); }
 
-  /// Of the results.
+  /// The date of the results.
   std::string date() const { return ended_.empty() ? irace_date() : ended_; }
 
   void print_whereabouts() {
@@ -260,7 +262,7 @@ class ScenarioRun {
   Campaign campaign_;
   Scenario race_;
   TimePoint begin_ = SystemClock().now();
-  std::string ended_;  ///< the date at which a run ended that was over before
+  std::string ended_;  ///< when the run ended, if it had ended before
 };
 
 }  // namespace
@@ -278,7 +280,7 @@ std::optional<Campaign> stored_campaign(const std::filesystem::path& file) {
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   RunOptions options;
   options.keeps_store = store.is_kept();
-  // All cores, unless a number is given; worker processes that were asked for have a core each.
+  // All cores by default; a given number of worker processes gets one core each.
   const std::int64_t all = slots.parallel ? std::max<std::int64_t>(*slots.parallel, 1)
                                           : slots.workers.value_or(usable_processors());
   const std::int64_t workers = std::min(slots.workers.value_or(1), all);
@@ -307,7 +309,7 @@ StorePlace place_beside(const std::filesystem::path& file, const std::string& en
         StorePlace::beside(file, number == 1 ? ending : fmt::format("{}-{}", ending, number));
     Campaign campaign = campaign_at(place);
     campaign.store = place.file();
-    // What cannot be read is not a campaign's yet: opening it to write says what is wrong.
+    // A store that cannot be read is accepted here; opening it for writing reports the error.
     if (may_begin(campaign) || !StoreReader::open(place.file())) return place;
   }
 }
@@ -315,7 +317,7 @@ StorePlace place_beside(const std::filesystem::path& file, const std::string& en
 ExitCode explain_end(Output& output, ExitCode ended, bool began, bool named) {
   if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
   if (ended == ExitCode::Store) {
-    // It has said what became of the store.
+    // The message about the store was printed already.
     if (began) return ended;
     output.err << (named
                        ? "Give the options that made this store, or another one: --log-file NAME, "

@@ -16,46 +16,47 @@
 
 namespace swarmsmith::cli {
 
-/// How many evaluations run at a time.
+/// The number of evaluations at a time.
 struct IraceSlots {
   std::optional<std::int64_t> workers;   ///< processes
   std::optional<std::int64_t> parallel;  ///< evaluations of all of them together
 };
 
-/// Both as the worker processes of `carry_out`.
+/// Translates both to worker processes for `carry_out`.
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store);
 
-/// The campaign's store, when there is one that holds this campaign.
+/// The campaign's store; null if there is none that holds this campaign.
 std::unique_ptr<StoreReader> store_of(const Campaign& campaign);
-/// There is no store yet, or it is this campaign's. What is wrong with one is said by who opens it
-/// to write.
+/// Whether there is no store yet, or it belongs to this campaign. Errors of the store are reported
+/// later, when it is opened for writing.
 bool may_begin(const Campaign& campaign);
 
-/// What the store in a file was made with; nothing where none can be read.
+/// The campaign with which the store in a file was made; empty if the file cannot be read.
 std::optional<Campaign> stored_campaign(const std::filesystem::path& file);
 
-/// Where what belongs to the run in `file` has its store: the first of NAME-ending.db,
-/// NAME-ending-2.db, NAME-ending-3.db, ... that holds the campaign or is free. So each keeps its
-/// own, and the same command finds it again. `campaign_at` gives the campaign at a place, whose
-/// store may have its seed.
+/// Chooses the store for a campaign that belongs to the run in `file`: the first of NAME-ending.db,
+/// NAME-ending-2.db, NAME-ending-3.db, ... that holds the campaign or does not exist. So each
+/// campaign keeps its own store, and the same command finds it again. `campaign_at` returns the
+/// campaign for a place, because the seed may come from the store there.
 StorePlace place_beside(const std::filesystem::path& file, const std::string& ending,
                         const std::function<Campaign(const StorePlace&)>& campaign_at);
 
-/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace, but
-/// that of a store that was lost after the run `began`. Says what to do about a store of another
-/// scenario, which is `named` by an option, or lies beside such a one.
+/// The exit code after `carry_out` has not finished: 1 for all errors, as in irace, except for a
+/// store that was lost after the run `began`. If the store belongs to another scenario, prints what
+/// to do; `named`: an option named this store, else it was chosen beside such a store.
 ExitCode explain_end(Output& output, ExitCode ended, bool began, bool named = true);
 
-/// Runs the scenario into its store, or goes on with it, and prints irace's report. Failed for
-/// whatever goes wrong, as irace; Interrupted and Terminated as `run`. When the store holds this
-/// run to its end, but for its tests, the winners are tested again, beside it (`test_elites`).
+/// Runs the scenario into its store, or continues it, and prints irace's report. Failed for all
+/// errors, as in irace; Interrupted and Terminated as in `run`. If the store already holds the
+/// finished run and only the tests differ, the winners are tested again in a store beside it
+/// (`test_elites`).
 ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
                       const IraceSlots& slots);
-/// The same of a campaign that was made of a scenario.
+/// Like `run_scenario`, for a campaign made from a scenario.
 ExitCode run_campaign(Output& output, const IraceSetup& setup, const StorePlace& store,
                       Campaign campaign, const IraceSlots& slots);
 
-/// The setup's seed, else that of the store, so that the same command continues, else a new one.
+/// The seed of the setup, else of the store, so that the same command continues, else a new one.
 std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store);
 
 }  // namespace swarmsmith::cli

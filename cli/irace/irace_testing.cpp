@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kEnding = "-test";
 
-/// A campaign that runs configurations on the test instances alone.
+/// A campaign that only runs configurations on the test instances.
 Campaign test_campaign(const IraceSetup& setup, std::uint64_t seed,
                        const std::string& configurations) {
   Campaign campaign = campaign_of(setup, seed);
@@ -24,13 +24,13 @@ Campaign test_campaign(const IraceSetup& setup, std::uint64_t seed,
   campaign.race = {.max_experiments = 1};
   campaign.repair.clear();
   campaign.methods.front().configurations = configurations;
-  // Nothing is run on these.
+  // The training instances are not used.
   campaign.missions.front().instances.training = {"none"};
   return campaign;
 }
 
-/// Tests in a store of their own beside `main`. All tests of a run have the same seeds, so that
-/// they can be compared: those of the scenario, of earlier tests, or of the run.
+/// Runs tests in a separate store beside `main`. All tests of a run use the same seed, so that they
+/// can be compared: the scenario's, that of earlier tests, or the run's.
 ExitCode test_beside(Output& output, const IraceSetup& setup, const StorePlace& main,
                      const std::string& configurations, const IraceSlots& slots) {
   const StorePlace first = StorePlace::beside(main.file(), kEnding);

@@ -7,7 +7,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Reads the one shape of JSON that stores hold of candidates.
+/// Reads the only form of JSON that stores use for candidates.
 class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text) {}
@@ -76,7 +76,7 @@ class Reader {
     return value;
   }
 
-  /// Control characters are all that is written as \u.
+  /// Only control characters are written as \u.
   bool escape(std::string& value) {
     if (text_.size() < 2) return false;
     const char letter = text_[1];

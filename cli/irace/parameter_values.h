@@ -9,11 +9,11 @@
 
 namespace swarmsmith::cli {
 
-/// Active parameters of a candidate by name.
+/// The active parameters of a candidate, by name.
 using ParameterValues = std::map<std::string, std::variant<double, std::string>, std::less<>>;
 
-/// Reads CandidateRow::parameters: a flat JSON object of numbers and texts. Corrupt, when it is
-/// none.
+/// Reads CandidateRow::parameters: a flat JSON object of numbers and texts. Corrupt if the text is
+/// not such an object.
 Expected<ParameterValues> parse_parameter_values(std::string_view json);
 
 }  // namespace swarmsmith::cli

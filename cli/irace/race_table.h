@@ -8,13 +8,13 @@
 
 namespace swarmsmith::cli {
 
-/// What the markers mean.
+/// Explains the markers of the table.
 std::string marker_legend();
-/// Rule, names of the columns, rule. With `bounds` there is a column for them.
+/// A rule, the column names, a rule. With `bounds` there is a column for bounds.
 std::string race_headline(bool bounds);
 std::string race_rule(bool bounds);
-/// What irace 4 shows of one task of a race (irace facts, 24): `used` are the experiments of this
-/// race so far; there is no `wall_s` for a task that an earlier process did.
+/// The line of irace 4 about one task of a race (irace facts, 24). `used`: the experiments of this
+/// race so far; `wall_s`: empty for a task of an earlier process.
 std::string race_line(const RaceStepRow& step, std::int64_t used, std::optional<double> wall_s,
                       bool bounds);
 /// "Best-so-far configuration: ...".

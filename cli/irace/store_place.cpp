@@ -46,7 +46,7 @@ Expected<StorePlace> StorePlace::temporary() {
 std::optional<std::uint64_t> StorePlace::seed() const {
   std::error_code trouble;
   if (!fs::exists(file_, trouble)) return std::nullopt;
-  // What is wrong with it is said by who opens it to write.
+  // An error is reported later, when the store is opened for writing.
   const auto store = StoreReader::open(file_);
   if (!store) return std::nullopt;
   return static_cast<std::uint64_t>((*store)->campaign().seed);

@@ -9,14 +9,14 @@
 
 namespace swarmsmith::cli {
 
-/// Where a run's store is: a file that the user named, or one in a temporary folder that goes with
-/// this object.
+/// The place of a run's store: a file that the user named, or a file in a temporary folder that is
+/// deleted with this object.
 class StorePlace {
  public:
   static StorePlace at(std::filesystem::path file);
-  /// Of a campaign that belongs to another store's: `name-test.db`.
+  /// For a campaign that belongs to the campaign of another store: `name-test.db`.
   static StorePlace beside(const std::filesystem::path& file, const std::string& ending);
-  /// Unavailable, when there is no place for temporary files.
+  /// Unavailable if there is no place for temporary files.
   static Expected<StorePlace> temporary();
 
   StorePlace(StorePlace&& other) noexcept;
@@ -25,15 +25,14 @@ class StorePlace {
 
   const std::filesystem::path& file() const { return file_; }
   bool is_kept() const { return folder_.empty(); }
-  /// The seed of the campaign that the store holds; nothing when there is no store that can be
-  /// read.
+  /// The seed of the campaign in the store; empty if there is no readable store.
   std::optional<std::uint64_t> seed() const;
 
  private:
   StorePlace(std::filesystem::path file, std::filesystem::path folder);
 
   std::filesystem::path file_;
-  std::filesystem::path folder_;  ///< to be removed; empty for none
+  std::filesystem::path folder_;  ///< to be deleted; empty: nothing to delete
 };
 
 }  // namespace swarmsmith::cli

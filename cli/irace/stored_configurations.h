@@ -14,21 +14,21 @@
 
 namespace swarmsmith::cli {
 
-/// What a run of a scenario found, by irace's ids.
+/// The configurations that the run of a scenario found, by irace's ids.
 struct StoredConfigurations {
   std::map<std::int64_t, Configuration> all;
   std::map<std::int64_t, std::vector<std::int64_t>> elites;  ///< by iteration, best first
 
-  /// NotFound with the ids that there are.
+  /// The error NotFound lists the existing ids.
   Expected<Configuration> find(std::int64_t id, const std::string& option) const;
 };
 
-/// Of a row of a candidate; nothing when it is not one of the space.
+/// From the row of a candidate; empty if it does not belong to the space.
 std::optional<Configuration> configuration_of(const ParameterSpace& space,
                                               const CandidateRow& candidate);
 
-/// Of a store of this scenario's run; an error when there is none, none that is over, or one of
-/// other parameters.
+/// Reads the store of a run of this scenario. An error if there is no such store, if the run is not
+/// finished, or if it has other parameters.
 Expected<StoredConfigurations> read_stored_configurations(const std::filesystem::path& store,
                                                           const ParameterSpace& space);
 

@@ -21,8 +21,9 @@ std::string cell_text(const Rows& rows, const std::string& column) {
 
 namespace {
 
-/// " AND m.iteration IN (...) AND m.step IN (...)": where the design raced on the pair. Named one
-/// by one, so that v_race_matrix makes these steps alone, and not all races of the design.
+/// " AND m.iteration IN (...) AND m.step IN (...)": the steps in which the design raced on the
+/// pair. They are listed one by one so that v_race_matrix computes only these steps, not all races
+/// of the design.
 Expected<std::string> steps_of_pair(StoreReader& store, const std::string& design,
                                     const std::string& pair) {
   const auto steps =

@@ -12,7 +12,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// How often each form tells of the state without being asked.
+/// How often each output format shows the state.
 constexpr auto kRedrawEvery = std::chrono::milliseconds(100);
 constexpr auto kPlainEvery = std::chrono::seconds(30);
 constexpr auto kEventEvery = std::chrono::seconds(1);
@@ -63,7 +63,7 @@ void Progress::add(std::optional<std::size_t> campaign, const Row& row, TimePoin
   write_row(index, name.empty() ? "" : name + ": ", row, now);
 }
 
-/// Lines for people. A row that is not told of here changes the status line.
+/// Lines for people. Other rows change only the status line.
 void Progress::write_row(std::size_t campaign, const std::string& name, const Row& row,
                          TimePoint now) {
   const ProgressModel& model = models_[campaign];
@@ -79,7 +79,7 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
     add_line(name + iteration_line(*iteration, model.design(iteration->design)));
   } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
     const DesignProgress& progress = model.design(elite->design);
-    // Elsewhere those behind the best are many, and no test keeps them.
+    // Other searches have many elites, and no test selected them; only the best one is printed.
     if (elite->rank == 1 || has_tests(progress))
       add_line(name + elite_line(*elite, progress, mean_text(model, elite->mean)));
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
@@ -90,7 +90,7 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
   }
 }
 
-/// A line that stays, above the status line.
+/// Prints a permanent line above the status line.
 void Progress::add_line(const std::string& line) {
   if (!drawn_.empty()) output_.err << kClearLine;
   output_.err << line << '\n' << drawn_ << std::flush;
@@ -102,7 +102,7 @@ void Progress::write_events(const LiveStatus& live) {
   output_.out << std::flush;
 }
 
-/// Instead of the line that stands there.
+/// Replaces the current status line.
 void Progress::draw(const LiveStatus& live) {
   drawn_ = status_line(models_, live, width_());
   output_.err << kClearLine << drawn_ << std::flush;
@@ -111,7 +111,7 @@ void Progress::draw(const LiveStatus& live) {
 void Progress::update(const LiveStatus& live, TimePoint now) {
   if (live.trouble != trouble_) {
     trouble_ = live.trouble;
-    // Even when quiet: nothing goes on until a person has helped.
+    // Printed even with --quiet: the run stops until a person has helped.
     if (!trouble_.empty()) add_line("warning: nothing can be stored: " + trouble_);
   }
   if (live.launcher.note != launcher_note_) {

@@ -16,25 +16,25 @@ namespace swarmsmith::cli {
 
 /// The facts about a campaign that the output shows.
 struct ToldCampaign {
-  std::string name;  ///< in front of its lines; empty when it is the only one
+  std::string name;  ///< printed before its lines; empty if there is only one campaign
   std::vector<DesignRow> designs;
-  bool costs = false;  ///< programs evaluate: people want to see the costs that they print
+  bool costs = false;  ///< the scores come from programs: show the costs that they print
   Searches searches{};
 };
 
 /// Shows the progress of campaigns to a person or a program, from their rows.
 ///
-/// On a terminal: a status line that is redrawn, above it the lines of the races. Elsewhere: a line
-/// every 30 s and one at each change of a design's state; with `-v` the lines of the races, too.
-/// With --json: events on standard output, one a line. With --quiet: nothing but errors.
+/// On a terminal: a status line that is redrawn, and above it the lines of the races. Otherwise: a
+/// line every 30 s and a line for each change of a design's state; with `-v` also the lines of the
+/// races. With --json: events on standard output, one per line. With --quiet: only errors.
 ///
-/// Not thread-safe: rows and updates come from one thread.
+/// Not thread-safe: rows and updates must come from one thread.
 class Progress final : public RunListener {
  public:
-  /// `width` gives the columns of the terminal; asked again for each line.
+  /// `width` returns the number of columns of the terminal; it is called for each line.
   Progress(Output& output, const std::vector<ToldCampaign>& campaigns, TimePoint begin,
            std::function<std::size_t()> width = terminal_width);
-  /// Of one campaign.
+  /// For one campaign.
   Progress(Output& output, std::span<const DesignRow> designs, TimePoint begin,
            std::function<std::size_t()> width = terminal_width);
 
@@ -43,7 +43,7 @@ class Progress final : public RunListener {
   void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override;
   /// Redraws at most ten times a second.
   void update(const LiveStatus& live, TimePoint now) override;
-  /// Writes the last status and leaves the line.
+  /// Writes the last status and ends the line.
   void finish(const LiveStatus& live) override;
 
   const ProgressModel& model(std::size_t campaign = 0) const { return models_[campaign]; }
@@ -53,7 +53,7 @@ class Progress final : public RunListener {
  private:
   enum class Form { Silent, Json, Terminal, Plain };
 
-  /// A race reports its state after each step; only a change is printed.
+  /// A race reports its state after each step; only changes are printed.
   static bool repeats_state(const ProgressModel& model, const Row& row);
   void add_line(const std::string& line);
   void write_row(std::size_t campaign, const std::string& name, const Row& row, TimePoint now);
@@ -67,7 +67,7 @@ class Progress final : public RunListener {
   std::function<std::size_t()> width_;
   Form form_;
   bool race_lines_;
-  std::string drawn_;  ///< the status line that stands on the terminal
+  std::string drawn_;  ///< the status line that the terminal shows now
   std::string trouble_;
   std::string launcher_note_;
   std::optional<TimePoint> last_;

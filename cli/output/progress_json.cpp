@@ -9,7 +9,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// None for rows that are not events.
+/// Empty for rows that are not events.
 using Event = std::optional<JsonObject>;
 
 /// {"v":1,"event":NAME,...
@@ -115,7 +115,7 @@ Event event_row_json(const EventRow& row) {
       .add("data", JsonPiece{row.text.empty() ? "{}" : row.text});
 }
 
-/// With the name of its campaign, where there are several.
+/// Adds the name of the campaign, if there are several.
 std::string text_of(JsonObject event, const std::string& campaign) {
   if (!campaign.empty()) event.add("campaign", campaign);
   return event.text();

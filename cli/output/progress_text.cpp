@@ -13,12 +13,12 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Padded on the left.
+/// Pads the text on the left.
 std::string right(const std::string& text, std::size_t width) {
   return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
 }
 
-/// Statistics are not there before the first test; irace writes NA.
+/// There are no statistics before the first test; irace writes NA.
 std::string optional_text(const std::optional<double>& value, const char* format) {
   if (!value) return "NA";
   char buffer[64];
@@ -26,7 +26,7 @@ std::string optional_text(const std::optional<double>& value, const char* format
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-/// How much of the whole budget is used.
+/// A bar that shows the used part of the whole budget.
 std::string bar(std::int64_t used, std::int64_t budget) {
   constexpr std::int64_t kCells = 20;
   const std::int64_t filled = std::clamp<std::int64_t>(used * kCells / budget, 0, kCells);
@@ -34,12 +34,12 @@ std::string bar(std::int64_t used, std::int64_t budget) {
          std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
 }
 
-/// "1 200/3 000"; "1 200" where the budget is a time.
+/// "1 200/3 000"; "1 200" if the budget is a time.
 std::string spent(std::int64_t used, std::int64_t budget) {
   return grouped(used) + (budget > 0 ? "/" + grouped(budget) : "");
 }
 
-/// Sums over all campaigns, and how many of them are over.
+/// Sums over all campaigns, and the number of finished ones.
 struct Totals : CampaignTotals {
   explicit Totals(std::span<const ProgressModel> models) {
     for (const ProgressModel& model : models) {
@@ -51,13 +51,13 @@ struct Totals : CampaignTotals {
   std::int64_t over = 0;
 };
 
-/// A piece of a status line. Where a line is too narrow, the least needed pieces are left out.
+/// A part of a status line. If the line is too narrow, the least important parts are left out.
 struct Piece {
-  int rank;  ///< 1: needed most
+  int rank;  ///< 1: most important
   std::string text;
 };
 
-/// In the order in which they stand.
+/// The parts, in the order of the line.
 std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveStatus& live) {
   const Totals totals(models);
   std::vector<Piece> pieces;
@@ -77,7 +77,7 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
                              std::to_string(current->iteration) + "/~" +
                              std::to_string(std::max(current->iterations, current->iteration))});
   }
-  // A step of many candidates, or of slow ones, may take minutes.
+  // Counts the current step, too, because a step with many or slow candidates may take minutes.
   if (totals.budget > 0)
     pieces.push_back({9, bar(totals.budget - totals.left + totals.in_step, totals.budget)});
   pieces.push_back({2, spent(totals.used + totals.in_step, totals.budget)});
@@ -88,7 +88,7 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
   if (const double left = seconds_left(live); left > 0)
     pieces.push_back({3, "ETA " + duration_text(left)});
   pieces.push_back({7, std::to_string(std::llround(live.evaluations_per_s)) + " sim/s"});
-  // What the stage says, is not said again.
+  // If there is a text for the stage, it already has these numbers.
   if (current != nullptr && current->configurations > 0 && stage.empty()) {
     pieces.push_back({10, "alive " + std::to_string(current->alive) + "/" +
                               std::to_string(current->configurations)});
@@ -96,7 +96,7 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
   if (totals.paused > 0) pieces.push_back({1, "paused " + std::to_string(totals.paused)});
   if (live.failed > 0) pieces.push_back({1, "failed " + std::to_string(live.failed)});
   if (live.workers > 0 || totals.over == static_cast<std::int64_t>(models.size())) return pieces;
-  // Only local workers are there at once.
+  // Only local workers are available at once.
   const bool waits = !live.launcher.name.empty() && live.launcher.name != "local";
   pieces.push_back(
       {1, waits ? "no workers yet (" + to_text(live.launcher) + ")" : std::string("no workers")});
@@ -147,7 +147,7 @@ std::string plain_status(std::span<const ProgressModel> models, const LiveStatus
   std::erase_if(pieces, [](const Piece& piece) { return piece.text.starts_with("["); });
   const std::string line = joined(pieces);
   if (Totals(models).over == static_cast<std::int64_t>(models.size())) return line;
-  // What waits at a worker for a slot is leased as well.
+  // Evaluations that wait at a worker for a slot are leased, too.
   return line + "  workers " + std::to_string(live.workers) + "  slots " +
          std::to_string(std::min(live.leased, live.slots)) + "/" + std::to_string(live.slots);
 }
@@ -197,12 +197,12 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
   std::string text = to_string(state.design) + " " +
                      std::string(shown_state(progress, state.state)) + "  " + progress.mission +
                      " " + progress.method + " " + std::to_string(progress.repetition);
-  // Without a budget there is no race.
+  // A design without a budget has no race.
   if (progress.budget > 0 || state.used > 0) {
     text += "  " + spent(state.used, progress.budget);
   }
   if (state.best && state.used > 0) text += "  best " + to_string(state.best) + " " + best_mean;
-  // That its budget is used up is how a race ends as it should.
+  // A race that ends because its budget is used has ended normally.
   const bool as_it_should =
       state.best && (state.reason.starts_with("not enough") ||
                      (progress.options && (state.reason == "the budget is used" ||
@@ -216,7 +216,7 @@ std::string command_line(const CommandRow& command) {
   if (command.kind == CommandKind::Extend)
     text += " by " + grouped(command.budget) + " experiments";
   if (!command.who.empty()) text += ", asked by " + command.who;
-  // Its row comes when it is asked for, and when it acts.
+  // A command's row comes twice: when the user gives it, and when it takes effect.
   if (command.step) text += ": done after step " + std::to_string(*command.step);
   return text;
 }

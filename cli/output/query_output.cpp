@@ -21,7 +21,7 @@ namespace {
 using Cell = StoreReader::Cell;
 using Type = StoreReader::Cell::Type;
 
-/// For people six significant digits of a real are enough.
+/// People need only six significant digits of a real number.
 std::string shown(Cell cell) {
   if (cell.type == Type::Null) return "-";
   if (cell.type != Type::Real) return std::move(cell.text);
@@ -30,7 +30,7 @@ std::string shown(Cell cell) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-/// Numbers stand on the right of their column.
+/// Numbers are aligned on the right of their column.
 bool is_number(const Cell& cell) {
   return cell.type == Type::Integer || cell.type == Type::Real;
 }
@@ -51,7 +51,7 @@ Expected<Rows> select(StoreReader& store, const std::string& sql,
       [&](const std::vector<Cell>& cells) { rows.cells.push_back(cells); });
   if (!end) return Unexpected(end.error());
   rows.truncated = end->truncated;
-  // Of a statement of our own all rows are wanted, or as many as were asked for.
+  // One of our own statements needs all its rows, or as many as its limit asks for.
   if (rows.truncated && end->rows < limits.rows && !limits.typed) {
     return unexpected(
         ErrorKind::Unavailable,

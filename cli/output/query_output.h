@@ -13,50 +13,52 @@
 
 namespace swarmsmith::cli {
 
-/// How rows are written: aligned columns for people, or one JSON object
-/// {"columns":[...],"rows":[{...}],"truncated":false}, or the same with each row a list.
+/// The format of rows: aligned columns for people, or one JSON object
+/// {"columns":[...],"rows":[{...}],"truncated":false}, or the same object with each row as a list.
 enum class Form { Text, Json, JsonLists };
 
-/// Rows of a query, held.
+/// The rows of a query, in memory.
 struct Rows {
   std::vector<std::string> columns;
   std::vector<std::vector<StoreReader::Cell>> cells;
   bool truncated = false;
 
-  /// The place of a column; as many as there are if none has the name.
+  /// The index of a column; the number of columns if there is no such name.
   std::size_t column(std::string_view name) const {
     return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
   }
 };
 
-/// Runs the statement and keeps its rows.
+/// Runs the statement and returns its rows.
 Expected<Rows> select(StoreReader& store, const std::string& sql,
                       const StoreReader::QueryLimits& limits = {});
 
-/// Columns whose values are ids get the letter of their kind: design 3 becomes d3; `candidate`,
-/// `parent` and `best_candidate` get a c.
+/// Adds the letter of their kind to columns of ids: design 3 becomes d3; `candidate`, `parent` and
+/// `best_candidate` get a c.
 void letter_ids(Rows& rows);
 
-/// Whether programs gave all of the store's scores: then people who read it know costs.
+/// Whether all scores of the store come from programs. If so, its users expect costs.
 bool is_of_programs(StoreReader& store);
-/// The same rows in irace's words, for people: costs in place of scores, which are their negatives,
-/// configurations in place of candidates, and nothing of machines.
+/// Translates the rows to irace's terms, for people: costs instead of scores (the negative scores),
+/// configurations instead of candidates, and no machines.
 void as_costs(Rows& rows);
 
-/// Aligned columns below a headline, numbers on the right, six digits of reals.
+/// Aligned columns below a headline, numbers aligned on the right, real numbers with six digits.
 std::string rows_as_text(Rows rows);
-/// One line of CSV (base/text/csv.h), with its end; null is empty; full precision.
+/// One line of CSV (base/text/csv.h), with its line end; null is written as nothing; numbers have
+/// full precision.
 std::string cells_as_csv(const std::vector<StoreReader::Cell>& cells);
-/// Numbers in full precision.
+/// Numbers have full precision.
 JsonPiece cell_as_json(const StoreReader::Cell& cell);
-/// The "rows" array alone.
+/// Only the array "rows".
 JsonPiece rows_as_json(const Rows& rows);
-/// One row, to which keys may be added.
+/// One row as an object, so that keys can be added.
 JsonObject row_as_json(const Rows& rows, std::size_t row);
 
-/// Row by row, and frees each once it is written: a long answer is held once.
+/// Writes row by row and frees each row after writing it, so that a long answer is in memory only
+/// once.
 void write_rows(Output& output, Rows rows, Form form);
-/// That there would be more than these.
+/// Notes that there are more rows than these.
 void note_truncated(Output& output, std::size_t rows);
 
 }  // namespace swarmsmith::cli

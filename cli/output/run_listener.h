@@ -9,20 +9,20 @@
 
 namespace swarmsmith::cli {
 
-/// Receives the progress of campaigns: an abstract class because people, programs and irace's users
-/// need different output. A campaign is named by its index among those that run; a row without one
-/// belongs to their pool. All calls come from one thread.
+/// Receives the progress of campaigns. It is an abstract class because people, programs and irace's
+/// users need different output. A campaign is named by its index among the running campaigns; a row
+/// without an index belongs to their shared pool. All calls come from one thread.
 class RunListener {
  public:
   virtual ~RunListener() = default;
 
-  /// The stored state of a continued campaign: progress of its designs, and people's commands.
+  /// The stored state of a continued campaign: the progress of its designs, and users' commands.
   virtual void restore(std::size_t campaign, const Row& row) = 0;
-  /// A row that became due, in order.
+  /// A new row; rows come in order.
   virtual void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) = 0;
-  /// Several times a second.
+  /// Called several times a second.
   virtual void update(const LiveStatus& live, TimePoint now) = 0;
-  /// The end: no more calls follow.
+  /// Called at the end, after all other calls.
   virtual void finish(const LiveStatus& live) = 0;
 };
 

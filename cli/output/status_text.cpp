@@ -20,8 +20,8 @@ std::string percent(double part, double whole) {
   return whole > 0 ? fmt::format("{:.0f} %", 100 * part / whole) : "-";
 }
 
-/// "1 200/3 000 (40 %)": a race that is over is done, whatever its budget has left. "1 200" where
-/// that is a time.
+/// "1 200/3 000 (40 %)". A finished race counts as 100 %, even if it did not use its whole budget.
+/// "1 200" if the budget is a time.
 std::string experiments(const CampaignTotals& totals, bool is_time) {
   if (is_time) return std::to_string(totals.used);
   return fmt::format("{}/{} ({})", totals.used, totals.budget,
@@ -45,12 +45,13 @@ bool has_time_budget(const LiveStatus& status) {
          });
 }
 
-/// As people read it. On one host nothing crosses a network.
+/// The name for people: on a single host nothing crosses a network.
 std::string_view shown_name(IdleCause cause) {
   return cause == IdleCause::Network ? "on the way" : name_of(cause);
 }
 
-/// "busy 91 %  barrier 6 %  on the way 3 %": the largest first, nothing below half a percent.
+/// "busy 91 %  barrier 6 %  on the way 3 %": the largest share first, without shares below half a
+/// percent.
 std::string shares(const SlotTimes& times) {
   if (times.slots <= 0) return "no heartbeats yet";
   std::vector<std::pair<double, std::string_view>> causes;
@@ -65,7 +66,7 @@ std::string shares(const SlotTimes& times) {
   return text;
 }
 
-/// A letter a share: # busy, the causes by their first letters.
+/// A bar with one character for each share: # for busy, and the first letter of each cause.
 std::string share_bar(const SlotTimes& times) {
   if (times.slots <= 0) return "";
   std::string bar;
@@ -117,7 +118,7 @@ void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
   lines.push_back("since start  " + shares(status.slot_times));
 }
 
-/// What a person should look after; empty when all is well.
+/// The problems that a person should look into; empty if there are none.
 std::string troubles(const LiveStatus& status) {
   std::string text;
   const auto add = [&](std::string_view name, std::int64_t count) {
@@ -144,7 +145,7 @@ std::string troubles(const LiveStatus& status) {
   return text;
 }
 
-/// Nothing races where nothing is tested.
+/// A search without tests is not called "racing".
 std::string_view shown_state(const CampaignStatus& campaign, const DesignStatus& design) {
   if (design.paused) return "paused";
   const auto is_its = [&](SearchKind kind) { return name_of(kind) == design.search; };
@@ -162,7 +163,7 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
     const bool is_tested = std::ranges::any_of(campaign.designs, &DesignStatus::is_tested);
     best_width = std::max(best_width, (is_tested ? 17 : 9) + (campaign.costs ? 5 : 0));
   }
-  // Those that race first; what is over says its best, what waits says nothing.
+  // Racing designs first. Finished ones show their best score, waiting ones show nothing.
   for (const bool racing : {true, false}) {
     for (const CampaignStatus& campaign : *status.campaigns) {
       for (const DesignStatus& one : campaign.designs) {
@@ -171,7 +172,7 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         if (is_racing != racing) continue;
         const std::string part =
             one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
-        // Imported machines have a best one without a mean.
+        // An imported design has a best machine without a mean.
         const bool has_mean = one.best && (one.used > 0 || one.is_tested());
         const std::string budget = campaign.max_time > 0 ? fmt::format("time {}", campaign.max_time)
                                                          : std::to_string(one.budget);
@@ -209,7 +210,7 @@ struct Host {
   std::int64_t failed = 0;
   double rate = 0;
   double busy_slots = 0;
-  double silent = 0;  ///< longest of its connected workers, seconds
+  double silent = 0;  ///< seconds; the longest of its connected workers
 
   double busy() const { return slots > 0 ? busy_slots / static_cast<double>(slots) : 0; }
 };
@@ -235,7 +236,7 @@ std::map<std::string, Host> hosts_of(const LiveStatus& status) {
   return hosts;
 }
 
-/// The worst first: with failures, with workers that are gone, the least busy.
+/// Worst hosts first: with failures, with lost workers, with the smallest busy share.
 std::vector<std::string> host_lines(const LiveStatus& status) {
   const std::map<std::string, Host> hosts = hosts_of(status);
   std::vector<std::pair<std::string, Host>> sorted(hosts.begin(), hosts.end());
@@ -253,10 +254,10 @@ std::vector<std::string> host_lines(const LiveStatus& status) {
   return lines;
 }
 
-/// As many as fit, and how many do not.
+/// Adds as many rows as fit, and the number of the others.
 void add_table(std::vector<std::string>& lines, const std::string& headline,
                const std::vector<std::string>& table, std::size_t room) {
-  // A blank line, the headline, and one row at least.
+  // Needs room for a blank line, the headline and at least one row.
   if (table.empty() || room < 3) return;
   lines.emplace_back();
   lines.push_back(headline);
@@ -278,7 +279,7 @@ std::vector<std::string> status_lines(const LiveStatus& status, const Screen& sc
   const std::vector<std::string> designs = design_lines(status);
   const std::vector<std::string> hosts = host_lines(status);
   const std::size_t room = screen.height > lines.size() ? screen.height - lines.size() : 0;
-  // Half each, and what the one does not need for the other.
+  // Each table gets half of the lines, and the lines that the other does not need.
   const std::size_t want_hosts = hosts.empty() ? 0 : hosts.size() + 2;
   add_table(lines,
             std::string("design state           used/budget             best      mission method") +

@@ -14,11 +14,11 @@ struct Screen {
   std::size_t height = 24;
 };
 
-/// A running coordinator for people: campaigns, where the slots' time goes, designs, hosts with the
-/// worst first. At most `height` lines of at most `width` columns. Pure.
+/// A running coordinator, for people: campaigns, the use of the slots' time, designs, and hosts
+/// with the worst first. At most `height` lines of at most `width` columns. Pure.
 std::vector<std::string> status_lines(const LiveStatus& status, const Screen& screen);
 
-/// The most important of it in one line, for logs.
+/// The most important facts of the status in one line, for logs.
 std::string status_summary(const LiveStatus& status);
 
 }  // namespace swarmsmith::cli

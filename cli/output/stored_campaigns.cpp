@@ -32,7 +32,7 @@ std::string designs_with_means(std::optional<DesignId> only) {
 
 Expected<std::vector<CampaignStatus>> stored_campaigns(StoreReader& store, bool is_written) {
   std::vector<CampaignStatus> campaigns;
-  std::map<std::string, std::size_t> places;  // by number
+  std::map<std::string, std::size_t> places;  // index by number
   const auto heads = select(
       store,
       "SELECT campaign, name, state, CASE WHEN json_valid(deciding) THEN "

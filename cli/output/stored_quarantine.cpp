@@ -8,10 +8,11 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Since then workers have principals.
+/// The first schema with principals of workers.
 constexpr std::int64_t kSchemaOfPrincipals = 6;
 
-/// The last event about what a worker `w` is in quarantine for: all of its principal, or itself.
+/// A value from the last quarantine event that concerns worker `w`: all workers of its principal,
+/// or only itself.
 std::string of_event(const std::string& value) {
   return "(SELECT " + value +
          " FROM event AS e WHERE e.kind = 'workers in quarantine' AND json_valid(e.text)"
@@ -32,7 +33,7 @@ Expected<std::vector<QuarantineStatus>> stored_quarantine(StoreReader& store) {
   for (const auto& cells : rows->cells) {
     const std::string& who = cells[0].text;
     const bool is_one = cells[2].text.empty() && is_blamed_by_process(who);
-    // One row tells it of all workers of the principal.
+    // One entry stands for all workers of the principal.
     const bool is_known = !is_one && std::ranges::any_of(all, [&](const QuarantineStatus& known) {
       return known.who == who;
     });

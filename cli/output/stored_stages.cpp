@@ -18,7 +18,7 @@ std::int64_t number(std::string_view text) {
   return value;
 }
 
-/// By campaign and name of the method.
+/// The key is the campaign and the name of the method.
 using MethodSearches = std::map<std::pair<std::string, std::string>, SearchOptions>;
 
 Expected<MethodSearches> method_searches(StoreReader& store) {
@@ -26,7 +26,7 @@ Expected<MethodSearches> method_searches(StoreReader& store) {
   const auto files = select(store, "SELECT campaign, file FROM v_campaigns");
   if (!files) return Unexpected(files.error());
   for (const auto& cells : files->cells) {
-    // Files of races alone have no such key.
+    // Campaign files with races only do not contain this key.
     if (cells[1].text.find("search") == std::string::npos) continue;
     const auto campaign = parse_campaign(cells[1].text, "the store's campaign file");
     if (!campaign) continue;
@@ -44,8 +44,8 @@ std::optional<std::size_t> place_of(const Rows& rows, std::string_view column) {
   return static_cast<std::size_t>(found - rows.columns.begin());
 }
 
-/// `own` is a condition on the column design, or empty: SQLite does not carry it into the part that
-/// groups.
+/// `own` is a condition on the column design, or empty. It is inserted here because SQLite does not
+/// push it into the subquery with GROUP BY.
 std::string iterations_of(const std::string& own) {
   return "SELECT i.design, i.iteration, i.planned, i.postselection, i.configurations, i.budget, "
          "s.step, s.used, (SELECT alive_after FROM v_race_steps AS l WHERE l.design = i.design AND "
@@ -164,7 +164,7 @@ void StoredStages::tell(Rows& rows) const {
     const SearchOptions* known = search(id);
     if (known != nullptr && state && cells[*state].text == "racing")
       cells[*state].text = words_of(*known).at_work;
-    // What ends one race is not a limit that the user set.
+    // The limit that ends a single race was not set by the user, so another reason is shown.
     if (known != nullptr && kind_of(*known) == SearchKind::FRace && reason &&
         cells[*reason].text == "limit of iterations") {
       cells[*reason].text = find(id)->now.alive == 1 ? "one configuration is left"

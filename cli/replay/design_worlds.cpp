@@ -16,14 +16,15 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// From the JSON object of what decides the campaign, whose values are texts.
+/// Reads the version from the JSON object of the campaign's deciding settings, whose values are
+/// texts.
 int engine_version_in(const std::string& deciding) {
   const auto json = nlohmann::json::parse(deciding, nullptr, false);
   const std::string version = json.is_object() ? json.value("engine.version", "") : "";
   return static_cast<int>(integer_in(version).value_or(0));
 }
 
-/// A mission whose name is a built-in one's.
+/// The built-in mission with this name.
 std::optional<CampaignMission> built_in(const std::string& name) {
   auto found = built_in_mission(name);
   if (!found) return std::nullopt;
@@ -32,7 +33,7 @@ std::optional<CampaignMission> built_in(const std::string& name) {
   return mission;
 }
 
-/// What the campaign's file says of the design.
+/// Adds the settings from the campaign's file.
 void put_campaign(DesignWorld& world, const Campaign& campaign) {
   world.has_programs = campaign.target.has_value();
   if (!world.has_programs) world.profile = campaign.profile;
@@ -80,7 +81,7 @@ Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
 
 namespace {
 
-/// The first value of each name, and the campaign that has it.
+/// The first value for each name, and its campaign.
 template <class Value>
 class FirstOfName {
  public:

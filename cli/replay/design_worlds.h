@@ -15,35 +15,37 @@
 
 namespace swarmsmith::cli {
 
-/// What the machines of a design are simulated in, as far as its store says it.
+/// The simulation settings for the machines of a design, as far as its store has them.
 struct DesignWorld {
   KnownDesign design;
-  std::optional<CampaignMission> mission;  ///< nothing: its programs', or of an unknown name
+  std::optional<CampaignMission>
+      mission;  ///< empty if programs evaluate, or if the mission's name is unknown
   std::string flavour;
   const Flavour* own_flavour = nullptr;  ///< null: built in
   std::optional<TurnClock> turn_clock;
-  std::optional<Profile> profile;  ///< the campaign's; nothing for imported machines
-  /// Further ones of the campaign, and those under which candidates were evaluated outside of it.
+  std::optional<Profile> profile;  ///< of the campaign; empty for imported machines
+  /// Other profiles: further ones of the campaign, and those used for evaluations outside the
+  /// campaign.
   std::vector<Profile> further_profiles;
-  int engine_version = 0;       ///< that made its scores; 0 when the store does not say
+  int engine_version = 0;       ///< version that made its scores; 0 if the store does not say it
   bool has_programs = false;    ///< programs evaluate
-  bool has_parameters = false;  ///< its candidates are parameters of a file, no machines
+  bool has_parameters = false;  ///< its candidates are parameters of a file, not machines
 };
 
-/// The worlds of all designs of a store: of a campaign's file, or, for imported machines, by their
-/// flavour and the name of their mission, when that is built in.
+/// The settings of all designs of a store: from a campaign's file, or, for imported machines, from
+/// their flavour and the name of their mission, if it is built in.
 class DesignWorlds {
  public:
   static Expected<DesignWorlds> read(StoreReader& store);
 
-  /// Nothing when the store has no such design. BadInput when its campaign's file cannot be read by
-  /// this version.
+  /// Empty if the store has no such design. BadInput if this version cannot read its campaign's
+  /// file.
   Expected<std::optional<DesignWorld>> of(DesignId design) const;
-  /// What only names tell apart: a sentence for each mission and profile that differs between
-  /// campaigns and has one name. None of worlds that cannot be read, or are programs'.
+  /// A sentence for each mission and profile that has the same name in several campaigns but
+  /// differs between them. Skips settings that cannot be read, and designs with programs.
   std::vector<std::string> mixed_names() const;
   const std::vector<KnownDesign>& designs() const { return designs_; }
-  /// Of the store's first campaign.
+  /// Seed of the store's first campaign.
   std::uint64_t seed() const { return seed_; }
   int first_engine_version() const { return files_.begin()->second.engine_version; }
 
@@ -52,17 +54,17 @@ class DesignWorlds {
   struct File {
     std::string text;  ///< empty for an imported campaign
     int engine_version = 0;
-    /// Read once for all designs; `of` returns the error.
+    /// Read once for all designs; an error is returned by `of`.
     std::optional<Expected<Campaign>> campaign{};
     std::optional<Expected<ImportedWorld>> imported{};
   };
-  std::map<std::int64_t, File> files_;  ///< of the campaigns
+  std::map<std::int64_t, File> files_;  ///< by campaign
   std::vector<Profile> kept_profiles_;  ///< see StoreReader
   std::uint64_t seed_ = 0;
 };
 
-/// Prints what names mix up in a store that just got another campaign. A store that cannot be read
-/// says so elsewhere.
+/// Warns about missions and profiles with the same name that differ, in a store to which a campaign
+/// was just added. Says nothing about a store that cannot be read; other code reports that.
 void warn_of_mixed_names(const std::string& store, Output& output);
 
 }  // namespace swarmsmith::cli

@@ -28,8 +28,9 @@ namespace {
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
 constexpr const char* kTurnClock = "--turn-clock";
 
-/// The same text is another machine under another flavour, so the flavour is not guessed. A
-/// candidate's method has a say in its flavour's constants; another flavour has its own.
+/// The flavour is never guessed, because the same text is a different machine under another
+/// flavour. A candidate's method may change constants of its flavour; another flavour has its own
+/// constants.
 Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMachine& named,
                              Output& output) {
   std::string name = named.flavour;
@@ -71,8 +72,8 @@ Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMach
   return find_flavour(name, *clock, own);
 }
 
-/// A candidate's own mission may have been changed by its file; the flag names a built-in one, or a
-/// file.
+/// By default the candidate's own mission, which its file may have changed; the flag names a
+/// built-in mission or a file.
 Expected<Mission> mission_of(const EvaluateArguments& arguments, const NamedMachine& named,
                              Output& output) {
   if (arguments.mission.empty()) {
@@ -86,7 +87,7 @@ Expected<Mission> mission_of(const EvaluateArguments& arguments, const NamedMach
   return find_mission_or_complain(arguments.mission, "--mission", output);
 }
 
-/// The candidate's own profile, or what the flag says.
+/// The candidate's own profile, or the one of the flag.
 Expected<Profile> profile_of(const EvaluateArguments& arguments, const NamedMachine& named,
                              Output& output) {
   if (named.profile && (arguments.profile.empty() || arguments.profile == named.profile->name)) {
@@ -96,7 +97,7 @@ Expected<Profile> profile_of(const EvaluateArguments& arguments, const NamedMach
   return find_profile_or_complain(word, "--profile", output);
 }
 
-/// A table of a file; errors say "file:line".
+/// Reads a table from a file; errors have the place "file:line".
 template <class Table>
 Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std::string_view)) {
   const auto text = read_file(file, "table");
@@ -106,7 +107,7 @@ Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std
   return bad_input(table.error().message, file + ":" + table.error().where);
 }
 
-/// The tables, where they are named.
+/// The tables of starts and patches, if the arguments name them.
 Expected<ExplicitInstances> read_instances(const EvaluateArguments& arguments,
                                            const Mission& mission, Output& output) {
   ExplicitInstances given;
@@ -126,7 +127,7 @@ Expected<ExplicitInstances> read_instances(const EvaluateArguments& arguments,
   return given;
 }
 
-/// The winners of the finished designs, or of those that are named.
+/// The winners of all finished designs, or of the named designs.
 Expected<std::vector<NamedMachine>> winners_of(const EvaluateArguments& arguments) {
   const auto store = arguments.store.open();
   if (!store) return Unexpected(store.error());
@@ -156,7 +157,7 @@ Expected<std::vector<NamedMachine>> winners_of(const EvaluateArguments& argument
   return machines;
 }
 
-/// The machines that the word MACHINE names, in their worlds.
+/// The machines that the argument MACHINE names, with their simulation settings.
 Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& arguments,
                                                 Output& output) {
   const auto id = parse_thing_id(arguments.machine);
@@ -227,7 +228,7 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   return job;
 }
 
-/// The profile that the store, or else this program, knows by the name.
+/// The profile with this name in the store, or else in this program.
 std::optional<Profile> known_profile(const NamedMachine& named, const std::string& name) {
   if (named.profile && named.profile->name == name) return named.profile;
   const auto further = std::ranges::find(named.further_profiles, name, &Profile::name);
@@ -236,7 +237,7 @@ std::optional<Profile> known_profile(const NamedMachine& named, const std::strin
   return built_in ? std::optional(std::move(*built_in)) : std::nullopt;
 }
 
-/// Why the job's scores are none of the design's; nothing when they are.
+/// The reason why the job's scores do not belong to the design; nothing if they do.
 std::optional<std::string> complaint_about(const EvaluationJob& job, const NamedMachine& named,
                                            const EvaluateArguments& arguments) {
   if (!arguments.starts.empty() || !arguments.patches.empty()) {
@@ -261,8 +262,8 @@ std::optional<std::string> complaint_about(const EvaluationJob& job, const Named
   return std::nullopt;
 }
 
-/// The seeds that are named, or the default: for a store's candidates a fresh one, for a file those
-/// that its head names, else 1-10.
+/// The given seeds, or the default: a fresh seed for a store's candidates; for a file the seeds in
+/// its head, else 1-10.
 Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments,
                                              const NamedMachine& named) {
   if (!arguments.seeds.empty()) return parse_seeds(arguments.seeds);
@@ -279,7 +280,7 @@ Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments,
   return std::vector{*seed};
 }
 
-/// All instances, so that a missing row stops everything and not the second half.
+/// Makes all instances first, so that a missing row is found before anything is simulated.
 Expected<void> add_instances(EvaluationPlan& plan, const ExplicitInstances& given) {
   for (EvaluationJob& job : plan.jobs) {
     for (const std::int64_t seed : job.seeds) {
@@ -309,7 +310,7 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
       }
       job->keeps_profile = !known_profile(named, job->profile.name);
     }
-    // One fresh seed for all candidates: their scores are compared.
+    // All candidates get the same fresh seed, because their scores are compared.
     auto seeds = named.candidate && !plan.jobs.empty()
                      ? Expected<std::vector<std::int64_t>>(plan.jobs.front().seeds)
                      : seeds_of(arguments, named);

@@ -15,7 +15,7 @@
 
 namespace swarmsmith::cli {
 
-/// The words of `evaluate`: only `plan_evaluations` reads them.
+/// The arguments of `evaluate`, to be read by `plan_evaluations`.
 struct EvaluateArguments {
   std::string machine;
   std::string flavour;
@@ -31,33 +31,34 @@ struct EvaluateArguments {
   StoreArgument store;
 };
 
-/// One machine, and what it is simulated in.
+/// One machine, and its simulation settings.
 struct EvaluationJob {
-  CandidateId candidate;  ///< none: given as text or file
+  CandidateId candidate;  ///< empty: given as text or file
   Controller controller;
   Flavour flavour;
   Profile profile;
-  bool keeps_profile = false;  ///< the store that gets the scores must keep it, too
+  bool keeps_profile = false;  ///< the store that gets the scores must keep the profile, too
   Mission mission;
-  std::string name;                 ///< of a machine of a file; may be empty
+  std::string name;                 ///< of a machine in a file; may be empty
   std::vector<std::int64_t> seeds;  ///< at least one
-  std::vector<Instance> instances;  ///< by seed
+  std::vector<Instance> instances;  ///< one per seed
 };
 
-/// Everything that the command line says, read and checked.
+/// The evaluations that the command line asks for, checked.
 struct EvaluationPlan {
   std::vector<EvaluationJob> jobs;  ///< at least one; by design
-  std::string store;                ///< that their scores go to; empty: none
-  std::string machine;              ///< what a picture calls it; empty for a text
+  std::string store;                ///< gets the scores; empty: no store
+  std::string machine;              ///< its name in a picture; empty for a text
 };
 
-/// Reads the store, files and words. NotFound without a place: there is no such candidate or
-/// design. BadInput: a word or a file that it names is wrong. All others are of the store.
+/// Reads the arguments, and the store and files that they name. NotFound without a place: there is
+/// no such candidate or design. BadInput: an argument, or a file that it names, is wrong. All other
+/// errors come from the store.
 Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Output& output);
 
-/// The seed of evaluations outside of the races when none is named: the first number of the stream
-/// "score" of the campaign's seed on which the store has no race, test or audit. The same store
-/// gives the same seed.
+/// The default seed of evaluations outside of the races: the first number of the stream "score" of
+/// the campaign's seed that the store does not use for a race, test or audit. The same store gives
+/// the same seed.
 Expected<std::int64_t> fresh_seed(StoreReader& store, std::uint64_t campaign_seed);
 
 }  // namespace swarmsmith::cli

@@ -10,14 +10,14 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Without blanks at both ends.
+/// The text without blanks at both ends.
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// What the head says of where the machine comes from.
+/// The name from the origin in the machine's head.
 std::string name_of(const FiledMachine& machine) {
   const MachineHead& head = machine.head;
   if (!machine.name.empty() || head.candidate.empty()) return machine.name;
@@ -74,7 +74,7 @@ Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorl
   }
   NamedMachine machine{.text = rows->cells.front().front().text, .candidate = candidate};
   auto world = worlds.of(design_of(candidate));
-  if (!world || !*world) return machine;  // a file of another version: flags must say it
+  if (!world || !*world) return machine;  // file of another version: flags must give the settings
   if ((*world)->has_parameters) {
     return bad_input(to_string(candidate) +
                      " is a configuration of the method's parameter file, not a machine");

@@ -9,7 +9,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The seeds on which the candidate was tested after its race, in their order.
+/// The seeds on which the candidate was tested after its race, in the order of the tests.
 Expected<std::string> test_seeds(StoreReader& store, CandidateId candidate) {
   const auto rows =
       select(store,
@@ -68,7 +68,7 @@ Expected<std::string> MachineFiler::text_of(CandidateId candidate) {
   }
   const auto head = head_of(candidate);
   if (!head) return Unexpected(head.error());
-  // In the order of the statement.
+  // In the order of the columns in the statement.
   const auto& cells = rows->cells.front();
   const auto& [mission, method, repetition, mean, runs, machine] = std::tie(
       cells[0].text, cells[1].text, cells[2].text, cells[3].text, cells[4].text, cells[5].text);

@@ -11,18 +11,18 @@
 
 namespace swarmsmith::cli {
 
-/// Writes candidates of a store as machine files (sim/files/machine_file.h). Those of one design
-/// are best asked for one after the other.
+/// Writes candidates of a store as machine files (sim/files/machine_file.h). Fastest if candidates
+/// of the same design follow each other.
 class MachineFiler {
  public:
   /// `store` must outlive the filer.
   static Expected<MachineFiler> open(StoreReader& store);
 
-  /// A comment line with where the machine comes from, its head, its text; of a configuration of a
-  /// parameter file its switches and values, without a head. NotFound when the store has no such
+  /// A comment line with the machine's origin, its head, its text. For a configuration of a
+  /// parameter file: its switches and values, without a head. NotFound if the store has no such
   /// candidate.
   Expected<std::string> text_of(CandidateId candidate);
-  /// Without a flavour when the candidate is none of a flavour's machines.
+  /// The head has no flavour if the candidate is not a machine of a flavour.
   Expected<MachineHead> head_of(CandidateId candidate);
 
  private:
@@ -31,8 +31,8 @@ class MachineFiler {
 
   StoreReader* store_;
   DesignWorlds worlds_;
-  std::optional<DesignWorld> world_;  ///< of the last design
-  std::string campaign_;              ///< its campaign's digest
+  std::optional<DesignWorld> world_;  ///< of the design asked for last
+  std::string campaign_;              ///< digest of its campaign
 };
 
 }  // namespace swarmsmith::cli

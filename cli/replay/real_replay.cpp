@@ -16,7 +16,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// By CycleKind of tracking, and of what was simulated.
+/// Names in the order of CycleKind in tracking, and a name for simulated poses.
 std::string_view kind_text(std::int64_t kind) {
   constexpr std::array<std::string_view, 4> kKinds{"measured", "interpolated", "degraded",
                                                    "missing"};
@@ -36,23 +36,24 @@ ShownRun shown(const RealRunRows& rows, const FilmedRun& filmed, double score) {
   return run;
 }
 
-/// Whether a simulated swarm can begin there: as many robots as the mission has, within the walls
-/// and not within each other.
+/// Whether a simulated swarm can start there: as many robots as in the mission, within the walls,
+/// without overlaps.
 bool can_start(const Mission& mission, const std::vector<Pose>& starts) {
   if (starts.size() != static_cast<std::size_t>(mission.robots)) return false;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Point here{starts[i].x, starts[i].y};
     if (!is_inside(mission.arena, here)) return false;
     for (std::size_t k = 0; k < i; ++k) {
-      // Robots are squares or discs: closer than half of one's side, they overlap for sure.
+      // Robots are squares or discs: if their centres are closer than half a side, they certainly
+      // overlap.
       if (std::hypot(starts[k].x - here.x, starts[k].y - here.y) < kBodySide_m / 2) return false;
     }
   }
   return true;
 }
 
-/// The run's machine on a seed, where it was filmed: from the real starts, where a simulated swarm
-/// can begin there, else from drawn ones.
+/// The run's machine on a seed, in the filmed instance: from the real starts if a simulated swarm
+/// can start there, else from drawn starts.
 Expected<StoredRun> as_filmed(StoredRuns& runs, const RealRunRows& rows, const FilmedRun& filmed,
                               std::int64_t seed) {
   const ThingId machine{
@@ -61,7 +62,7 @@ Expected<StoredRun> as_filmed(StoredRuns& runs, const RealRunRows& rows, const F
   if (!run) return run;
   run->mission = filmed.mission;
   run->instance = filmed.instance;
-  // What the store has of that seed began elsewhere.
+  // The stored result for that seed belongs to other starts.
   run->id.clear();
   run->outcome.reset();
   if (can_start(filmed.mission, filmed.instance.starts)) return run;

@@ -12,42 +12,42 @@
 
 namespace swarmsmith::cli {
 
-/// A real run beside simulations of the machine that ran: the same mission, the same patches, and
-/// the real starts, where all of them are places that a simulated robot can have.
+/// A real run beside simulations of the same machine: on the same mission with the same patches,
+/// and from the real starts if a simulated swarm can start from all of them.
 
-/// One run of those shown.
+/// One of the runs that are shown.
 struct ShownRun {
   std::string source;     ///< "real", or the simulator's profile
-  std::int64_t seed = 0;  ///< of a simulation
+  std::int64_t seed = 0;  ///< for a simulation
   double score = 0;
-  std::vector<std::vector<Pose>> robots;  ///< each one's poses, from the start on
-  std::vector<std::string> labels;        ///< a robot
+  std::vector<std::vector<Pose>> robots;  ///< the poses of each robot, from the start
+  std::vector<std::string> labels;        ///< one per robot
   std::vector<std::vector<Pose>> objects;
   Instance instance;
 };
 
 struct RealReplay {
   RealRunRows rows;
-  std::string verdict;  ///< that counts: a person's, else the scoring's
+  std::string verdict;  ///< the valid one: a person's override, else the verdict of the scoring
   FilmedRun filmed;
-  double score = 0;            ///< of the stored cycles, anew
-  bool starts_as_real = true;  ///< of the simulations
-  std::vector<ShownRun> runs;  ///< the real one first
+  double score = 0;            ///< of the stored cycles, computed again
+  bool starts_as_real = true;  ///< whether the simulations start from the real starts
+  std::vector<ShownRun> runs;  ///< the real run comes first
 };
 
-/// Simulates nothing without seeds. NotFound when there is no such run; BadInput when the run names
-/// no candidate, or one that this program cannot simulate.
+/// Simulates nothing if there are no seeds. NotFound if there is no such run; BadInput if the run
+/// has no candidate, or if this program cannot simulate its candidate.
 Expected<RealReplay> replay_real_run(std::unique_ptr<StoreReader> store, RealRunId id,
                                      const std::vector<std::int64_t>& seeds);
 
-/// What is simulated beside a real run with a seed. NotFound and BadInput as above.
+/// The simulation that is shown beside a real run for a seed. NotFound and BadInput as above.
 Expected<StoredRun> simulation_beside(std::unique_ptr<StoreReader> store, RealRunId id,
                                       std::int64_t seed);
 
-/// All of them side by side, as SVG.
+/// All runs side by side, as SVG.
 std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm);
 
-/// All of them as one table: run, source, seed, the columns of a trajectory (docs/trajectories.md),
+/// All runs as one table: run, source, seed, the columns of a trajectory (docs/trajectories.md),
 /// and how each pose was obtained.
 std::string table_of(const RealReplay& replay, RealRunId id);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kInstantsPerSecond = 10;
 
-/// 12, 12.5, 12.5s or "12.5 s" as the nearest instant of the mission.
+/// Reads 12, 12.5, 12.5s or "12.5 s" as the nearest instant of the mission.
 Expected<int> instant_of(std::string_view text, const char* option, const Mission& mission) {
   const std::string given(text);
   double seconds = 0;
@@ -140,7 +140,7 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
     recording.sensors_ = *sensors;
   }
   recording.columns_.emplace(recording.sensors_, mission.robots, mission.robot);
-  // Files last: what is refused above leaves none behind.
+  // Files are opened last, so that the errors above leave no files behind.
   for (const auto& [name, kind, sink] :
        {std::tuple(&arguments.csv, FileKind::Table, &recording.csv_),
         std::tuple(&arguments.objects_csv, FileKind::Table, &recording.objects_csv_),

@@ -15,8 +15,7 @@
 
 namespace swarmsmith::cli {
 
-/// Options of commands that can write down one run: as tables and as a picture
-/// (docs/trajectories.md).
+/// Options of commands that can record one run: as tables and as a picture (docs/trajectories.md).
 struct RecordingArguments {
   std::string csv;
   std::string objects_csv;
@@ -28,38 +27,38 @@ struct RecordingArguments {
   std::string width;
 
   void declare(Options& options);
-  /// Whether anything shall be written.
+  /// Whether anything is recorded.
   bool any() const { return !csv.empty() || !objects_csv.empty() || !svg.empty(); }
-  /// Whether something goes to standard output.
+  /// Whether something is written to standard output.
   bool takes_standard_output() const { return csv == "-" || objects_csv == "-" || svg == "-"; }
 };
 
-/// What to exit with after an error of `Recording`.
+/// The exit code after an error of `Recording`.
 ExitCode exit_code_of_recording(const Error& error);
 
-/// Writes a run down while it is simulated.
+/// Records a run while it is simulated.
 class Recording {
  public:
-  /// Opens what the arguments name. `machine` and `mission` must outlive the recording. Errors:
+  /// Opens the files in the arguments. `machine` and `mission` must outlive the recording. Errors:
   /// BadInput, with the option as place, for arguments that make no sense for the mission;
   /// Unavailable for a file that cannot be written.
   static Expected<Recording> start(const RecordingArguments& arguments, const Mission& mission,
                                    const Controller& controller, Output& output);
 
-  /// To be given to `simulate`; the recording must stay where it is until then. Observes nothing
-  /// when nothing shall be written.
+  /// The recorder for `simulate`. The recording must not be moved while the recorder is used.
+  /// Records nothing if no output was asked for.
   Recorder recorder();
 
-  /// Draws and closes. `details` say which run it was: candidate, seed, score. Unavailable, with
-  /// the file as place, when something could not be written.
+  /// Draws the picture and closes the files. `details` identify the run: candidate, seed, score.
+  /// Unavailable, with the file as place, if something could not be written.
   Expected<void> finish(const std::vector<std::string>& details, const Instance& instance);
 
  private:
   /// A file, or standard output.
   struct Sink {
     std::string name;
-    std::unique_ptr<std::ofstream> file;  ///< none for standard output
-    std::ostream* stream = nullptr;       ///< null: not asked for
+    std::unique_ptr<std::ofstream> file;  ///< null: standard output
+    std::ostream* stream = nullptr;       ///< null: not wanted
 
     Expected<void> close() const;
   };
@@ -82,12 +81,12 @@ class Recording {
   Sink svg_;
   Sensors sensors_;
   std::optional<ReadingColumns> columns_;
-  int first_ = 0;  ///< instants of the picture
+  int first_ = 0;  ///< first instant of the picture
   int last_ = 0;
   double width_mm_ = 84;
-  std::vector<std::vector<Pose>> robots_;  ///< poses within the picture's span
+  std::vector<std::vector<Pose>> robots_;  ///< poses in the picture's time span
   std::vector<std::vector<Pose>> objects_;
-  std::vector<int> states_;  ///< at its last instant
+  std::vector<int> states_;  ///< at the last instant of the picture
 };
 
 }  // namespace swarmsmith::cli

@@ -35,7 +35,7 @@ ScoreKeeper::Kept ScoreKeeper::keep(const ScorePlace& place, const SimulationRes
     rows_.emplace_back(EvaluationRow{.key = key, .measured = measured, .source = place.source});
     return {Kept::How::New, key, measured.score};
   }
-  // An imported score has no last state to compare.
+  // An imported score has no state digest to compare.
   const bool same_score = std::bit_cast<std::uint64_t>(known->measured.score + 0.0) ==
                           std::bit_cast<std::uint64_t>(measured.score);
   const bool same_state =

@@ -13,28 +13,29 @@
 
 namespace swarmsmith::cli {
 
-/// Puts scores that were simulated outside of the races into a store that is at rest.
+/// Adds scores that were simulated outside of the races to a store that no campaign is writing.
 class ScoreKeeper {
  public:
-  /// Holds the store's lock from now on, so that no work is done in vain. Conflict when a campaign
-  /// is writing it.
+  /// Locks the store from now on, so that no scores are computed that cannot be stored. Conflict if
+  /// a campaign is writing it.
   static Expected<ScoreKeeper> open(const std::string& store);
 
-  /// Keeps what the profile is of scores that are kept from now on: the store cannot know it else.
+  /// Stores the profile of the scores that follow. Without it, the store could not know the
+  /// profile.
   void keep_profile(const Profile& profile);
 
-  /// What became of a score.
+  /// The result of storing a score.
   struct Kept {
     enum class How { New, Known, Conflict } how = How::New;
     EvaluationKey key;
-    double stored = 0;  ///< the score that the store holds
+    double stored = 0;  ///< the score that the store already has
   };
 
-  /// Gathers a score. One that the store has already must have the same bits; one with others is
-  /// kept as a conflict beside it.
+  /// Collects a score. If the store already has a score for the same evaluation, the bits must be
+  /// equal; a different score is stored as a conflict beside it.
   Kept keep(const ScorePlace& place, const SimulationResult& result, std::int64_t wall_us);
 
-  /// Writes what was gathered since the last time, all or nothing.
+  /// Writes the scores collected since the last commit, all or nothing.
   Expected<void> commit();
 
  private:

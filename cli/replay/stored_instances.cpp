@@ -10,7 +10,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Of simulated tests and later evaluations; real runs have no seed.
+/// Seeds of simulated tests and later evaluations; real runs have no seed.
 Expected<std::map<DesignId, std::set<std::int64_t>>> seeds_by_design(StoreReader& store) {
   const auto rows =
       select(store, "SELECT DISTINCT design, seed FROM v_design_scores WHERE seed IS NOT NULL",
@@ -22,7 +22,7 @@ Expected<std::map<DesignId, std::set<std::int64_t>>> seeds_by_design(StoreReader
   return seeds;
 }
 
-/// The entry of that mission, which is made when there is none.
+/// The entry of that mission; added if there is none.
 ScoredMission& entry_of(std::vector<ScoredMission>& all, const Mission& mission) {
   const auto same = std::ranges::find(all, mission, &ScoredMission::mission);
   if (same != all.end()) return *same;

@@ -13,25 +13,25 @@
 
 namespace swarmsmith::cli {
 
-/// A mission of a store, with the seeds on which its winners were scored after their races.
+/// A mission of a store, with the seeds on which its winners were evaluated after their races.
 struct ScoredMission {
-  std::string name;  ///< with "-2" and so on where a merged store means several things by a name
+  std::string name;  ///< with "-2" and so on if missions of a merged store share a name
   Mission mission;
   std::set<std::int64_t> seeds;
 };
 
 struct MissionFilter {
-  std::string mission;             ///< empty: any
-  std::optional<DesignId> design;  ///< only that one's
+  std::string mission;             ///< empty: all missions
+  std::optional<DesignId> design;  ///< only the mission of this design
 };
 
-/// In the order of the designs. Left out are missions that programs evaluate, and names that this
-/// version knows nothing of.
+/// In the order of the designs. Leaves out missions that programs evaluate, and mission names that
+/// this version does not know.
 Expected<std::vector<ScoredMission>> scored_missions(StoreReader& store,
                                                      const MissionFilter& filter = {});
 
-/// Where the robots started, or where the patches lay, in each of the seeds: a table that `evaluate
-/// --starts` or `--patches` reads. No patches: an empty text.
+/// The starts of the robots, or the places of the patches, for each seed, as a table for `evaluate
+/// --starts` or `--patches`. Empty text if there are no patches.
 Expected<std::string> starts_table(const ScoredMission& scored);
 Expected<std::string> patches_table(const ScoredMission& scored);
 

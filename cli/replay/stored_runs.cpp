@@ -22,18 +22,18 @@ namespace {
 
 using Cell = StoreReader::Cell;
 
-/// How many of `count` evenly spaced ones are among the first n of so many.
+/// How many of `count` evenly spaced items are among the first n of `total`.
 std::int64_t multiples(std::int64_t n, std::int64_t count, std::int64_t total) {
   return n * count / total;
 }
 
-/// Who answers for a worker, as far as a store of this schema says it.
+/// The column with the party that is responsible for a worker, as far as this schema has it.
 std::string who(std::int64_t schema) {
   if (schema >= 6) return "w.principal";
   return schema >= 3 ? "w.client" : "''";
 }
 
-/// With a run's columns in the order of `read_outcome`.
+/// SQL that returns the columns of a run in the order of `read_outcome`.
 std::string select_evaluations(std::int64_t schema, const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "
          "c.fsm_config, e.design, e.worker, w.host, " +
@@ -45,7 +45,7 @@ std::string select_evaluations(std::int64_t schema, const std::string& condition
          "w.worker = e.worker";
 }
 
-/// What the evaluation's own row says.
+/// Reads the row of the evaluation.
 StoredRun read_outcome(const std::vector<Cell>& cells) {
   StoredRun run{.id = cells[0].text, .candidate = cells[1].text};
   run.seed = cells[2].integer();
@@ -59,7 +59,7 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
   return run;
 }
 
-/// The profile behind a source, or why there is none.
+/// The profile with the name of a source, or the reason why there is none.
 Expected<Profile> profile_of(const DesignWorld& world, const std::string& source) {
   if (world.profile && source == world.profile->name) return *world.profile;
   const auto further = std::ranges::find(world.further_profiles, source, &Profile::name);
@@ -78,7 +78,7 @@ Expected<Profile> profile_of(const DesignWorld& world, const std::string& source
                    " with which it was made; `evaluate` simulates it with --profile FILE");
 }
 
-/// Puts in what the run is a function of, besides its seed and its profile.
+/// Adds the other inputs of the run, besides its seed and its profile.
 Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::string& text) {
   if (!world.mission) {
     return bad_input("the store's campaign has no mission " + world.design.mission);
@@ -103,12 +103,12 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
   return {};
 }
 
-/// Of millions of rows, one after the other.
+/// For millions of rows that are read one by one.
 constexpr StoreReader::QueryLimits kAllRows{.rows = std::numeric_limits<std::int64_t>::max(),
                                             .seconds = 600,
                                             .bytes = std::numeric_limits<std::int64_t>::max()};
 
-/// Calls `on_row` with each row; an error when these are not all.
+/// Calls `on_row` for each row; an error if some rows are missing.
 Expected<void> each_row(StoreReader& store, const std::string& sql,
                         const std::function<void(const std::vector<Cell>&)>& on_row) {
   const auto end = store.query(
@@ -122,20 +122,21 @@ Expected<void> each_row(StoreReader& store, const std::string& sql,
   return {};
 }
 
-/// The first of all scores in a drawn order, of each who answers for workers as many as are wanted
-/// in all: nothing else of a store is held.
+/// Draws evaluations in a pseudo-random order. For each responsible party it keeps the first
+/// `count` of that order, and nothing else of the store.
 class Draw {
  public:
   explicit Draw(const StoredRuns::Wanted& wanted)
       : seed_(wanted.seed), count_(static_cast<std::size_t>(wanted.scores)) {}
 
-  /// `key` is different for each. The order is that of numbers below 2^31, whose squares fit.
+  /// `key` is different for each evaluation. The order is by numbers below 2^31, whose squares do
+  /// not overflow.
   void add(const std::string& who, std::int64_t key, const std::string& id) {
     constexpr std::int64_t kPrime = 2'147'483'629;
     const std::int64_t x = (key + seed_) % kPrime;
     const std::int64_t y = (x * x + seed_) % kPrime;
     const std::int64_t place = y * y % kPrime;
-    std::vector<Drawn>& first = first_[who];  // a heap: its last one is the front
+    std::vector<Drawn>& first = first_[who];  // a heap: the last one in the order is at the front
     if (first.size() == count_) {
       if (std::tie(place, id) >= std::tie(first.front().first, first.front().second)) return;
       std::ranges::pop_heap(first);
@@ -145,7 +146,7 @@ class Draw {
     std::ranges::push_heap(first);
   }
 
-  /// From each who answers in turn.
+  /// The drawn ids, from each responsible party in turn.
   std::vector<std::string> ids() {
     std::vector<std::pair<std::size_t, Drawn>> all;
     for (auto& [who, first] : first_) {
@@ -162,10 +163,10 @@ class Draw {
   }
 
  private:
-  using Drawn = std::pair<std::int64_t, std::string>;  ///< its place in the order, its id
+  using Drawn = std::pair<std::int64_t, std::string>;  ///< place in the order, id
   std::int64_t seed_;
   std::size_t count_;
-  std::map<std::string, std::vector<Drawn>> first_;  ///< by who answers
+  std::map<std::string, std::vector<Drawn>> first_;  ///< by responsible party
 };
 
 }  // namespace
@@ -177,7 +178,7 @@ bool same_bits(const SimulationResult& stored, const SimulationResult& result) {
 }
 
 std::string other_engine(int stored_version, int version) {
-  // A campaign of several missions has the highest of their versions.
+  // A campaign with several missions has the highest of their versions.
   const bool is_same =
       stored_version == version ||
       (version >= kEngineVersion && version < stored_version && stored_version <= kSightVersion);
@@ -260,7 +261,8 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
   const std::string source = world->profile ? world->profile->name : "command";
   auto profile = profile_of(*world, source);
   if (!profile) return bad_input(to_string(profile.error()), run.candidate);
-  // The pair may have served the race and more: all of these hold the same outcome.
+  // The pair may have been used for the race and for other purposes; all these rows have the same
+  // outcome.
   const auto known =
       select(*store_,
              select_evaluations(store_->schema(),
@@ -278,8 +280,8 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
 }
 
 Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
-  // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n]. What was not
-  // simulated here has no last state.
+  // The n-th of N rows is taken if a multiple of N / count lies in (n - 1, n]. Rows that were not
+  // simulated here have no state digest.
   constexpr const char* kSimulated =
       " FROM v_evaluations WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
       "AND (state_digest <> 0 OR purpose <> 'score')";
@@ -389,7 +391,7 @@ std::string StoredRun::given_by() const {
 }
 
 Expected<DesignWorld> StoredRuns::world_of(DesignId design) {
-  // Its campaign's file is read once for all evaluations of the design.
+  // The campaign's file is read once for all evaluations of the design.
   if (!world_ || world_->design.id != design) {
     auto world = worlds_.of(design);
     if (!world) return Unexpected(world.error());

@@ -16,85 +16,85 @@
 
 namespace swarmsmith::cli {
 
-/// An evaluation of a store with everything that it is a function of.
+/// An evaluation of a store with all inputs that determine its result.
 struct StoredRun {
-  std::string id;         ///< of the evaluation, e81200007; empty when the store has none of it
+  std::string id;         ///< of the evaluation, e81200007; empty if the store does not have it
   std::string candidate;  ///< c812
   std::int64_t seed = 0;
   bool rejected = false;
-  std::optional<SimulationResult> outcome;  ///< none: rejected, or not in the store
+  std::optional<SimulationResult> outcome;  ///< empty: rejected, or not in the store
   Controller controller;
   Flavour flavour;
   Profile profile;
   Mission mission;
   Instance instance;
-  int engine_version = 0;   ///< that made the stored outcome; 0 when the store does not say
-  std::int64_t worker = 0;  ///< that gave it; 0 when the store does not say
-  std::string host;         ///< of the worker, as it says
-  std::string who;          ///< answers for the worker: its key and address
+  int engine_version = 0;  ///< version that made the stored outcome; 0 if the store does not say it
+  std::int64_t worker = 0;  ///< the worker that returned it; 0 if the store does not say it
+  std::string host;         ///< of the worker, as the worker reported it
+  std::string who;          ///< the worker's key and address, which are responsible for it
 
   SimulationSetup setup() const { return {controller, flavour, profile, mission, instance, seed}; }
-  /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty when unknown.
+  /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty if the worker is not known.
   std::string given_by() const;
 };
 
-/// Whether a simulation gave what the store holds, bit for bit. The store keeps -0 as 0.
+/// Whether the simulation result equals the stored one bit for bit. The store keeps -0 as 0.
 bool same_bits(const SimulationResult& stored, const SimulationResult& result);
 
-/// The evaluations of a store, to be simulated again.
+/// The evaluations of a store, so that they can be simulated again.
 class StoredRuns {
  public:
-  /// Fails when the campaign file that the store keeps cannot be read by this version.
+  /// Fails if this version cannot read the campaign file in the store.
   static Expected<StoredRuns> open(std::unique_ptr<StoreReader> store);
-  /// The same of a store that outlives it.
+  /// The same for a store that outlives this object.
   static Expected<StoredRuns> open(StoreReader& store);
 
-  /// NotFound when the store has no such evaluation; BadInput when it cannot be simulated: it was
-  /// filmed or imported, its pair is gone, or its profile is none of this program.
+  /// NotFound if the store has no such evaluation. BadInput if it cannot be simulated: it was
+  /// filmed or imported, its pair is missing, or this program does not know its profile.
   Expected<StoredRun> evaluation(const ThingId& id);
-  /// A candidate on any seed; what the store holds of that pair comes with it.
+  /// A candidate on any seed, with the stored result for that pair if there is one.
   Expected<StoredRun> candidate(const ThingId& id, std::int64_t seed);
-  /// Ids of `count` simulated evaluations that have a score, evenly spaced through all of them in
-  /// the order of candidates; all when there are fewer.
+  /// The ids of `count` simulated evaluations that have a score, evenly spaced in the order of
+  /// candidates; all of them if there are fewer.
   Expected<std::vector<std::string>> sample(std::int64_t count);
 
-  /// Which evaluations of campaigns, simulated for the race or its tests, are wanted.
+  /// Selects evaluations of campaigns that were simulated for the race or its tests.
   struct Wanted {
-    bool rejections = false;  ///< all
-    bool tests = false;       ///< all of winners
-    /// So many others that have a score, from each key and address in turn, which ones a matter of
-    /// `seed`.
+    bool rejections = false;  ///< all rejections
+    bool tests = false;       ///< all tests of winners
+    /// Number of other evaluations with a score, taken in turn from each key and address; `seed`
+    /// decides which ones.
     std::int64_t scores = 0;
     std::int64_t seed = 1;
   };
-  /// Ids, first those of rejections. Empty where no campaign of the store simulates.
+  /// The ids, rejections first. Empty if no campaign of the store simulates.
   Expected<std::vector<std::string>> chosen(const Wanted& wanted);
-  /// Whether the store has anything that can be simulated; not when programs score all of it.
+  /// Whether the store has anything that can be simulated; false if all scores come from programs.
   bool has_machines() const;
 
  private:
   StoredRuns(StoreReader& store, DesignWorlds worlds)
       : store_(&store), worlds_(std::move(worlds)) {}
 
-  /// The design's world, or why there is none.
+  /// The settings of the design, or the reason why there are none.
   Expected<DesignWorld> world_of(DesignId design);
   Expected<std::vector<std::string>> ids_of(const std::string& sql);
-  /// See Wanted::scores; `given` is the FROM and WHERE of the evaluations.
+  /// See Wanted::scores. `given` is the FROM and WHERE clause that selects the evaluations.
   Expected<std::vector<std::string>> drawn(const std::string& given, const Wanted& wanted);
-  /// SQL that is true of evaluations of campaigns that simulate; empty when none does.
+  /// SQL condition for evaluations of campaigns that simulate; empty if there is no such campaign.
   std::string of_campaigns() const;
 
   StoreReader* store_;
-  std::unique_ptr<StoreReader> owned_;  ///< the store, or nothing
+  std::unique_ptr<StoreReader> owned_;  ///< the store, or null if it is not owned
   DesignWorlds worlds_;
-  std::optional<DesignWorld> world_;  ///< the last one
+  std::optional<DesignWorld> world_;  ///< of the design asked for last
 };
 
-/// Why nothing of a store can be evaluated again.
+/// The error for a store in which nothing can be evaluated again.
 Error programs_scored(const std::string& where);
 
-/// The stored version (0: not known) differs from this program's version of the mission: a sentence
-/// that says so, else empty.
+/// A sentence if the stored version (0: not known) differs from this program's version of the
+/// mission; else empty.
 std::string other_engine(int stored_version, int version = kEngineVersion);
 
 }  // namespace swarmsmith::cli

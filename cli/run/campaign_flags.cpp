@@ -11,7 +11,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The same file under any of its names.
+/// The canonical path, the same for all names of a file.
 std::filesystem::path place_of(const std::filesystem::path& store) {
   std::error_code trouble;
   const auto place = std::filesystem::weakly_canonical(store, trouble);
@@ -24,9 +24,9 @@ Expected<void> check_one_store(const std::string& store, const std::string& wher
       "names one store, but each campaign needs its own: name it in its file (key `store`)", where);
 }
 
-/// Blocks of the size of pictures and scenarios go back to the system when they are freed. glibc
-/// would, after the first one, put them into the heap, which keeps their gaps. All threads share
-/// one heap: rows are made by one thread and freed by another, and each heap keeps gaps of its own
+/// Makes freed blocks of the size of pictures and scenarios return to the system. After the first
+/// such block, glibc would take them from the heap, which keeps their gaps. All threads share one
+/// heap, because rows are made by one thread and freed by another, and each heap has its own gaps
 /// (docs/performance.md).
 void give_large_blocks_back() {
   constexpr int kLarge = 512 << 10;
@@ -62,7 +62,7 @@ Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
   std::set<std::filesystem::path> stores;
   std::set<std::string> digests;
   for (const Campaign& campaign : campaigns) {
-    // The second would be asked for its own answer again.
+    // The second copy would only compute the same result again.
     if (!digests.insert(campaign_digest(campaign)).second) {
       return bad_input("the campaign is given twice: its answer would be the same", campaign.name);
     }

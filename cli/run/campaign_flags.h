@@ -12,8 +12,8 @@
 
 namespace swarmsmith::cli {
 
-/// Reads the campaign file, or prints everything that is wrong with it (exit code 2). A `budget` of
-/// a flag takes the place of the file's.
+/// Reads the campaign file, or prints all its errors (exit code 2). A `budget` from a flag replaces
+/// the budget of the file.
 std::optional<Campaign> read_or_complain(const std::string& file, Output& output,
                                          std::optional<std::int64_t> budget = std::nullopt);
 
@@ -27,16 +27,16 @@ struct CampaignFlags {
 
   /// Declares FILE..., --budget, --seed and --store.
   void declare(Options& options, Options::Need files_needed);
-  /// The campaigns with the flags applied, or nothing after printing the error. Without a file it
-  /// is the demo campaign. Several campaigns must differ, have a store each, and be all simulated
-  /// or none.
+  /// The campaigns with the flags applied, or nothing after printing the error. Without a file, the
+  /// demo campaign. Several campaigns must differ and have different stores, and either all or none
+  /// of them must be simulated.
   std::optional<std::vector<Campaign>> read(Output& output) const;
 };
 
-/// The reason why one coordinator cannot run these campaigns, if any.
+/// The reason why one coordinator cannot run these campaigns, if there is one.
 Expected<void> check_pool(const std::vector<Campaign>& campaigns);
 
-/// Where a coordinator shows what it does.
+/// Flags for the HTTP pages of a coordinator.
 struct HttpFlags {
   std::string http;
   std::string token_file;
@@ -45,7 +45,8 @@ struct HttpFlags {
 
   /// Declares --http, --http-token-file, --http-name and --no-dashboard.
   void declare(Options& options);
-  /// Of the command line, of the campaigns' files, else 127.0.0.1:8347 or the next free port.
+  /// Sets the address: from the command line, else from the campaigns' files, else 127.0.0.1:8347
+  /// or the next free port.
   void put(RunOptions& run, const std::vector<Campaign>& campaigns) const;
 };
 

@@ -19,7 +19,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A command to the campaign at rest (pause, resume) may be about to end.
+/// The store may be locked for a moment by a command to a campaign that does not run (pause,
+/// resume).
 constexpr std::chrono::milliseconds kPatience{2000};
 
 }  // namespace
@@ -41,7 +42,7 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     const Campaign& campaign = *members_[i].campaign;
     StoreOptions options;
     options.patience = kPatience;
-    // A run of a program may have cost minutes: it is stored at once.
+    // A run of a program may have cost minutes, so it is stored at once.
     if (campaign.target) options.gather = std::chrono::milliseconds(0);
     auto store =
         Store::open(campaign.store, campaign_row(campaign), design_rows(campaign), options);
@@ -125,7 +126,7 @@ void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {
   }
 }
 
-/// How a campaign ended, after having said it where it is not well.
+/// The exit code of a campaign, after printing what went wrong.
 ExitCode CampaignMembers::end_of(const Member& member, const std::string& reason,
                                  const std::string& trouble) {
   if (const auto error = member.runner->error()) return fail_of(member, *error);
@@ -158,7 +159,7 @@ ExitCode CampaignMembers::fail_of(const Member& member, Error error) {
               error);
 }
 
-/// The campaign's name, when there are several.
+/// The campaign's name, if there are several campaigns.
 std::string CampaignMembers::in_front(const Member& member, const std::string& mark) const {
   return members_.size() > 1 ? member.campaign->name + mark : "";
 }
@@ -171,7 +172,7 @@ void CampaignMembers::print_resume(const Member& member) {
                "everything so far is in " + store + "; the same command continues from there");
     return;
   }
-  // Even when quiet: work is lost.
+  // Printed even with --quiet, because work is lost.
   print_error(output_, {ErrorKind::Unavailable,
                         std::to_string(member.store->scores().size()) +
                             " evaluations are stored; " + std::to_string(member.unwritten) +

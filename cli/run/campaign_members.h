@@ -18,42 +18,44 @@ namespace swarmsmith::cli {
 /// The campaign's name, or its store if others have the same name.
 std::string name_among(const std::vector<Campaign>& campaigns, const Campaign& campaign);
 
-/// The campaigns of one run, each with its store, its races and its end. Errors are printed, after
-/// the campaign's name if there are several.
+/// The campaigns of one run, each with its store, its races and its exit code. Errors are printed,
+/// with the campaign's name first if there are several.
 class CampaignMembers {
  public:
   /// `campaigns` must outlive it. `keeps_store`: an interrupted run can continue later.
   CampaignMembers(Output& output, const std::vector<Campaign>& campaigns, bool keeps_store);
 
-  /// Reports the campaigns' progress to `listener`, and closes the stores of finished ones.
+  /// Opens the stores, reports the campaigns' stored progress to `listener`, and closes the stores
+  /// of finished campaigns.
   ExitCode open_stores(RunListener& listener);
-  /// Replays the races of the others as far as their stores have them.
+  /// Replays the races of the unfinished campaigns as far as their stores have them.
   ExitCode begin();
-  /// Exit code of each campaign that was served; `trouble` is the reason why workers could not
-  /// start.
+  /// Sets the exit code of each campaign that was served. `trouble` is the reason why workers could
+  /// not start.
   void end(const ServiceEnd& end, const std::string& trouble);
 
   std::size_t size() const { return members_.size(); }
   ExitCode end_of(std::size_t place) const { return members_[place].end; }
-  /// Places of those that are not over; the service has them in this order.
+  /// Indices of the unfinished campaigns; the service has them in this order.
   const std::vector<std::size_t>& running() const { return running_; }
   const Campaign& campaign(std::size_t place) const { return *members_[place].campaign; }
 
-  /// Those that run, for the service.
+  /// The unfinished campaigns, for the service.
   std::vector<ServiceCampaign> served() const;
   std::vector<const Campaign*> campaigns() const;
-  /// The first number of a worker that none of their stores has.
+  /// The first worker number that none of their stores uses.
   std::int64_t first_worker() const;
-  /// What lets workers run the programs of any of them.
+  /// The command-line arguments that let workers run the programs of these campaigns.
   std::vector<std::string> allowed_programs() const;
-  /// Coordinator's files, one beside each store, so each store leads to the coordinator.
+  /// The paths of the coordinator's files, one beside each store, so that each store leads to the
+  /// coordinator.
   std::vector<std::filesystem::path> coordinator_files() const;
 
  private:
   struct Member {
     const Campaign* campaign;
-    std::string name;                ///< that no other has
-    std::unique_ptr<Store> store{};  ///< closed when the campaign was finished before
+    std::string name;                ///< unique among the campaigns
+    std::unique_ptr<Store> store{};  ///< closed if the campaign was already finished
     std::unique_ptr<CampaignRunner> runner{};
     std::int64_t unwritten = 0;  ///< evaluations that the store could not write
     ExitCode end = ExitCode::Done;
@@ -69,7 +71,7 @@ class CampaignMembers {
   Output& output_;
   bool keeps_store_;
   std::vector<Member> members_;
-  std::vector<std::size_t> running_;  ///< of `members_`
+  std::vector<std::size_t> running_;  ///< indices into `members_`
 };
 
 }  // namespace swarmsmith::cli

@@ -18,24 +18,24 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Measured on stores of 12k and 100k evaluations: what an evaluation, its candidate and step take,
-/// and what they write to the log until it is folded in.
+/// Measured on stores of 12k and 100k evaluations: the size of an evaluation with its candidate and
+/// step, and what it adds to the log until the log is folded into the store.
 constexpr double kBytesPerEvaluation = 120;
 constexpr double kLogBytesPerEvaluation = 1300;
 constexpr double kLargestLog = 10e6;
 /// For all missions and methods together.
 constexpr double kMeasured_s = 0.5;
-/// Racing, storing and messages.
+/// For racing, storing and messages.
 constexpr double kOverhead_s = 30e-6;
 
-/// What this thread has computed, whatever else the machine does.
+/// Processor time of this thread, independent of other load.
 double processor_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What the method's search would try first.
+/// The first controllers that the method's search would try.
 std::vector<Controller> some_controllers(const Campaign& campaign, const Method& method) {
   constexpr std::size_t kControllers = 50;
   std::vector<Controller> controllers;
@@ -53,16 +53,17 @@ std::vector<Controller> some_controllers(const Campaign& campaign, const Method&
   return controllers;
 }
 
-/// What random machines showed.
+/// Measurements of random machines.
 struct Measured {
   double evaluation_s = 0;  ///< mean
-  std::int64_t runs = 0;    ///< of the whole mission
-  double least = 0;         ///< of their scores
+  std::int64_t runs = 0;    ///< that covered the whole mission
+  double least = 0;         ///< lowest score
   double most = 0;
   bool finite = true;
 };
 
-/// A score that is never a number, or always the same, is a mistake more often than not.
+/// Warns about a score that is never a number or always the same, because that is probably a
+/// mistake.
 void warn_about_scores(const std::string& mission, const Measured& measured,
                        std::vector<std::string>& warnings) {
   constexpr std::int64_t kEnough = 20;
@@ -77,8 +78,8 @@ void warn_about_scores(const std::string& mission, const Measured& measured,
   }
 }
 
-/// Evaluations of the method on the mission, as many as fit into `budget_s`. Of a mission that is
-/// too long for that, its beginning is simulated: as much as fits.
+/// Simulates evaluations of the method on the mission, as many as fit into `budget_s`. If the
+/// mission is too long for that, simulates its beginning, as much as fits.
 Measured measure(const Campaign& campaign, const Method& method, const Mission& mission,
                  double budget_s) {
   const Flavour flavour =
@@ -88,11 +89,11 @@ Measured measure(const Campaign& campaign, const Method& method, const Mission& 
   constexpr int kGrowth = 4;
   Mission piece = mission;
   piece.cycles = std::min(mission.cycles, kFirstCycles);
-  double elapsed_s = 0;  // of all runs
-  double counted_s = 0;  // of those as long as the last
+  double elapsed_s = 0;  // total of all runs
+  double counted_s = 0;  // of the runs as long as the last one
   std::int64_t runs = 0;
   Measured measured;
-  constexpr std::int64_t kMostSeeds = 100'000;  // also where no seed should find room for the swarm
+  constexpr std::int64_t kMostSeeds = 100'000;  // a limit in case no seed finds room for the swarm
   for (std::int64_t seed = 1;
        seed <= kMostSeeds && !controllers.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
     const Controller& controller = controllers[static_cast<std::size_t>(seed) % controllers.size()];
@@ -137,7 +138,7 @@ CampaignPlan plan_of(const Campaign& campaign) {
     plan.experiments += design.budget;
     plan.largest_budget = std::max(plan.largest_budget, design.budget);
   }
-  std::int64_t tested = 0;  // machines a mission
+  std::int64_t tested = 0;  // machines per mission
   for (const Method& method : campaign.methods) {
     const std::int64_t elites = method.baseline.empty() ? campaign.test_nb_elites : 1;
     tested += elites * repetitions_of(campaign, method);
@@ -151,7 +152,7 @@ CampaignPlan plan_of(const Campaign& campaign) {
   plan.disk_bytes = evaluations * kBytesPerEvaluation;
   plan.log_bytes = std::min(kLargestLog, evaluations * kLogBytesPerEvaluation);
   plan.warnings = warnings_about(campaign);
-  // How long programs take, they alone know.
+  // The running time of programs is not known in advance.
   if (campaign.target) return plan;
   const auto pairs = static_cast<double>(missions * methods);
   double sum_s = 0;

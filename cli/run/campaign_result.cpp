@@ -39,7 +39,8 @@ Cell number_cell(double value) {
   return {Cell::Type::Real, json_number(value)};
 }
 
-/// Puts test_mean, test_95 (half-width of the interval) and test_runs before the last two columns.
+/// Adds the columns test_mean, test_95 (half-width of the interval) and test_runs before the last
+/// two columns.
 void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tests) {
   for (const char* name : {"test_mean", "test_95", "test_runs"}) {
     rows.columns.insert(rows.columns.end() - 2, name);
@@ -48,7 +49,7 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
     std::vector<Cell> added(3);
     if (const auto found = tests.find(cells[0].text); found != tests.end()) {
       const MeanInterval interval = mean_interval(found->second);
-      // One value has no interval.
+      // A single value has no interval.
       const bool several = found->second.size() > 1;
       added = {number_cell(interval.mean),
                several ? number_cell(interval.half_width) : Cell{},
@@ -58,21 +59,20 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
   }
 }
 
-/// Programs say costs; a store's scores are the negative of them, and people want to see theirs
-/// again.
+/// Programs return costs, and scores are negative costs; their users want to see costs again.
 Expected<bool> shows_costs(StoreReader& store) {
   const auto rows = select(store, "SELECT 1 FROM v_evaluations WHERE source = 'command' LIMIT 1");
   if (!rows) return Unexpected(rows.error());
   return !rows->cells.empty();
 }
 
-/// A mean as people read it.
+/// A mean, formatted for people.
 std::string shown(const std::string& text, bool as_cost = false) {
   const double score = std::strtod(text.c_str(), nullptr);
   return score_text(as_cost ? to_cost(score) : score);
 }
 
-/// The part of the search that the winner's mean is from.
+/// The name of the part of the search that gave the winner's mean.
 std::string place_of_mean(const StoredStages& stages, const std::string& design) {
   const SearchOptions* search = stages.search(design);
   if (search == nullptr || words_of(*search).has_tests) return "the race";
@@ -80,7 +80,7 @@ std::string place_of_mean(const StoredStages& stages, const std::string& design)
   return stage == "final stage" ? "the final stage" : stage;
 }
 
-/// One paragraph a design: what it is, how good its machine is, the machine.
+/// One paragraph per design: its description, the quality of its machine, and the machine.
 void write_text(Output& output, const Rows& rows, const StoredStages& stages, bool costs) {
   for (const auto& cells : rows.cells) {
     const auto text = [&](std::size_t column) {
@@ -132,7 +132,7 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
     if (!name.empty()) output.out << "campaign " << as_shown(name, Layout::Escaped) << "\n";
     write_text(output, *rows, *stages, *costs);
   }
-  // A cancelled design is not a failed one.
+  // A cancelled design has not failed.
   const bool failed = std::ranges::any_of(rows->cells, [](const auto& cells) {
     return cells[4].text == "stopped" && cells[12].text != "cancelled";
   });

@@ -7,13 +7,13 @@
 
 namespace swarmsmith::cli {
 
-/// The answer of a campaign, from its store: each design's best machine with its mean score in the
-/// race and, with the 95 % interval of the mean, on fresh seeds. As a table and the machines'
-/// texts, or as the event {"v":1,"event":"done","designs":[...]}. `name` of the campaign: when it
-/// is not the only one.
+/// Prints the result of a campaign from its store: each design's best machine with its mean score
+/// in the race and its mean on fresh seeds with the 95 % interval. As a table and the machines'
+/// texts, or as the event {"v":1,"event":"done","designs":[...]}. `name`: of the campaign, if there
+/// are several.
 ExitCode write_result(Output& output, StoreReader& store, const std::string& name = {});
 
-/// Suggested commands for the store.
+/// Prints suggested commands for the store.
 void print_next_steps(Output& output, const std::string& store, bool is_demo);
 
 }  // namespace swarmsmith::cli

@@ -26,15 +26,16 @@
 namespace swarmsmith::cli {
 namespace {
 
-// Of the process, besides its connections: stores, logs, workers' pipes, pages.
+// Descriptors of the process besides connections: stores, logs, workers' pipes, pages.
 constexpr std::int64_t kOtherDescriptors = 1'000;
 constexpr std::int64_t kLeastDescriptors = 48;
-// Measured: libraries, stacks of threads, and a small campaign; the second is what is in use.
+// Measured: libraries, stacks of threads, and a small campaign. The first number is address space,
+// the second is memory in use.
 constexpr std::uint64_t kAddressSpace = std::uint64_t{400} << 20U;
 constexpr std::uint64_t kMemory = std::uint64_t{48} << 20U;
 constexpr std::uint64_t kMemoryOfWorker = std::uint64_t{16} << 20U;
 
-/// How much worse than others an end is: a campaign that cannot go on outweighs one that can.
+/// Ranks exit codes from best to worst: a campaign that cannot continue is worse than one that can.
 int gravity(ExitCode code) {
   if (code == ExitCode::Done) return 0;
   if (code == ExitCode::Interrupted || code == ExitCode::Terminated) return 1;
@@ -47,7 +48,7 @@ ExitCode exit_code_of(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Unreachable;
 }
 
-/// Campaigns that are being run: everything that must live while the service does.
+/// Running campaigns, with all objects that must exist as long as the service.
 class CampaignRun {
  public:
   CampaignRun(Output& output, const std::vector<Campaign>& campaigns, const RunOptions& options,
@@ -57,7 +58,8 @@ class CampaignRun {
         listener_(listener),
         members_(output, campaigns, options.keeps_store) {
     if (options_.bind.empty()) options_.bind = campaigns.front().bind;
-    // Workers from other hosts have to reach it; where it is, its file says.
+    // Workers on other hosts must be able to connect; they find the address in the coordinator's
+    // file.
     const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
     if (options_.bind.empty() && !local) options_.bind = "*:0";
   }
@@ -73,7 +75,7 @@ class CampaignRun {
   }
 
  private:
-  /// Before there is a store: one that cannot be filled would be left behind.
+  /// Checked before a store is created, so that no empty store is left behind.
   ExitCode check_limits() {
     const LaunchOptions launch = launch_of(members_.campaign(0), options_);
     const std::int64_t workers = launch.kind == LaunchOptions::Kind::Local ? launch.processes : 0;
@@ -95,7 +97,7 @@ class CampaignRun {
     if (!open_door()) return ExitCode::Usage;
     auto service = listen();
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
-    // Before the coordinator's file, where their address stands.
+    // Before the coordinator's file is written, because it contains the address of the pages.
     if (const auto opened = show_pages(); !opened)
       return fail(output_, exit_code_of(opened.error()), opened.error());
     const std::string endpoint = (*service)->endpoint();
@@ -142,7 +144,8 @@ class CampaignRun {
                                                               : DashboardSetup::Secret::OfOnesOwn);
   }
 
-  /// A default address was not asked for: without it the campaign goes on.
+  /// If only the default address fails, the campaign continues without pages, because the user did
+  /// not ask for them.
   Expected<void> show_pages() {
     make_dashboard();
     auto pages = dashboard_ ? open_pages(options_, dashboard_->site(), dashboard_->token())
@@ -163,7 +166,7 @@ class CampaignRun {
     return {};
   }
 
-  /// Keys and clients, or plaintext; false after having said what is wrong.
+  /// Reads keys and clients, or allows plaintext; false after printing the errors.
   bool open_door() {
     auto access = open_access(options_.access, bind_of(options_));
     if (access) {
@@ -193,7 +196,7 @@ class CampaignRun {
     return open_service(std::move(service), members_.served(), options_.next_port);
   }
 
-  /// Workers of this host get the address, others the file in which it stands.
+  /// Workers on this host get the address, other workers get the file that contains it.
   WorkersSetup workers_setup(const std::string& endpoint) const {
     const Campaign& first = members_.campaign(members_.running().front());
     WorkersSetup setup{.launch = launch_of(first, options_),
@@ -252,7 +255,7 @@ class CampaignRun {
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
     let_pages_hear();
-    // Their readers would keep the stores from being folded up.
+    // Readers of the pages would prevent the stores from folding in their logs.
     pages_.reset();
     dashboard_.reset();
     const std::string left_behind =
@@ -264,21 +267,22 @@ class CampaignRun {
     return ExitCode::Done;
   }
 
-  /// An open page asks once a second. It should see the end, and not stay at "97 %".
+  /// An open page asks once a second. Waits until it has seen the end, so that it does not remain
+  /// at "97 %".
   void let_pages_hear() const {
     using Clock = std::chrono::steady_clock;
     using std::chrono::milliseconds;
-    constexpr milliseconds kLooks{3000};     // who has asked within it
-    constexpr milliseconds kOldAnswer{600};  // an answer of before may still be given out
+    constexpr milliseconds kLooks{3000};     // a page is open if it has asked within this time
+    constexpr milliseconds kOldAnswer{600};  // an older answer may still be sent within this time
     constexpr milliseconds kAtMost{2500};
     const auto end = Clock::now();
     if (!pages_ || !dashboard_ || end - asked_->load() > kLooks) return;
     while (asked_->load() < end + kOldAnswer && Clock::now() < end + kAtMost)
       std::this_thread::sleep_for(milliseconds(20));
-    std::this_thread::sleep_for(milliseconds(100));  // the answer goes out
+    std::this_thread::sleep_for(milliseconds(100));  // time to send the answer
   }
 
-  /// Once for each: those who wait for workers should know who is turned away.
+  /// Prints each quarantine once, so that people who wait for workers know which are refused.
   void explain_quarantine(const LiveStatus& live) {
     for (const QuarantineStatus& one : live.quarantine) {
       if (!told_of_quarantine_.emplace(one.who, one.worker).second) continue;
@@ -317,7 +321,7 @@ class CampaignRun {
   std::set<std::pair<std::string, std::int64_t>> told_of_quarantine_;
 };
 
-/// Lines of several campaigns begin with their names.
+/// With several campaigns, each line begins with a name.
 std::vector<ToldCampaign> told(const std::vector<Campaign>& campaigns) {
   std::vector<ToldCampaign> told;
   told.reserve(campaigns.size());

@@ -15,7 +15,7 @@ bool has(const std::vector<std::string>& modules, Module module) {
   return std::ranges::find(modules, id_of(module)) != modules.end();
 }
 
-/// The published program sees black only at a grey level that noise never leaves alone.
+/// The published program recognises black only at one grey level, which noise always changes.
 void warn_about_black(const Method& method, const Flavour& flavour, const Profile& profile,
                       std::vector<std::string>& warnings) {
   const bool narrow = flavour.floor.black.high < 1000;
@@ -27,7 +27,7 @@ void warn_about_black(const Method& method, const Flavour& flavour, const Profil
                      profile.name + " black_floor hardly ever holds");
 }
 
-/// What a sensor that sees less far, or farther, than the flavour reckons with makes of prox.
+/// Warns if the range of the proximity sensors differs from the range that the flavour assumes.
 void warn_about_range(const Method& method, const Flavour& flavour, const Profile& profile,
                       std::vector<std::string>& warnings) {
   const double expected = flavour.obstacles.far_m;
@@ -41,7 +41,7 @@ void warn_about_range(const Method& method, const Flavour& flavour, const Profil
                                        : "what they see beyond is not heeded"));
 }
 
-/// Without a light both phototaxes are a way to go straight on.
+/// Without a light, both phototaxis behaviours only avoid obstacles.
 void warn_about_light(const Method& method, const Campaign& campaign,
                       std::vector<std::string>& warnings) {
   if (method.architecture == Architecture::Network) return;
@@ -58,7 +58,7 @@ void warn_about_light(const Method& method, const Campaign& campaign,
   }
 }
 
-/// What a robot sees of the floor there, it does not stand on.
+/// The floor under such a point is not the floor under the robot's body.
 void warn_about_ground_points(const Mission& mission, std::vector<std::string>& warnings) {
   for (const Point& point : ground_points_outside(mission.robot))
     warnings.push_back("mission " + mission.name + ": the robot's ground sensor at [" +
@@ -66,7 +66,8 @@ void warn_about_ground_points(const Mission& mission, std::vector<std::string>& 
                        "] is outside of its body");
 }
 
-/// Rays pass over what is lower than the sensors, but walls.
+/// Simulated rays hit walls of any height, although they pass over other things that are lower than
+/// the sensors.
 void warn_about_low_walls(const Mission& mission, std::vector<std::string>& warnings) {
   const double sensors_m = mission.robot.proximity.height_m;
   const double walls_m = mission.arena.wall_height_m;
@@ -76,7 +77,7 @@ void warn_about_low_walls(const Mission& mission, std::vector<std::string>& warn
                      " m; simulated rays meet walls of any height");
 }
 
-/// The modules of a method that look for neighbours; a network reads them in any case.
+/// The modules of a method that use neighbours; a network always reads them.
 std::vector<std::string> looking_for_neighbours(const Method& method) {
   if (method.architecture == Architecture::Network) return {"networks"};
   std::vector<std::string> found;
@@ -100,7 +101,7 @@ void warn_about_neighbours(const Method& method, const Campaign& campaign,
   }
 }
 
-/// A flavour that is faster than the robot goes no faster than that.
+/// A robot cannot drive faster than its own maximum speed, even if the flavour is faster.
 void warn_about_speed(const Method& method, const Flavour& flavour, const Campaign& campaign,
                       std::vector<std::string>& warnings) {
   for (const CampaignMission& mission : campaign.missions) {
@@ -113,7 +114,7 @@ void warn_about_speed(const Method& method, const Flavour& flavour, const Campai
   }
 }
 
-/// A mission gives robots another shape, and nothing else.
+/// A mission can change only the shape of its robots.
 void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings) {
   const auto kept = kept_constants(mission.robot);
   if (!kept) return;
@@ -130,7 +131,7 @@ void warn_about_robot(const Mission& mission, std::vector<std::string>& warnings
 
 std::vector<std::string> warnings_about(const Campaign& campaign) {
   std::vector<std::string> warnings;
-  if (campaign.target) return warnings;  // what its programs do of modules is theirs
+  if (campaign.target) return warnings;  // the modules are a matter of its programs
   for (const CampaignMission& mission : campaign.missions) {
     warn_about_robot(mission.mission, warnings);
     warn_about_ground_points(mission.mission, warnings);

@@ -7,8 +7,8 @@
 
 namespace swarmsmith::cli {
 
-/// Warnings about campaigns that run but hardly as intended: modules that cannot work with this
-/// mission and profile.
+/// Warnings about campaigns that can run but probably not as intended, such as modules that cannot
+/// work with this mission and profile.
 std::vector<std::string> warnings_about(const Campaign& campaign);
 
 }  // namespace swarmsmith::cli

@@ -13,7 +13,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// The designs that go on when the campaign is run again.
+/// The designs that would continue if the campaign ran again.
 std::vector<DesignId> unfinished(const std::vector<DesignStateRow>& states,
                                  const std::vector<CommandRow>& commands) {
   const std::vector<DesignId> ended = ended_designs(states, commands);
@@ -26,7 +26,7 @@ std::vector<DesignId> unfinished(const std::vector<DesignStateRow>& states,
   return left;
 }
 
-/// A row for each design that it changes.
+/// One row for each design that the command changes.
 Expected<std::vector<CommandRow>> pauses(Store& store, const std::vector<CommandRow>& commands,
                                          const CommandRow& command) {
   const std::vector<DesignId> designs = unfinished(store.design_states(), commands);
@@ -38,7 +38,7 @@ Expected<std::vector<CommandRow>> pauses(Store& store, const std::vector<Command
   return std::move(*rows);
 }
 
-/// What the design says of the command, as far as it has come.
+/// Asks the replayed design, in its current state, whether it accepts the command.
 Expected<void> ask_design(Store& store, const Campaign& campaign,
                           const std::vector<CommandRow>& commands, const CommandRow& command) {
   auto plans = plans_of(campaign);
@@ -62,7 +62,7 @@ Expected<void> ask_design(Store& store, const Campaign& campaign,
   return runner->command(command, rows);
 }
 
-/// Written as one, and on disk when this returns.
+/// Written in one transaction, and on disk when this returns.
 Expected<void> write(Store& store, std::vector<CommandRow> commands, std::int64_t number) {
   std::vector<Row> rows;
   for (CommandRow& command : commands) {
@@ -73,7 +73,7 @@ Expected<void> write(Store& store, std::vector<CommandRow> commands, std::int64_
   return store.flush();
 }
 
-/// Who answers for workers in quarantine on the host of that name.
+/// The principals of the workers in quarantine on the host with this name.
 Expected<std::vector<std::string>> principals_on(const std::filesystem::path& path,
                                                  const std::string& host) {
   const auto reader = StoreReader::open(path);

@@ -8,11 +8,11 @@
 
 namespace swarmsmith::cli {
 
-/// Writes a command of a person (its kind, design, budget and who; no design: all that are not
-/// over) into the store of a campaign that does not run; it acts when the campaign is run again.
-/// Returns a sentence that says so. What cannot be is refused as a running coordinator would: the
-/// design is played again for that, which takes as long as `verify` of it. `known` is the campaign
-/// of the store. Errors: BadInput (with what can be done), Corrupt.
+/// Writes a user's command (its kind, design, budget and user; without a design it applies to all
+/// unfinished ones) into the store of a campaign that does not run. The command takes effect when
+/// the campaign runs again. Returns a sentence that says so. Refuses impossible commands as a
+/// running coordinator would; to check this, the design is replayed, which takes as long as
+/// `verify` of it. `known` is the campaign of the store. Errors: BadInput (with advice), Corrupt.
 Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
                                       const std::filesystem::path& path, const CommandRow& command);
 

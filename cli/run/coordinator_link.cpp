@@ -32,7 +32,7 @@ std::string frame_of(const std::string& campaign, const CommandRow& command) {
 
 using Answer = Expected<std::string>;
 
-/// The coordinator's sentence, if the frame has it.
+/// The coordinator's answer in the frame, if there is one.
 std::optional<Answer> answer_in(const std::string& frame) {
   google::protobuf::Arena arena;
   const auto message = decode_to_worker(frame, arena);
@@ -41,20 +41,20 @@ std::optional<Answer> answer_in(const std::string& frame) {
     const pb::CommandReply& reply = (*message)->command_reply();
     return reply.done() ? Answer(reply.sentence()) : Answer(bad_input(reply.sentence()));
   }
-  // Another major version says so.
+  // A coordinator of another major version answers with a reject message.
   if ((*message)->has_reject()) return Answer(bad_input((*message)->reject().sentence()));
   return std::nullopt;
 }
 
-/// A frame that is said once, by the first of the server's numbers that answers: of a command that
-/// arrives twice the second could act, too.
+/// Sends a frame only once, to the first address of the server that answers: a command that arrives
+/// twice could take effect twice.
 class Tries {
  public:
   Tries(ClientSocket& socket, std::string frame) : socket_(&socket), frame_(std::move(frame)) {
     begin();
   }
 
-  /// Goes on to the next number, if nothing has answered yet and there is one.
+  /// Goes on to the next address, if no address has answered yet and there is another one.
   bool another() {
     if (socket_->stood() || ++tried_ >= socket_->choices()) return false;
     begin();
@@ -84,7 +84,7 @@ CoordinatorSearch CoordinatorArgument::search(const std::string& file) const {
                            .role = "operator",
                            .insecure_plaintext = insecure_plaintext};
   if (connect.empty()) return search;
-  // What is not an address is refused when the client connects to it.
+  // An invalid address is refused when the client connects to it.
   search.endpoint = endpoint_of(connect, true).value_or(connect);
   search.file.clear();
   return search;

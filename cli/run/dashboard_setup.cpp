@@ -25,7 +25,7 @@ std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
       setup->token_ = read_token(file).value_or("");
     if (setup->token_.empty()) {
       setup->token_ = new_token();
-      // A store in another user's folder can be looked at, and no more.
+      // A store in another user's folder can only be viewed.
       if (write_token(file, setup->token_)) {
         setup->file_ = file;
       } else {
@@ -39,7 +39,7 @@ std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
       return ask_campaign(store, coordinator, command);
     };
   }
-  // The program that this is: what runs beside it is of the same version.
+  // Uses this program itself, so that the child process has the same version.
   if (options.program.empty()) options.program = same_program();
   setup->site_ = make_dashboard(std::move(options));
   return setup;

@@ -13,15 +13,17 @@
 
 namespace swarmsmith::cli {
 
-/// A dashboard with the secret that acts need; the secret's file lives as long as this.
+/// A dashboard with the secret token for its commands. The token file exists as long as this
+/// object.
 class DashboardSetup {
  public:
   enum class Secret {
-    OfOnesOwn,  ///< in a token file
+    OfOnesOwn,  ///< the user's own, in a token file
     New,        ///< written beside the first store
-    Joined,     ///< that of the process that runs the first store's campaign; new without one
+    Joined,     ///< the token of the process that runs the first store's campaign; new if there is
+                ///< none
   };
-  /// `coordinator`: who is asked to act on campaigns that run.
+  /// `coordinator`: gets the commands for running campaigns.
   static std::unique_ptr<DashboardSetup> make(DashboardOptions options,
                                               const CoordinatorArgument& coordinator,
                                               Secret secret);
@@ -30,10 +32,10 @@ class DashboardSetup {
   DashboardSetup& operator=(const DashboardSetup&) = delete;
 
   const std::shared_ptr<HttpSite>& site() const { return site_; }
-  /// Empty where the user gave the token.
+  /// Empty if the user chose the token.
   const std::string& token() const { return token_; }
-  /// Says where the pages are, and how they are reached from elsewhere; the secret to a terminal
-  /// alone. `address`: HOST:PORT.
+  /// Prints the address of the pages, and how to reach them from another host. The token is printed
+  /// only to a terminal. `address`: HOST:PORT.
   void announce(Output& output, const std::string& address) const;
 
  private:

@@ -21,7 +21,7 @@ WorkerScenario scenario_of(const Campaign& campaign) {
   if (campaign.target) {
     for (const CampaignMission& mission : campaign.missions) {
       InstanceTexts& texts = scenario.instances.emplace_back(mission.instances);
-      // Without test instances elites are tested on fresh seeds of the training instances.
+      // Without test instances, elites are tested on fresh seeds of the training instances.
       if (texts.test.empty() && mission.test_count > 0) texts.test = texts.training;
     }
     return scenario;
@@ -48,7 +48,7 @@ CampaignPolicy policy_of(const Campaign& campaign) {
 
 std::string bind_of(const RunOptions& options) {
   if (options.bind.empty()) return "tcp://127.0.0.1:*";
-  // What is not an address is refused by the server that listens.
+  // An invalid address is refused when the server listens on it.
   return endpoint_of(options.bind, false).value_or(options.bind);
 }
 

@@ -7,7 +7,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-// Set by the handlers, in whatever thread the signal finds; read by the loop.
+// Set by the handlers, which may run in any thread; read by the main loop.
 std::atomic<int> g_ending = 0;
 std::atomic<bool> g_hangup = false;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
@@ -16,7 +16,7 @@ void on_ending(int signal) {
   if (g_ending.exchange(signal) != 0) _exit(128 + signal);
 }
 
-/// Comes again with each second of processor time.
+/// The signal is repeated after each further second of processor time.
 void on_processor_limit(int signal) {
   int none = 0;
   g_ending.compare_exchange_strong(none, signal);

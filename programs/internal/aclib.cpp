@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kIntroduction = "Result of this algorithm run:";
 
-/// What comes after the last introduction, to the end of its line.
+/// The rest of the line after the last introduction.
 std::string_view result_line(std::string_view output) {
   const std::size_t at = output.rfind(kIntroduction);
   if (at == std::string_view::npos) return {};
@@ -19,7 +19,7 @@ std::string_view result_line(std::string_view output) {
   return rest.substr(0, rest.find('\n'));
 }
 
-/// A number, or a text that is one: wrappers print both.
+/// A number, or a text that contains one: wrappers print both.
 std::optional<double> number_in(const nlohmann::json& result, const char* key) {
   const auto at = result.find(key);
   if (at == result.end()) return std::nullopt;

@@ -7,10 +7,12 @@
 
 namespace swarmsmith {
 
-/// The line "Result of this algorithm run: {...}" of AClib's GenericWrapper4AC (irace facts, 18.5).
+/// Parses the line "Result of this algorithm run: {...}" of AClib's GenericWrapper4AC (irace facts,
+/// 18.5).
 Expected<Reading> parse_aclib(std::string_view output, const Target& target);
 
-/// A time that a program reports, raised to what can be measured. `program` is for the sentence.
+/// Checks a time that a program reports, and raises it to the smallest measurable time. `program`
+/// is for the error message.
 Expected<double> checked_time(double time, const std::string& program, const Target& target);
 
 }  // namespace swarmsmith

@@ -1,17 +1,17 @@
-// Questions to the server, or to the snapshot that is in the page itself.
+// Questions to the server, or to the snapshot inside the page.
 
 import { given, Query } from "./route";
 import { Live } from "./types";
 
-/// What went wrong, as the command line says it.
+/// An error with the same text as on the command line.
 export class ApiError extends Error {
   /// `retry_s`: when to ask again, if the server is only busy.
   constructor(readonly status: number, message: string, readonly where = "", readonly retry_s = 0) { super(message); }
-  /// No answer came at all: it is worth trying again.
+  /// There was no answer at all, so the page should try again.
   get unreachable(): boolean { return this.status === 0; }
 }
 
-/// JSON as data, anything else as text.
+/// Parsed JSON, or text for other types.
 export interface Answer { data: unknown; cost_ms: number }
 
 // --- the snapshot: a page that `dashboard --export` wrote -----------------------------------------
@@ -22,7 +22,7 @@ export interface Answer { data: unknown; cost_ms: number }
 
 const snapshot_text = document.getElementById("snapshot")?.textContent?.trim();
 export const is_snapshot = !!snapshot_text;
-// TypeScript 4.8 does not know it yet, nor AbortSignal.timeout.
+// TypeScript 4.8 does not know DecompressionStream or AbortSignal.timeout yet.
 declare const DecompressionStream: new (format: string) => { readable: ReadableStream; writable: WritableStream };
 
 let snapshot: Promise<Record<string, unknown>> | null = null;
@@ -44,7 +44,7 @@ async function from_snapshot(path: string): Promise<Answer> {
 
 // --- the token ------------------------------------------------------------------------------------
 
-/// From "#t=..." of the address that `run` printed; it stays in this tab.
+/// Takes the token from "#t=..." in the address that `run` printed; it is kept only in this tab.
 function take_token(): void {
   const found = /[#&]t=([^&]+)/.exec(location.hash);
   if (!found) return;
@@ -62,17 +62,18 @@ export function set_token(text: string): void {
 
 // --- asking ---------------------------------------------------------------------------------------
 
-/// "c1/designs/d3/race?iteration=8": parameters in the order given, those without a value left out.
+/// "c1/designs/d3/race?iteration=8": parameters in the given order, without those that have no
+/// value.
 export function path_of(path: string, parameters: Query = {}): string {
   const values = given(parameters).map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
   return path + (values.length ? "?" + values.join("&") : "");
 }
 
-/// What the server said before, by path.
+/// Earlier answers of the server, by path.
 const kept = new Map<string, { etag: string; data: unknown }>();
 const kMostKept = 40;
 
-/// An answer that is well, or "unchanged" (304). Throws ApiError.
+/// A successful answer, or "unchanged" (304). Throws ApiError.
 async function fetched(path: string, patience_ms: number, headers: Record<string, string> = {}, method = "GET"): Promise<Response> {
   const secret = token();
   if (secret) headers.Authorization = "Bearer " + secret;
@@ -89,12 +90,13 @@ async function fetched(path: string, patience_ms: number, headers: Record<string
   throw new ApiError(response.status, error.message, error.where, response.status === 503 ? Number(response.headers.get("Retry-After") ?? 1) : 0);
 }
 
-/// How far an answer is that is not there yet.
+/// The progress of an answer that is still being computed.
 export interface Pending { seconds: number }
 
-/// Data of a path below api/v1/. An answer that the server says is unchanged (ETag, 304) is the very
-/// same object as before. Throws ApiError.
-/// `waits` hears how long it has been computed when that takes long (202): it is fetched when it is there.
+/// The data at a path below api/v1/. If the server says that an answer has not changed (ETag, 304),
+/// returns the same object as before. Throws ApiError.
+/// If the computation takes long (202), `waits` is called with its time so far, and the answer is
+/// fetched when it is ready.
 export async function ask(path: string, patience_ms = 65000, waits?: (pending: Pending) => void): Promise<Answer> {
   if (is_snapshot) return from_snapshot(path);
   const before = kept.get(path);
@@ -111,7 +113,7 @@ export async function ask(path: string, patience_ms = 65000, waits?: (pending: P
     } catch (error) {
       const { retry_s } = error as ApiError;
       if (!retry_s || attempt > 3 || path === "live") throw error;
-      await new Promise((done) => setTimeout(done, 1000 * retry_s));  // others ask for heavy things, too
+      await new Promise((done) => setTimeout(done, 1000 * retry_s));  // the server is busy
     }
   }
   const cost_ms = Number(/dur=([\d.]+)/.exec(response.headers.get("Server-Timing") ?? "")?.[1] ?? 0);
@@ -122,35 +124,36 @@ export async function ask(path: string, patience_ms = 65000, waits?: (pending: P
   } catch { throw new ApiError(0, "the answer broke off", path); }
   const etag = response.headers.get("ETag");
   kept.delete(path);
-  // What is new after something is asked for once.
+  // An answer with only the new values (after=...) is never asked for again, so it is not kept.
   if (etag && !/[?&]after=/.test(path)) kept.set(path, { etag, data });
   if (kept.size > kMostKept) kept.delete(kept.keys().next().value as string);
   return { data, cost_ms };
 }
 
-/// An action. It needs the token; answers with the sentence of what was done. Throws ApiError.
+/// Sends a command, which needs the token. Returns a sentence that says what was done. Throws
+/// ApiError.
 export async function post(path: string): Promise<string> {
   return (await (await fetched(path, 15000, {}, "POST")).json()).done;
 }
 
 // --- live numbers ---------------------------------------------------------------------------------
 
-/// Between questions when nothing runs.
+/// Time between questions when no campaign is running.
 const kAtRest_ms = 5000;
 
-/// Asks for `live` once a second while the page is seen, and tells who listens. All pages ask at the
-/// same moment, the whole second, so that the server makes one answer for all of them.
+/// Asks for `live` once a second while the page is visible, and calls the listeners. All pages ask
+/// at the same moment, the full second, so that the server makes one answer for all of them.
 class Feed {
   live: Live | null = null;
-  at: Date | null = null;             ///< of the last answer
-  failure: ApiError | null = null;    ///< of the last attempt
+  at: Date | null = null;             ///< time of the last answer
+  failure: ApiError | null = null;    ///< error of the last attempt, if it failed
   next_try: Date | null = null;
   #listeners = new Set<() => void>();
   #timer = 0;
   #failures = 0;
   #is_asking = false;
 
-  /// Returns what ends it.
+  /// Returns a function that ends the listening.
   listen(what: () => void): () => void {
     this.#listeners.add(what);
     return () => { this.#listeners.delete(what); };
@@ -164,14 +167,14 @@ class Feed {
     this.ask_now();
   }
 
-  /// True while the numbers on the page are not those of now.
+  /// True while the numbers on the page are out of date.
   get stale(): boolean { return !!this.failure || !is_snapshot && !!this.at && Date.now() - +this.at > 2 * kAtRest_ms; }
 
   #tell(): void { this.#listeners.forEach((listener) => listener()); }
 
   ask_now(): void {
     clearTimeout(this.#timer);
-    // No page is visible: until one is.
+    // If the page is hidden, it asks again when it becomes visible.
     if (!this.#is_asking && !(document.hidden && this.live)) void this.#turn();
   }
 
@@ -197,7 +200,7 @@ class Feed {
   }
 }
 
-/// Another process answers at this address: all that is kept is of the one before.
+/// Another process answers at this address, so all kept answers belong to the previous one.
 function restarted(): void {
   sessionStorage.setItem("notice", `Another process answers at this address since ${new Date().toLocaleTimeString("en-GB")}: `
     + "this page was loaded again, and these are its numbers.");

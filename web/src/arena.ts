@@ -1,4 +1,4 @@
-// A run seen from above, on a canvas: arena, things, robots and their trails at one instant.
+// A run seen from above, on a canvas: arena, objects, robots and their trails at one instant.
 
 import { Pen, Point as Place } from "./canvas";
 import { clamp } from "./format";
@@ -16,7 +16,7 @@ export interface Arena {
   lights: { x_m: number; y_m: number }[];
 }
 
-/// Poses by cycle of 0.1 s, the start first; a null: not known.
+/// Poses by cycle of 0.1 s, beginning with the start; null: not known.
 export interface Track {
   x_mm: (number | null)[];
   y_mm: (number | null)[];
@@ -25,15 +25,15 @@ export interface Track {
 
 export interface Robot extends Track {
   name?: string;
-  /// [cycle, state]: the state from that cycle on. Empty: not known.
+  /// [cycle, state]: the state holds from that cycle on. Empty: not known.
   state: [number, number][];
-  /// [cycle, what the LEDs show from there on], for robots that light any.
+  /// [cycle, LED colours from that cycle on], for robots that use LEDs.
   leds?: [number, string][];
-  /// [cycle, how the pose was obtained from there on], of filmed runs.
+  /// [cycle, how the poses from that cycle on were obtained], for filmed runs.
   kind?: [number, string][];
 }
 
-/// What a real run was asked before its score counts.
+/// A check that a real run must pass before its score counts.
 export interface Check {
   name: string;
   subject: string;         ///< the robot or camera; "" for the run
@@ -42,7 +42,7 @@ export interface Check {
   limit: number | null;
   unit: string;
   catches: string;
-  reason: string;          ///< why it was not run
+  reason: string;          ///< why it was not made
 }
 
 export interface Trajectory {
@@ -65,24 +65,24 @@ export interface Trajectory {
   robots: Robot[];
   objects: (Track & { outline: Outline })[];
   score_at: (number | null)[];
-  /// Module that acts, by state.
+  /// Name of the active module, by state.
   behaviours: string[];
   verdict?: string;
-  checks?: Check[] | null; ///< of a real run; null: not recorded
+  checks?: Check[] | null; ///< for real runs; null: not recorded
   name?: string;
-  profiles?: string[];  // not of real runs
+  profiles?: string[];  // not for real runs
 }
 
-/// Okabe-Ito, in the order of the figures: state or robot 0 is blue in all of them.
+/// Okabe-Ito colours, in the same order as in the figures: state or robot 0 is always blue.
 export const kDistinct = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000"];
 
 export type Tint = "state" | "robot" | "leds";
 
 export interface View {
   cycle: number;         ///< may lie between two cycles
-  trail_cycles: number;  ///< how long trails are
+  trail_cycles: number;  ///< length of the trails
   tint: Tint;
-  chosen: number | null; ///< robot that is followed
+  chosen: number | null; ///< the robot that is followed
 }
 
 /// The last value of [cycle, value] pairs at or before a cycle.
@@ -99,7 +99,7 @@ export function value_at<T>(pairs: [number, T][] | undefined, cycle: number): T 
 /// In metres and radians.
 export interface Pose { x: number; y: number; theta: number }
 
-/// Where something is between two cycles on the straight line; null: not known.
+/// The interpolated pose between two cycles, on a straight line; null: not known.
 export function pose_at(track: Track, cycle: number): Pose | null {
   const { x_mm, y_mm, theta_mrad } = track;
   const last = x_mm.length - 1;
@@ -119,13 +119,13 @@ export function color_of_robot(run: Trajectory, number: number, { cycle, tint }:
   return kDistinct[((tint === "state" ? value_at(robot.state, cycle) : null) ?? number) % kDistinct.length];
 }
 
-/// Least and largest x, least and largest y.
+/// Smallest and largest x, smallest and largest y.
 function bounds(places: Place[]): [number, number, number, number] {
   const xs = places.map(([x]) => x), ys = places.map(([, y]) => y);
   return [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
 }
 
-/// How metres become pixels, so that the walls just fit.
+/// Maps metres to pixels, so that the walls just fit.
 class Frame {
   readonly scale: number;
   #left: number;
@@ -140,13 +140,13 @@ class Frame {
   at = ([x, y]: Place): Place => [this.#left + this.scale * x, this.#bottom - this.scale * y];
 }
 
-/// Height over width of the arena.
+/// Height divided by width of the arena.
 export function shape_of(arena: Arena): number {
   const [x0, x1, y0, y1] = bounds(arena.walls);
   return (y1 - y0) / (x1 - x0);
 }
 
-/// The robot under a place of the canvas, in pixels.
+/// The robot at a position on the canvas, in pixels.
 export function robot_at(run: Trajectory, cycle: number, width: number, height: number, x: number, y: number): number | null {
   const frame = new Frame(run.arena, width, height);
   const distances = run.robots.map((robot) => {
@@ -163,14 +163,15 @@ function reach_of({ radius_m, corners }: Outline): number {
   return radius_m || Math.max(...(corners ?? [[0.1, 0.1]]).map(([x, y]) => Math.hypot(x, y)));
 }
 
-/// A path around an outline that stands somewhere.
+/// A path around an outline at a pose.
 function around(pen: Pen, frame: Frame, { radius_m, corners = [] }: Outline, x: number, y: number, theta: number): Pen {
   if (radius_m) return pen.disc(frame.at([x, y]), frame.scale * radius_m);
   const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
   return pen.path(corners.map(([a, b]) => frame.at([x + cos * a - sin * b, y + sin * a + cos * b])), true);
 }
 
-/// What does not move: the floor is data, the same in light and dark.
+/// Draws everything that does not move. The floor is data, so it has the same colours in light and
+/// dark mode.
 export function draw_place(pen: Pen, arena: Arena, images: Map<string, HTMLImageElement>): void {
   const frame = new Frame(arena, pen.width, pen.height);
   const walls = arena.walls.map(frame.at);
@@ -193,7 +194,7 @@ export function draw_place(pen: Pen, arena: Arena, images: Map<string, HTMLImage
   for (const { x_m, y_m } of arena.lights) {
     const place = frame.at([x_m, y_m]);
     pen.disc(place, 5).fill("#f0e442").stroke("#000");
-    // Eight rays are a ring of dashes.
+    // The eight rays are a ring of dashes.
     pen.disc(place, 8.5).stroke("#000", 3, [1, 2 * Math.PI * 8.5 / 8 - 1]);
   }
 }
@@ -207,11 +208,11 @@ function draw_trail(pen: Pen, frame: Frame, { x_mm, y_mm }: Track, here: Pose | 
   }
   if (here && points[points.length - 1]) points.push(frame.at([here.x, here.y]));
   pen.to.lineJoin = pen.to.lineCap = "round";
-  // A pale rim, so that dark lines are seen on dark patches.
+  // A pale edge makes dark lines visible on dark patches.
   pen.path(points).stroke("rgba(255,255,255,.55)", 3.5).stroke(color, 1.75);
 }
 
-/// What moves.
+/// Draws everything that moves.
 export function draw_run(pen: Pen, run: Trajectory, view: View): void {
   const frame = new Frame(run.arena, pen.width, pen.height);
   const poses = run.robots.map((robot) => pose_at(robot, view.cycle));
@@ -228,19 +229,19 @@ function draw_robot(pen: Pen, frame: Frame, run: Trajectory, number: number, pos
   const reach = reach_of(run.body);
   const color = color_of_robot(run, number, view);
   const is_chosen = view.chosen === number;
-  // Where a camera did not see it, the body is hollow and its rim dashed.
+  // Where the cameras did not see the robot, its body is hollow with a dashed edge.
   const is_seen = (value_at(run.robots[number].kind, view.cycle) ?? "measured") === "measured";
   around(pen, frame, run.body, pose.x, pose.y, pose.theta);
   if (is_seen) pen.fill(color);
   pen.stroke("#fff", is_chosen ? 5 : 3).stroke(is_seen ? "#000" : color, is_chosen ? 2.5 : 1, is_seen ? [] : [4, 3]);
-  // The heading: a wedge that points forward.
+  // A wedge that points in the robot's direction.
   const corners: Place[] = [[0.62 * reach, 0], [-0.3 * reach, 0.32 * reach], [-0.3 * reach, -0.32 * reach]];
   around(pen, frame, { corners }, pose.x, pose.y, pose.theta).fill("#fff").stroke("#000", 0.75);
   const body = frame.scale * reach;
   if (body >= 8) pen.say(String(number), ...frame.at([pose.x, pose.y]), "center", "#000", `${clamp(0.45 * body, 9, 13)}px`);
 }
 
-/// The score so far of several runs, with the instant.
+/// Draws the scores of several runs up to now, with a mark at the current instant.
 export function draw_scores(pen: Pen, runs: Trajectory[], cycle: number): void {
   const { width, height, inks } = pen;
   const values = runs.flatMap((run) => run.score_at.filter((value): value is number => value !== null));

@@ -3,7 +3,7 @@ import { clamp } from "./format";
 
 export type Point = [number, number];
 
-/// The page's colours as the theme has them now.
+/// The page's colours in the current theme.
 export interface Inks { ink: string; paper: string; faint: string; line: string; soft: string; link: string }
 
 function inks_now(): Inks {
@@ -12,12 +12,12 @@ function inks_now(): Inks {
   return { ink: of("ink"), paper: of("paper"), faint: of("faint"), line: of("line"), soft: of("soft"), link: of("link") };
 }
 
-/// Draws on a canvas, in CSS pixels. A path is made, then filled, stroked, or both.
+/// Draws on a canvas, in CSS pixels: first make a path, then fill it, stroke it, or both.
 export class Pen {
   constructor(readonly to: CanvasRenderingContext2D, readonly width: number, readonly height: number,
               readonly inks: Inks, readonly dark: boolean) {}
 
-  /// Through points; a null breaks it.
+  /// A line through points; null interrupts it.
   path(points: (Point | null)[], closed = false): Pen {
     const { to } = this;
     let is_open = false;
@@ -51,7 +51,7 @@ export class Pen {
     this.to.stroke();
     return this;
   }
-  /// A `rim` of the ground's colour keeps lines from crossing the text.
+  /// A `rim` in the background colour keeps lines from crossing the text.
   say(text: string, x: number, y: number, align: CanvasTextAlign = "center", color = this.inks.faint, font = "11px", rim = false): void {
     const { to, inks } = this;
     to.font = `${font} ${getComputedStyle(document.body).fontFamily}`;
@@ -68,20 +68,20 @@ export class Pen {
 }
 
 interface CanvasProps {
-  /// What it shows, for who cannot see it.
+  /// A description of the contents for screen readers.
   label: string;
-  /// Height in CSS pixels for a width.
+  /// The height for a width, in CSS pixels.
   height: (width: number) => number;
-  /// Called when it changes, and on each change of size and theme.
+  /// Called when the function changes, and on each change of size or theme.
   draw: (pen: Pen) => void;
-  /// What lies below and seldom changes; drawn again when a part of the key does.
+  /// Draws a background that seldom changes; called again when a part of the key changes.
   ground?: (pen: Pen) => void;
   ground_key?: unknown[];
   /// Handlers and attributes of the element.
   attributes?: Record<string, unknown>;
 }
 
-/// A canvas as wide as its place, in the screen's own pixels.
+/// A canvas as wide as its parent, in the screen's own pixels.
 export class Canvas extends Component<CanvasProps, {}> {
   #canvas!: HTMLCanvasElement;
   #below = document.createElement("canvas");
@@ -137,8 +137,8 @@ export class Canvas extends Component<CanvasProps, {}> {
   }
 }
 
-/// A figure's colour from pale yellow (0) to dark violet (1), as the figures have it: viridis, read
-/// from five of its colours.
+/// The colour scale of the figures from pale yellow (0) to dark violet (1): viridis, interpolated
+/// between five of its colours.
 const kViridis = [[253, 231, 37], [94, 201, 98], [33, 145, 140], [59, 82, 139], [68, 1, 84]];
 export function viridis(part: number): string {
   const at = clamp(part, 0, 1) * 4;

@@ -7,10 +7,10 @@ import { Campaign } from "./types";
 type Child = JSX.Element | string | number | boolean | null | undefined;
 export type Children = Child | Children[];
 
-/// What stands in a field or a list now.
+/// The current value of a field or a list.
 export function typed(event: Event): string { return (event.target as HTMLInputElement).value; }
 
-/// Whether a key is for the browser, or for the field or list that is in focus.
+/// Whether a key press belongs to the browser, or to the field or list that has the focus.
 export function is_typing({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean {
   const { tagName, type } = target as HTMLInputElement;
   return ctrlKey || metaKey || altKey || /^(INPUT|TEXTAREA|SELECT)$/.test(tagName) && type !== "range";
@@ -26,43 +26,44 @@ export function Failure({ error, again }: { error: ApiError; again?: () => void 
   </div>;
 }
 
-/// style.css shows it only after a moment.
+/// style.css delays showing it for a moment.
 export function Waiting({ pending }: { pending?: Pending }) {
   return <p class="waiting" aria-busy="true">Asking the server{pending && `, for ${Math.round(pending.seconds)} s`} …</p>;
 }
 
-/// Why there is nothing here, and what to do.
+/// An explanation why there is nothing here, and advice.
 export function Empty({ children }: { children?: Children }) {
   return <p class="empty">{children as JSX.Element}</p>;
 }
 
-/// Tells people who hear the page; the region stands in index.html, where no renewal empties it.
+/// Announces a text to screen readers. The element is in index.html, where re-rendering does not
+/// empty it.
 export function announce(text: string): void {
   document.getElementById("announcer")!.textContent = text;
 }
 
-// --- the campaign that is looked at -----------------------------------------------------------------
+// --- the current campaign ---------------------------------------------------------------------------
 
-/// The campaign of the address, else the first; null: the store has none.
+/// The campaign in the address, else the first one; undefined if there is none.
 export function current_campaign(): Campaign | undefined {
   const campaigns = feed.live?.campaigns ?? [];
   return campaigns.find((one) => one.c === current_route().path[0]) ?? campaigns[0];
 }
 
-/// The file of a campaign as a word of a command line.
+/// The store of a campaign as an argument for a command line.
 export function store_word(campaign = current_campaign()): string { return shell_word(campaign?.store ?? "STORE"); }
 
-/// A command line about a campaign's store: command("figure race", "--design d3").
+/// A command line for a campaign's store: command("figure race", "--design d3").
 export function command(what: string, options = "", campaign?: Campaign): string {
   return `swarmsmith ${what} ${store_word(campaign)} ${options}`.trim();
 }
 
-/// Where a thing of the current campaign is shown: "c812", "d3", "e81200007", "r7".
+/// The address of the page for an id of the current campaign: "c812", "d3", "e81200007", "r7".
 export function place_of(id: string, query?: Query): string {
   return href([current_route().path[0], ...(/^[er]/.test(id) ? ["runs"] : []), id], query);
 }
 
-/// Leads there.
+/// A link to that page.
 export function link(id: string, text: Children = id) {
   return <a href={place_of(id)}>{text as JSX.Element}</a>;
 }
@@ -72,7 +73,7 @@ export function link(id: string, text: Children = id) {
 interface PanelProps {
   title: string;
   wide?: boolean;
-  /// The command line, and the statement for the data page, that give the same.
+  /// The command line, and the SQL statement for the data page, that give the same data.
   command?: string;
   sql?: string;
   tools?: Children;
@@ -88,21 +89,22 @@ export function Panel({ title, children, wide, tools, command, sql }: PanelProps
   </section>;
 }
 
-/// A small button; `label` names it where its text alone does not.
+/// A small button; `label` names it if its text alone is not clear.
 export function Quiet({ act, label, children, title = label, ...rest }: { act: () => void; label?: string; children?: Children } & JSX.HTMLAttributes) {
   return <button class="quiet" aria-label={label} title={title} onClick={act} {...rest}>{children as JSX.Element}</button>;
 }
 
-/// Experiments of a design or campaign; `left`: what its races may still use.
+/// Experiments of a design or campaign; `left`: the number that its races may still use.
 export interface Spent { used: number; budget: number; left: number }
 
-/// From 0 to 1; one that is over has done its part, whatever it used.
+/// The progress from 0 to 1. A finished design counts as 1, even if it did not use its whole
+/// budget.
 export function part_of({ budget, left }: Spent): number { return budget > 0 ? clamp(1 - left / budget, 0, 1) : 0; }
 
-/// "1 200 of 3 000"; "1 200" where a budget is a time.
+/// "1 200 of 3 000"; "1 200" if the budget is a time.
 export function spent_of({ used, budget }: Spent): string { return whole(used) + (budget > 0 ? ` of ${whole(budget)}` : ""); }
 
-/// Names and what they stand for, with a word on it for the pointer. What is false is left out.
+/// A list of names and values, with optional tooltips. False entries are left out.
 export function pairs(kind: string, list: ([name: Children, value: Children, title?: string] | false | null | "")[]) {
   return <dl class={kind}>{list.map((one) => one && <div title={one[2]}><dt>{one[0] as JSX.Element}</dt><dd>{one[1] as JSX.Element}</dd></div>)}</dl>;
 }
@@ -114,29 +116,29 @@ export function Bar({ of, name }: { of: Spent; name: string }) {
     <div style={{ width: `${100 * part}%` }} /></div>;
 }
 
-/// "1 200 of 3 000, 40 %" of a budget.
+/// "1 200 of 3 000, 40 %" for a budget.
 export function used_of(of: Spent): Children {
   return [whole(of.used), of.budget > 0 && [" ", <small>of {whole(of.budget)}, {percent(part_of(of))}</small>]];
 }
 
 interface ChoiceProps {
   label: string;
-  /// Of the choice in the address; else the label's word.
+  /// Name of the parameter in the address; by default the label.
   name?: string;
-  /// Else what the address says.
+  /// By default the value in the address.
   value?: string;
-  /// Words in the address, "" for all; or pairs of text and word.
+  /// Values in the address, "" for all; or pairs of text and value.
   options: (string | [text: string, word: string])[];
 }
 
-/// A list of one choice that the address keeps.
+/// A list with one selected value, which is kept in the address.
 export function Choice({ label, name = label.toLowerCase(), value = current_route().query[name] ?? "", options }: ChoiceProps) {
   return <label>{label} <select onChange={(event) => set_query({ [name]: typed(event) })}>
     {options.map((one) => typeof one === "string" ? [words(one) || "all", one] : one).map(([text, word]) =>
       <option value={word} selected={word === value}>{text}</option>)}</select></label>;
 }
 
-/// One of several values, or all; nothing to choose where there is one.
+/// A choice of one value or all; nothing if there is only one value.
 export function choice_of(label: string, values: string[]) {
   const all = in_order(values);
   return all.length > 1 && <Choice label={label} options={["", ...all]} />;
@@ -144,13 +146,14 @@ export function choice_of(label: string, values: string[]) {
 
 interface SliderProps { id?: string; label?: string; text?: string; min?: number; max: number; value: number; to: (value: number) => void }
 
-/// `text` is its value as people say it.
+/// `text` is the value as spoken by screen readers.
 export function Slider({ id, label, text, min = 0, max, value, to }: SliderProps) {
   return <input type="range" id={id} aria-label={label} aria-valuetext={text} min={min} max={max} value={String(value)} disabled={max <= min}
     onInput={(event) => to(Number(typed(event)))} />;
 }
 
-/// The state of a design, a campaign or a worker: always a word, the mark beside it only helps.
+/// The state of a design, a campaign or a worker. It is always written as a word; the symbol beside
+/// it is only an addition.
 export function state_word({ state, paused = false }: { state: string; paused?: boolean }) {
   const word = paused ? "paused" : state;
   return <span class={`state state-${word.replace(/\W/g, "-")}`}>{word}</span>;
@@ -159,7 +162,8 @@ export function state_word({ state, paused = false }: { state: string; paused?: 
 export class Copy extends Component<{ text: string; what?: string }, { done: boolean }> {
   #copy = async () => {
     const { text, what = "Copy as command" } = this.props;
-    // Browsers refuse it where the address is neither local nor https: by hand, then.
+    // Browsers refuse this if the address is neither local nor https; then the user must copy the
+    // text by hand.
     try { await navigator.clipboard.writeText(text); } catch { prompt(what, text); return; }
     this.setState({ done: true });
     announce(`Copied: ${what}`);
@@ -170,7 +174,7 @@ export class Copy extends Component<{ text: string; what?: string }, { done: boo
   }
 }
 
-/// Where it ends in ".csv" a table, else a picture.
+/// Saves a table if the name ends in ".csv", else a picture.
 export function save_as(name: string, text: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([text], { type: name.endsWith("csv") ? "text/csv" : "image/svg+xml" }));
@@ -179,22 +183,22 @@ export function save_as(name: string, text: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-// --- a question before something is done ------------------------------------------------------------
+// --- confirmation of commands -----------------------------------------------------------------------
 
 interface ConfirmProps {
   label: string;
   title: string;
-  /// What will happen, and how to undo it.
+  /// A description of the effect, and how to undo it.
   children?: any;
-  /// Does it; the sentence that it answers is shown.
+  /// Carries out the command; the sentence that it returns is shown.
   act: () => Promise<string>;
   danger?: boolean;
 }
 
-/// `said` is the answer of what was done, or why it was not.
+/// `said` is the sentence that says what was done, or the reason why it was not.
 interface ConfirmState { is_open?: boolean; is_busy?: boolean; said?: string; has_failed?: boolean }
 
-/// A button that asks before it acts. Without the token it says how to get it.
+/// A button that asks for confirmation. Without the token it explains how to get the token.
 export class Confirm extends Component<ConfirmProps, ConfirmState> {
   #dialog: HTMLDialogElement | null = null;
   #open = () => this.setState({ is_open: true, said: "" }, () => this.#dialog?.showModal());
@@ -232,35 +236,37 @@ type Value = string | number | null | undefined;
 
 export interface Column<Row> {
   key: string;
-  /// Else the key, in words.
+  /// By default the key, in words.
   label?: string;
-  /// What it is sorted and filtered by, and what CSV has; else the row's field of the key's name.
+  /// The value for sorting, filtering and CSV; by default the row's field with this key.
   value?: (row: Row) => Value;
-  /// What is shown; else the value as `usual` shows it.
+  /// The displayed content; by default the value as `usual` shows it.
   show?: (row: Row) => Children;
-  /// Else when all its values are numbers.
+  /// By default true if all its values are numbers.
   numeric?: boolean;
   title?: string;
 }
 
 interface TableProps<Row> {
-  /// Prefix of its state in the address, such as "w": w.sort=-busy, w.q=node, w.page=2. Tables of one
-  /// view have different ones.
+  /// Prefix of the table's state in the address, such as "w": w.sort=-busy, w.q=node, w.page=2.
+  /// Tables of the same view need different prefixes.
   name: string;
   caption: string;
-  /// A column that needs nothing else is its key.
+  /// For a column without other settings, the key is enough.
   columns: (Column<Row> | string)[];
   rows: Row[];
-  /// Sorted so unless the address says otherwise: "-busy" puts the largest first.
+  /// Default order: "-busy" puts the largest value first. The address may change it.
   sort?: string;
-  /// A stable name of the row, so that focus stays with it; else the value of its first column.
+  /// A stable name of the row, so that focus stays with it; by default the value of its first
+  /// column.
   row_key?: (row: Row) => string | number;
   row_class?: (row: Row) => string | false;
   empty?: Children;
   page_size?: number;
 }
 
-/// A value as its column's name says: things lead to their pages, times are those of the reader.
+/// Formats a value according to its column's name: ids link to their pages, times are in the
+/// reader's time zone.
 function usual(column: string, value: Value): Children {
   if (!is_known(value)) return "–";
   if (column === "at") return <time dateTime={String(value)} title={`${value} UTC`}>{when(String(value))}</time>;
@@ -275,7 +281,7 @@ function value_of<Row>({ key, value }: Column<Row>, row: Row): Value {
   return value ? value(row) : (row as any)[key];
 }
 
-/// What is not known comes last, whichever way.
+/// Unknown values come last in both directions.
 function sorted<Row>(columns: Column<Row>[], rows: Row[], sort: string): Row[] {
   const sign = sort[0] === "-" ? -1 : 1;
   const column = columns.find(({ key }) => key === sort.replace(/^-/, ""));
@@ -286,7 +292,7 @@ function sorted<Row>(columns: Column<Row>[], rows: Row[], sort: string): Row[] {
     .map((one) => one.row);
 }
 
-/// A table that sorts, filters and pages.
+/// A table with sorting, filtering and pages.
 export function Table<Row>({ name, caption, columns: given, rows, row_key, row_class, empty = "Nothing here yet.", sort: first_sort = "", page_size = 25 }: TableProps<Row>) {
   if (rows.length === 0) return <Empty>{empty}</Empty>;
   const columns: Column<Row>[] = given.map((one) => typeof one === "string" ? { key: one } : one);
@@ -316,7 +322,8 @@ export function Table<Row>({ name, caption, columns: given, rows, row_key, row_c
         <caption class="unseen">{caption}</caption>
         <thead><tr>{columns.map(({ key, label, title }, i) => {
           const [now, arrow] = sort === key ? ["ascending", "▲"] : sort === "-" + key ? ["descending", "▼"] : ["none", ""];
-          // Numbers are most wanted with the largest first.
+          // For numbers, the first click sorts the largest values first, because users usually want
+          // these.
           const down = arrow ? sort === key : numeric[i];
           return <th scope="col" class={numeric[i] ? "n" : ""} aria-sort={now} title={title}>
             <button onClick={() => set("sort", (down ? "-" : "") + key)}>{label ?? words(key)}<span aria-hidden="true" class="arrow">{arrow}</span></button></th>;

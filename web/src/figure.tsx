@@ -6,17 +6,17 @@ import { parse_csv } from "./format";
 import { current_route, Query } from "./route";
 
 interface FigureProps {
-  /// Of another campaign than the address names: "c1".
+  /// The campaign, if it is not the one in the address: "c1".
   c?: string;
-  /// As `swarmsmith figure KIND`.
+  /// As in `swarmsmith figure KIND`.
   kind: string;
   options?: Query;
-  /// What it shows, for the table's caption and for who cannot see it.
+  /// A description for the table's caption and for screen readers.
   name: string;
   version?: string | number;
-  /// Called with the picture when it stands in the page.
+  /// Called with the picture after it is inserted into the page.
   placed?: (svg: SVGSVGElement) => void;
-  /// In place of the server's sentence when there is nothing to draw.
+  /// Shown instead of the server's message if there is nothing to draw.
   missing?: JSX.Element;
 }
 
@@ -24,7 +24,7 @@ function figure_path({ c = current_route().path[0], kind, options }: FigureProps
   return path_of(`${c}/figures/${kind}.${ending}`, { ...options, width: width && `${width}mm` });
 }
 
-/// Buttons that save a figure as it goes to a paper, and its numbers.
+/// Buttons that save a figure for a paper, and its numbers.
 export class Files extends Component<FigureProps, { error?: ApiError }> {
   render({ kind, name }: FigureProps, { error }: { error?: ApiError }) {
     const button = (ending: string, width?: number) => <Quiet label={`${ending.toUpperCase()}: ${name}`} act={() =>
@@ -34,11 +34,12 @@ export class Files extends Component<FigureProps, { error?: ApiError }> {
   }
 }
 
-/// A figure of our C++ writers, with its SVG, CSV and table. It keeps a white ground.
+/// A figure drawn by the server, with its SVG, CSV and table. It keeps a white background.
 export class Figure extends Component<FigureProps, { is_table?: boolean; width?: number }> {
   #box!: HTMLElement;
 
-  /// In mm, so that its texts have the size of the page's. Few steps: the server keeps what it has drawn.
+  /// In mm, so that its texts are as large as those of the page. There are only a few steps,
+  /// because the server keeps each drawing.
   componentDidMount() {
     this.setState({ width: [240, 200, 160, 130, 100].find((mm) => mm * 3.78 <= this.#box.clientWidth) ?? 84 });
   }
@@ -62,7 +63,8 @@ export function Machine({ of, ...rest }: { of: string } & Partial<FigureProps>) 
 
 interface SvgProps { text: string; placed?: (svg: SVGSVGElement) => void }
 
-/// A picture of the server's own writers, as elements of the page: a pointer can meet its parts.
+/// A picture drawn by the server, inserted as elements of the page, so that its parts react to the
+/// pointer.
 class Svg extends Component<SvgProps, {}> {
   #box!: HTMLElement;
   componentDidMount() { this.componentDidUpdate(); }
@@ -70,7 +72,7 @@ class Svg extends Component<SvgProps, {}> {
     const picture = new DOMParser().parseFromString(this.props.text, "image/svg+xml").documentElement;
     if (picture.localName !== "svg") return;
     const svg = document.importNode(picture, true) as unknown as SVGSVGElement;
-    // As wide as in the file at most, and never wider than the page.
+    // At most as wide as in the file, and never wider than the page.
     svg.style.width = svg.getAttribute("width") ?? "";
     svg.removeAttribute("height");
     this.#box.replaceChildren(svg);
@@ -80,8 +82,8 @@ class Svg extends Component<SvgProps, {}> {
   render() { return <div class="svg" ref={(it: any) => (this.#box = it)} />; }
 }
 
-/// A table of the server as a table of the page. Columns whose names are in `first` come first, in its order; what is
-/// empty throughout is left out.
+/// A table from the server as a table of the page. Columns with names in `first` come first, in
+/// that order; columns that are completely empty are left out.
 export function CsvTable({ text, name, id, first = "" }: { text: string; name: string; id: string; first?: string }) {
   const [head, ...rows] = parse_csv(text), order = first.split(" "), place = (label: string) => (order.indexOf(label) + 99) % 99;
   const columns = head.map((label, i) => ({ label, i })).filter(({ i }) => !first || rows.some((row) => row[i])).sort((a, b) => place(a.label) - place(b.label));

@@ -1,4 +1,4 @@
-// Numbers, times and words as people read them.
+// Formats numbers, times and words for people.
 
 const kThin = "\u2009";
 const kMinus = "\u2212";
@@ -8,7 +8,7 @@ export function is_known<T>(value: T | null | undefined): value is T {
   return value !== null && value !== undefined;
 }
 
-/// The value, or the end that is nearer.
+/// The value, limited to the range.
 export function clamp(value: number, low: number, high: number): number {
   return Math.max(low, Math.min(high, value));
 }
@@ -20,7 +20,7 @@ export function whole(value: number | null | undefined): string {
   return (value < -0.5 ? kMinus : "") + digits.replace(/\B(?=(\d{3})+$)/g, kThin);
 }
 
-/// A measured number in four digits: 2.761, 381 000, 0.0123.
+/// A measured number with four digits: 2.761, 381 000, 0.0123.
 export function number(value: number | null | undefined, digits = 4): string {
   if (!is_known(value) || !isFinite(value)) return "–";
   const size = Math.abs(value);
@@ -43,13 +43,13 @@ export function duration(seconds: number | null | undefined): string {
   return s < 3600 ? both("min", "s", 1, 60) : s < 86400 ? both("h", "min", 60, 60) : both("d", "h", 3600, 24);
 }
 
-/// The time of day where the reader is.
+/// The time of day in the reader's time zone.
 export function clock(time: Date): string {
   return time.toLocaleTimeString("en-GB");
 }
 
-/// A UTC text of a store ("2026-11-25 12:03:04" or with T and Z), where the reader is: the time
-/// alone when it was today.
+/// A UTC time from a store ("2026-11-25 12:03:04" or with T and Z), in the reader's time zone;
+/// without the date if it is today.
 export function when(text: string): string {
   const date = new Date(text.replace(" ", "T").replace(/Z?$/, "Z"));
   if (isNaN(date.getTime())) return text;
@@ -61,30 +61,31 @@ export function count(value: number, one: string, many = one + "s"): string {
   return `${whole(value)} ${value === 1 ? one : many}`;
 }
 
-/// "grid_exploration" as a name that people read.
+/// "grid_exploration" in words.
 export function words(name: string): string {
   return name.replace(/_/g, " ");
 }
 
-/// Without doubles, numbers in the order of people: 3 before 20.
+/// Without duplicates, in natural order: 3 before 20.
 export function in_order(names: Iterable<string>): string[] {
   return [...new Set(names)].sort((a, b) => a.localeCompare(b, "en", { numeric: true }));
 }
 
-/// "c812" from a column's 812, or from what is a text already; null: none.
+/// "c812" from the number 812 in a column; texts stay unchanged; null: no id.
 export function id_of(letter: string, value: string | number | null | undefined): string | null {
   return !is_known(value) ? null : typeof value === "number" ? letter + value : value;
 }
 
-/// A word of a shell's command line, quoted if it must be.
+/// An argument for a shell's command line, quoted if necessary.
 export function shell_word(text: string): string {
   return /^[\w@%+=:,./-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";
 }
 
-/// What a spreadsheet would calculate, but for numbers and switches (--s0 1).
+/// Texts that a spreadsheet would evaluate as formulas, except numbers and switches (--s0 1).
 const kFormula = /^'*([=+@\t\r\n]|-(?!-?[a-z][\w .\-/:,]*$))/i;
 
-/// RFC 4180, with an apostrophe before what a spreadsheet would calculate, as the command line has it.
+/// RFC 4180, with an apostrophe before texts that a spreadsheet would evaluate, as in the files of
+/// the command line.
 export function csv(rows: unknown[][]): string {
   const cell = (value: unknown) => {
     let text = String(value ?? "");

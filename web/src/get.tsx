@@ -3,35 +3,37 @@ import { ApiError, ask, feed, path_of, Pending } from "./api";
 import { Empty, Failure, Waiting } from "./components";
 
 interface Props<T> {
-  /// Below api/v1/.
+  /// The path below api/v1/.
   path: string;
-  /// Asked anew when it changes, such as the version of a design; but so seldom that a viewer costs
-  /// at most a twentieth of a core.
+  /// The path is fetched again when this changes, such as the version of a design, but not so often
+  /// that a viewer costs more than a twentieth of a core.
   version?: string | number;
-  /// Also asked every so many seconds.
+  /// Number of seconds after which it is fetched again, too.
   every_s?: number;
-  /// Its columns only ever get longer, ordered by this one: then what is new after its last value is asked for.
+  /// For answers whose columns only grow, ordered by this column: then only the values after its
+  /// last one are fetched.
   grows?: string;
-  /// Shows the answer of the path before while the new one is on its way: for sliders.
+  /// Keeps showing the answer of the previous path until the new one arrives: for sliders.
   keep?: boolean;
   render: (data: T) => JSX.Element | (JSX.Element | false | null)[] | null;
-  /// In place of the server's sentence when there is nothing (404).
+  /// Shown instead of the server's message if there is nothing (404).
   missing?: JSX.Element;
 }
 
 interface State { path?: string; data?: unknown; error?: ApiError; pending?: Pending }
 
-/// Rows of columns; with more they are asked for as a whole: the server may have thinned them out.
+/// Maximum number of rows; longer columns are fetched as a whole, because the server may have
+/// thinned them out.
 const kMostGrown = 5000;
 
 type Lists = Record<string, any>;
 
-/// Columns with their new rows; the same object when there are none.
+/// The columns with the new rows added; the same object if there are none.
 export function grown(before: Lists, more: Lists, by: string): Lists {
   return more[by].length === 0 ? before : Object.fromEntries(Object.entries(more).map(([name, one]) => [name, Array.isArray(one) ? before[name].concat(one) : one]));
 }
 
-/// What the server says to a path, drawn by `render`, and renewed.
+/// Shows the server's answer at a path, drawn by `render`, and keeps it up to date.
 export class Get<T> extends Component<Props<T>, State> {
   #started = 0;
   #cost_ms = 0;
@@ -76,7 +78,7 @@ export class Get<T> extends Component<Props<T>, State> {
       });
       this.#cost_ms = cost_ms;
       const data = last === undefined ? got : grown(before!, got as Lists, grows!);
-      // "Nothing yet" is an answer: browsers complain of every request that fails.
+      // "Nothing yet" is a normal answer, because browsers complain about every failed request.
       const { nothing } = data as { nothing?: string };
       if (nothing !== undefined) throw new ApiError(404, nothing);
       next = { path, data, error: undefined, pending: undefined };
@@ -88,7 +90,8 @@ export class Get<T> extends Component<Props<T>, State> {
     if (this.props.every_s) this.#load_later(1000 * this.props.every_s);
   };
 
-  /// An answer of another version may lack what the page needs: the rest of the page stays.
+  /// An answer of another version may lack data that the page needs; the rest of the page must
+  /// still work.
   #drawn(data: T) {
     try { return this.props.render(data) as JSX.Element; } catch (error) {
       console.error(error);

@@ -1,4 +1,4 @@
-// What the types of Debian's Preact 8 leave out.
+// Types that are missing in Debian's Preact 8.
 declare namespace JSX {
   interface IntrinsicAttributes { key?: string | number }
 }

@@ -1,4 +1,4 @@
-// All pages, a line each; the order is that of the navigation.
+// All pages, one per line, in the order of the navigation.
 import { is_snapshot } from "./api";
 import { Page } from "./page";
 import { Campaigns } from "./pages/campaigns";
@@ -30,5 +30,5 @@ const all: Page[] = [
   { pattern: ":c/sql", label: "Data", letter: "s", view: Data, keys: [["Ctrl Enter", "ask"]] },
 ];
 
-/// A file answers no SQL.
+/// A snapshot file cannot run SQL.
 export const pages = all.filter((page) => !is_snapshot || page.view !== Data);

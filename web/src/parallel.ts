@@ -1,10 +1,10 @@
-// Parallel coordinates: what is drawn, what a brush chooses, and which line a pointer meets.
+// Parallel coordinates: drawing, selection by brushes, and the line under the pointer.
 
 import { Pen, Point, viridis } from "./canvas";
 import { clamp, in_order, is_known, number, words } from "./format";
 import { Cell } from "./types";
 
-/// Answer of designs/d3/parameters: columns, a value a candidate.
+/// The answer of designs/d3/parameters: columns with one value per candidate.
 export interface Sample {
   v: number;
   total: number;
@@ -16,7 +16,7 @@ export interface Sample {
   parameters: Record<string, Cell[]>;
 }
 
-/// A parameter's scale. Values of numbers lie between low and high; words stand evenly.
+/// A parameter's scale. Numbers lie between low and high; words are evenly spaced.
 export interface Axis {
   name: string;
   values: Cell[];
@@ -25,12 +25,12 @@ export interface Axis {
   high: number;
 }
 
-/// From and to, as parts of the axis: 0 is its foot.
+/// From and to, as positions on the axis; 0 is its lower end.
 export interface Brush { from: number; to: number }
 
 const kTop = 34, kFoot = 40, kSide = 74;
 
-/// Whether candidates differ in it; those without a value count as one more.
+/// Whether candidates differ in it; a missing value counts as a value, too.
 export function varies(values: Cell[]): boolean {
   return values.some((value) => value !== values[0]);
 }
@@ -41,21 +41,21 @@ export function axis_of(name: string, values: Cell[]): Axis {
   if (known.some((value) => typeof value !== "number")) return of_words(in_order(known.map(String)));
   const numbers = known.length ? known as number[] : [0, 1];
   const low = numbers.reduce((a, b) => Math.min(a, b)), high = numbers.reduce((a, b) => Math.max(a, b));
-  // Few whole numbers are words, too.
+  // A few whole numbers are treated as words.
   if (known.length && high - low <= 8 && numbers.every(Number.isInteger))
     return of_words(Array.from({ length: high - low + 1 }, (_, i) => String(low + i)));
   const room = low === high ? 0.5 : 0;
   return { name, values, words: null, low: low - room, high: high + room };
 }
 
-/// A value's place on an axis, 0 to 1.
+/// A value's position on an axis, 0 to 1.
 export function part_of({ words, low, high }: Axis, value: Cell): number {
   return ((words ? words.indexOf(String(value)) : Number(value)) - low) / (high - low);
 }
 
 export function value_of_part({ low, high }: Axis, part: number): number { return low + part * (high - low); }
 
-/// A candidate's place on an axis, 0 to 1; null: it has no such parameter.
+/// A candidate's position on an axis, 0 to 1; null: it does not have the parameter.
 export function part_on(axis: Axis, candidate: number): number | null {
   const value = axis.values[candidate];
   return is_known(value) ? part_of(axis, value) : null;
@@ -66,7 +66,7 @@ export function text_at(axis: Axis, part: number): string {
   return axis.words ? axis.words[clamp(Math.round(value), 0, axis.words.length - 1)] : number(value, 3);
 }
 
-/// Which candidates lie in all brushes.
+/// Which candidates lie within all brushes.
 export function chosen_by(axes: Axis[], brushes: Record<string, Brush>, count: number): boolean[] {
   const active = axes.filter((one) => brushes[one.name]);
   return Array.from({ length: count }, (_, candidate) => active.every((axis) => {
@@ -78,12 +78,12 @@ export function chosen_by(axes: Axis[], brushes: Record<string, Brush>, count: n
 
 export interface Plot {
   axes: Axis[];
-  /// 0 to 1 a candidate, null: nothing known.
+  /// From 0 to 1 for each candidate; null: not known.
   shade: (number | null)[];
   elite: (boolean | number)[];
   chosen: boolean[];
   brushes: Record<string, Brush>;
-  /// Line under the pointer.
+  /// The line under the pointer.
   met: number | null;
 }
 
@@ -91,7 +91,7 @@ export function x_of(axes: Axis[], at: number, width: number): number {
   return axes.length < 2 ? width / 2 : kSide + at * (width - 2 * kSide) / (axes.length - 1);
 }
 
-/// Words get a little room each, so that lines do not all lie on each other.
+/// The lines of a word are spread slightly, so that they do not all coincide.
 function y_of(axis: Axis, candidate: number, height: number): number {
   const part = part_on(axis, candidate);
   if (part === null) return height - 12;
@@ -104,13 +104,13 @@ export function part_of_y(y: number, height: number): number {
   return clamp(1 - (y - kTop) / (height - kTop - kFoot), 0, 1);
 }
 
-/// The axis whose line a pointer is at; null: it is between two.
+/// The axis under the pointer; null: it is between two axes.
 export function axis_at(axes: Axis[], x: number, width: number): number | null {
   const at = axes.findIndex((_, i) => Math.abs(x_of(axes, i, width) - x) <= 9);
   return at < 0 ? null : at;
 }
 
-/// The candidate whose line passes nearest to a place, within some pixels.
+/// The candidate whose line is nearest to a point, within a few pixels.
 export function line_at({ axes, chosen, elite }: Plot, x: number, y: number, width: number, height: number): number | null {
   if (axes.length < 2) return null;
   const step = (width - 2 * kSide) / (axes.length - 1);
@@ -153,7 +153,7 @@ function draw_axis(pen: Pen, axis: Axis, brush: Brush | undefined, x: number, at
   pen.path([[x, kTop], [x, foot]]).stroke(inks.ink, 1.25);
   if (brush) pen.box("rgba(0,114,178,.35)", x - 8, y_at(brush.to) - 1, 16, y_at(brush.from) - y_at(brush.to) + 2).stroke(inks.ink, 1.25);
   const write = (text: string, y: number, color = inks.ink, font?: string) => pen.say(text, x, y, "center", color, font, true);
-  // Neighbours' names stand at two heights, so that long ones have room.
+  // Names of neighbouring axes are at two heights, so that long ones have room.
   write(axis.name, at % 2 ? 8 : 20, inks.ink, "600 12px");
   if (axis.words) axis.words.forEach((word, i) => write(words(word), y_at(i / axis.high)));
   else for (const part of [0, 0.5, 1]) write(text_at(axis, part), y_at(part));

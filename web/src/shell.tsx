@@ -6,7 +6,7 @@ import { Page } from "./page";
 import { current_route, filled, go, href, match } from "./route";
 import { Design, Live } from "./types";
 
-/// Where the reader is: navigation leads to the pages of this campaign and design.
+/// The reader's current place: the navigation links to the pages of this campaign and design.
 type Place = { c?: string; d?: string };
 
 // --- light and dark ----------------------------------------------------------------------------------
@@ -30,20 +30,20 @@ function switch_theme(): void {
   show_theme();
 }
 
-/// What needs a look, as links.
+/// Problems that need attention, as links.
 export function look_list(looks: Live["looks"], most: number) {
   return <ul class="look">{looks.slice(0, most).map(({ text, page }) => <li><a href={"#/" + page}>{text}</a></li>)}
     {looks.length > most && <li class="faint">and {looks.length - most} more</li>}</ul>;
 }
 
-// --- the page around all pages -----------------------------------------------------------------------
+// --- the frame around all pages ---------------------------------------------------------------------
 
-/// The rate is that of the last minute: a process that has just begun has none.
+/// The rate is measured over the last minute, so a process that has just begun has none.
 export function eta_of({ status }: Live, eta_s: number | null): string {
   return eta_s !== null ? duration(eta_s) : status && status.uptime_s < 60 ? "not known yet" : "none: nothing moves";
 }
 
-/// The campaign and design that the address is about, else those most worth a look.
+/// The campaign and design in the address, else those that most need attention.
 function place_in([c, d]: string[], { campaigns }: Live, before: Place): Place {
   const campaign = campaigns.find((one) => one.c === c) ?? campaigns.find((one) => one.c === before.c) ?? campaigns[0];
   const design = (test: (one: Design) => boolean) => campaign?.designs.find(test);
@@ -76,7 +76,7 @@ function Head({ live }: { live: Live | null }) {
   </header>;
 }
 
-/// What is wrong with the connection, if anything is.
+/// Describes problems with the connection, if there are any.
 function Connection() {
   const { failure, at, live, next_try } = feed;
   if (!failure) return null;
@@ -118,7 +118,7 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
     addEventListener("hashchange", renew);
     addEventListener("keydown", this.#key);
     feed.listen(renew);
-    // The seconds of "trying again in 4 s".
+    // Updates the seconds in "trying again in 4 s".
     setInterval(() => { if (feed.stale) renew(); }, 1000);
     feed.start();
   }
@@ -131,7 +131,7 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
     document.body.classList.toggle("stale", stale);
     const path = current_route().path.join("/");
     if (path !== this.#gone_to && live) {
-      // Another page, for who hears it: its title is said, and Tab begins at its start.
+      // On a new page, screen readers announce its title, and Tab begins at its start.
       if (this.#gone_to) { announce(title); scrollTo(0, 0); }
       this.#gone_to = path;
     }

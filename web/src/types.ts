@@ -1,5 +1,5 @@
-// Answers of the HTTP API (docs/http-api.md). Ids are texts with letters where one thing is meant
-// ("d3"), numbers in columns. Times end in _s and are seconds, or are UTC texts.
+// Answers of the HTTP API (docs/http-api.md). The id of a single thing is a text with a letter
+// ("d3"); ids in columns are numbers. Times ending in _s are seconds; other times are UTC texts.
 
 export interface Design {
   id: string;
@@ -9,22 +9,22 @@ export interface Design {
   state: "waiting" | "racing" | "testing" | "finished" | "stopped" | "interrupted";
   used: number;
   budget: number;
-  /// What its race may still use: nothing once it is over.
+  /// Experiments that its race may still use; 0 when it has ended.
   left: number;
   iteration: number;
   alive: number | null;
   best: string | null;
-  /// In its race.
+  /// From its race.
   best_mean: number | null;
-  /// Of the winner's tests; null before they are done, and where there are none.
+  /// From the winner's tests; null before they are done, or if there are none.
   test_mean: number | null;
   test_runs: number;
   paused: boolean;
-  /// Moves when something of the design is new.
+  /// Changes whenever data of the design change.
   version: number;
   stage?: string;
   search?: string;
-  /// Its campaign's name, in a store of several.
+  /// The name of its campaign, in a store of several campaigns.
   campaign?: string;
 }
 
@@ -38,7 +38,7 @@ export interface Campaign {
   budget: number;
   left: number;
   eta_s: number | null;
-  /// Why its store cannot be written; empty when well.
+  /// Why its store cannot be written; empty if it can.
   trouble: string;
   last_event: number;
   may_act: boolean;
@@ -97,7 +97,7 @@ export interface Live {
   may_act: boolean;
   running: boolean;
   status: Status | null;
-  /// What a person should know of, worst first, and the page that shows it: "c1/d3".
+  /// Problems that a person should know about, worst first, and the page that shows them: "c1/d3".
   looks: { text: string; page: string }[];
   campaigns: Campaign[];
 }
@@ -119,12 +119,12 @@ export interface Worker {
   last_heard_s: number;
 }
 
-/// Workers that get nothing until a person forgives who answers for them.
+/// Workers that get no work until a person forgives the key and address responsible for them.
 export interface Quarantine {
   who: string;
   reason: string;
   since: string;
-  /// The one process of `who` that is meant; 0: all.
+  /// The number of a single worker of `who`; 0: all of its workers.
   worker: number;
   workers: number;
 }
@@ -153,7 +153,7 @@ export interface Event {
 
 export interface Race {
   iteration: number;
-  /// "Race 4", "Generation 4"; and why it is not a race.
+  /// "Race 4", "Generation 4"; and a note if it is not a race.
   title: string;
   note: string;
   ended: boolean;
@@ -169,16 +169,16 @@ export interface Race {
   p_value: (number | null)[];
   best: (number | null)[];
   mean_best: (number | null)[];
-  /// Candidates with a rank, whether they are in this answer or not.
+  /// Number of candidates with a rank, including those that are not in this answer.
   ranked: number[];
   candidates: number[];
-  /// Rank among the elites; null for none.
+  /// Rank among the elites; null if it is not an elite.
   elite_before: (number | null)[];
   elite_after: (number | null)[];
-  /// The step that dropped the candidate; null: it is alive, or was at the end.
+  /// The step that dropped the candidate; null: it is alive, or survived to the end.
   dropped_at: (number | null)[];
   reasons: (string | null)[];
-  /// [step][i] of candidate i; a candidate that was dropped before has none.
+  /// [step][i] for candidate i; null if the candidate was dropped earlier.
   scores: (number | null)[][];
   ranks: (number | null)[][];
 }
@@ -190,7 +190,7 @@ export interface Iteration {
   configurations: number;
   elites: number;
   soft_restart: number;
-  /// What is said in place of its number.
+  /// Shown instead of its number.
   round: string | null;
 }
 
@@ -207,13 +207,14 @@ export interface DesignAnswer {
   design: { seed: number; reason: string | null; flavour: string; name: string } & Record<string, Cell>;
   iterations: Iteration[];
   elites: Elite[];
-  /// Without a flavour: of a program.
+  /// The flavour is null for a program's configuration.
   machine: { candidate: number; text: string; flavour: string } | null;
   tests: { n: number; mean: number; low: number; high: number } | null;
   commands: { number: number; at: string; who: string; kind: string; step: number | null; budget: number | null }[];
 }
 
-/// Rings of the coordinator's memory: shares of the slots' time by cause, since the process began.
+/// Samples from the coordinator's memory: shares of the slots' time by cause, since the process
+/// began.
 export interface History {
   t_s: number[];
   evaluations_per_s: (number | null)[];

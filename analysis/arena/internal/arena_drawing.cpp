@@ -17,12 +17,12 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kCyclesASecond = 10;
-constexpr double kTolerance = 0.06;        ///< of trails, mm: less than a pixel of 300 a inch
-constexpr double kSmallestNumbered = 4.5;  ///< body with a number in it, mm
-/// Parts of a trail, each a little stronger than the one before.
+constexpr double kTolerance = 0.06;        ///< of trails, mm: less than a pixel at 300 per inch
+constexpr double kSmallestNumbered = 4.5;  ///< smallest body in which a number is drawn, mm
+/// A trail is drawn in this number of parts, each slightly stronger than the one before.
 constexpr std::size_t kFadeSteps = 8;
 
-/// How far floor colours are on the way to white.
+/// How far floor colours are lightened towards white.
 constexpr double kFloorPaleness = 0.5;
 
 std::string color_text(Rgb color) {
@@ -35,7 +35,7 @@ std::string color_text(Rgb color) {
   return text;
 }
 
-/// What a floor colour looks like: black stays darker than grey, and trails are seen on both.
+/// The drawn colour of a floor: black remains darker than grey, and trails are visible on both.
 std::string floor_color(Rgb color) {
   return lightened(color_text(color), kFloorPaleness);
 }
@@ -47,7 +47,7 @@ std::string contrast_of(const std::string& color) {
   return gray > 140'000 ? "#000000" : "#ffffff";
 }
 
-/// A thin line that grows stronger with time, on a white one if it shall stand out.
+/// Draws a thin line that becomes stronger with time, on top of a white line if `on_white`.
 void draw_trail(Svg& svg, std::span<const PagePoint> track, const std::string& color,
                 bool on_white) {
   if (track.size() < 2) return;
@@ -59,13 +59,13 @@ void draw_trail(Svg& svg, std::span<const PagePoint> track, const std::string& c
     if (first == last) continue;
     const double age = 1 - static_cast<double>(part + 1) / static_cast<double>(kFadeSteps);
     const auto points = simplified(track.subspan(first, last - first + 1), kTolerance);
-    // Who stands leaves no trail.
+    // A robot that does not move leaves no trail.
     if (points.size() == 2 && points.front() == points.back()) continue;
     svg.line(points, stroked(lightened(color, 0.6 * age), 0.4));
   }
 }
 
-/// How far the outline goes to the front.
+/// How far the outline extends to the front.
 double front_of(const Outline& outline) {
   double front = 0;
   for (const Point corner : corners_of(outline))
@@ -73,7 +73,7 @@ double front_of(const Outline& outline) {
   return front;
 }
 
-/// Only the outline, with a line towards its head.
+/// Draws only the outline, with a line towards its front.
 void draw_start(Svg& svg, const ArenaView& view, const Outline& body, const Pose& pose,
                 const std::string& color) {
   const double front = front_of(body);
@@ -86,7 +86,7 @@ void draw_start(Svg& svg, const ArenaView& view, const Outline& body, const Pose
   }
 }
 
-/// The body with a triangle at its head and its number, where there is room for one.
+/// Draws the body with a triangle at its front and its number, if there is room for the number.
 void draw_robot(Svg& svg, const ArenaView& view, const Outline& body, const Pose& pose,
                 std::size_t number) {
   const std::string color = distinct_color(number);
@@ -107,7 +107,7 @@ void draw_robot(Svg& svg, const ArenaView& view, const Outline& body, const Pose
            {.size = size, .anchor = TextStyle::Anchor::Middle, .bold = true, .fill = mark});
 }
 
-/// The end of the trail over the robot that stands on it, and dots with the time.
+/// Draws the end of the trail on top of its robot, and dots with the time.
 void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, std::size_t number) {
   const std::vector<PagePoint> track = view.track(picture.robots[number].poses);
   const std::string color = distinct_color(number);
@@ -121,7 +121,7 @@ void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, st
   const auto tail = simplified(std::span(track).subspan(first), kTolerance);
   if (tail.size() > 1) svg.line(tail, stroked(contrast_of(color), 0.25));
   constexpr double kSecondsDot = 0.55;
-  // A robot's number is not written over.
+  // A time must not cover a robot's number.
   const auto is_on_robot = [&](const PagePoint& place) {
     return std::ranges::any_of(picture.robots, [&](const PicturedRobot& robot) {
       return apart(place, view.on(robot.poses.back(), {0, 0})) < body + kSecondsDot;
@@ -131,7 +131,7 @@ void draw_times(Svg& svg, const ArenaView& view, const ArenaPicture& picture, st
   const auto every = static_cast<std::size_t>(picture.cycles_a_mark);
   for (std::size_t cycle = every; cycle < track.size(); cycle += every) {
     const PagePoint& at = track[cycle];
-    // Who stands has one dot.
+    // A robot that does not move gets only one dot.
     if (before && apart(*before, at) < 4 * kSecondsDot) continue;
     before = at;
     if (is_on_robot(at)) continue;
@@ -177,7 +177,7 @@ void draw_place(Svg& svg, const ArenaPicture& picture, const ArenaView& view) {
                    }},
         patch.shape);
   }
-  // Patches may reach beyond the walls, where there is no floor.
+  // Patches may extend beyond the walls, where there is no floor.
   svg.outside(walls, filled("#ffffff"));
   for (const Obstacle& obstacle : arena.obstacles)
     svg.polygon(view.outline(obstacle.outline, obstacle.pose), filled("#4d4d4d"));
@@ -216,7 +216,7 @@ void draw_objects(Svg& svg, const ArenaPicture& picture, const ArenaView& view) 
 }
 
 void draw_robots(Svg& svg, const ArenaPicture& picture, const ArenaView& view) {
-  // In large swarms the trails' white edges would hide more than they show.
+  // In large swarms, the white edges of trails would hide too much.
   const bool on_white = picture.robots.size() <= kMostNamedRobots;
   for (std::size_t i = 0; i < picture.robots.size(); ++i) {
     const PicturedRobot& robot = picture.robots[i];

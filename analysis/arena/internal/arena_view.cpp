@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The smallest rectangle around points.
+/// The bounding box of points.
 struct Box {
   double left = std::numeric_limits<double>::infinity();
   double right = -std::numeric_limits<double>::infinity();
@@ -59,7 +59,7 @@ ArenaView::ArenaView(const Arena& arena, double left_mm, double top_mm, double w
     box.add(wall.from);
   for (const Light& light : arena.lights)
     box.add({light.x_m, light.y_m});
-  // Walls have a thickness on the page, and lights are drawn as signs.
+  // Leaves room for the walls' thickness, and for the signs of lights.
   const double inset = arena.lights.empty() ? 0.5 : 2.2;
   const double width = width_mm - 2 * inset;
   const double height = height_mm - 2 * inset;

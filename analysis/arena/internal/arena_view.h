@@ -9,22 +9,22 @@
 
 namespace swarmsmith {
 
-/// From the arena's plane (metres, y up) to the page (millimetres, y down).
+/// Maps the arena's plane (metres, y up) to the page (millimetres, y down).
 class ArenaView {
  public:
-  /// Fits all that stands in the arena, and its lights, into the width and at most the height; its
-  /// upper edge is at `top_mm`.
+  /// Fits the arena, with everything in it and its lights, into the width and the maximum height;
+  /// its upper edge is at `top_mm`.
   ArenaView(const Arena& arena, double left_mm, double top_mm, double width_mm, double height_mm);
 
   PagePoint at(Point point) const;
   double length(double metres) const { return metres * scale_; }
-  double scale() const { return scale_; }  ///< mm on the page a metre
+  double scale() const { return scale_; }  ///< mm on the page per metre
   double bottom() const { return bottom_; }
 
   std::vector<PagePoint> walls(const Arena& arena) const;
-  /// An outline at a pose; circles as polygons with so many corners that they look round.
+  /// An outline at a pose; circles become polygons with enough corners to look round.
   std::vector<PagePoint> outline(const Outline& outline, const Pose& pose) const;
-  /// A place in the frame of something at a pose.
+  /// A place that is given in the frame of a body at this pose.
   PagePoint on(const Pose& pose, Point place) const;
   std::vector<PagePoint> track(const std::vector<Pose>& poses) const;
 
@@ -33,10 +33,10 @@ class ArenaView {
   double left_ = 0;
   double top_ = 0;
   double bottom_ = 0;
-  Point corner_;  ///< of the arena's box, upper left, metres
+  Point corner_;  ///< upper left corner of the arena's bounding box, metres
 };
 
-/// Corners of an outline in its own frame.
+/// The corners of an outline in the body's own frame.
 std::vector<Point> corners_of(const Outline& outline);
 
 }  // namespace swarmsmith

@@ -9,15 +9,15 @@
 namespace swarmsmith {
 namespace {
 
-/// What a test has to be able to say for anything to be found.
-/// Percentiles of the bootstrap miss more than 5 % of the truth with fewer.
+/// With fewer values, percentile intervals of the bootstrap miss the true value in more than 5 % of
+/// cases.
 constexpr std::size_t kFewValues = 10;
 
 /// Two samples of the same length, value by value.
 struct PairedValues {
   std::vector<double> first;
   std::vector<double> second;
-  std::size_t alone = 0;  ///< left out: designs or runs that only one of both has
+  std::size_t alone = 0;  ///< number of designs or runs left out because only one sample has them
 };
 
 PairedValues pair_designs(const ScoredDesigns& first, const ScoredDesigns& second) {
@@ -32,8 +32,8 @@ PairedValues pair_designs(const ScoredDesigns& first, const ScoredDesigns& secon
   return values;
 }
 
-/// Runs of the same design on the same instance and seed; several of them are one value, their
-/// mean.
+/// Pairs runs of the same design on the same instance and seed; several such runs give one value,
+/// their mean.
 PairedValues pair_runs(const ScoredDesigns& first, const ScoredDesigns& second) {
   PairedValues values;
   std::size_t places = 0;

@@ -7,13 +7,13 @@
 namespace swarmsmith {
 namespace {
 
-/// A row of Friedman's table before it is known to be complete: values by name.
+/// A row of Friedman's table that may still be incomplete: values by name.
 struct Block {
   std::string mission;
   std::map<std::string, double, NameOrder> values;
 };
 
-/// Blocks in order, those alone in which all of `names` have a value.
+/// Ranks the blocks, in order, that have a value for all of `names`.
 std::optional<ComparedRanks> ranked(const Names& names, const std::vector<Block>& blocks) {
   ComparedRanks ranks{.names = {names.begin(), names.end()}};
   std::vector<std::vector<double>> values;

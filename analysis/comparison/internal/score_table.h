@@ -13,9 +13,9 @@
 
 namespace swarmsmith {
 
-/// Scores sorted into what can be compared.
+/// Sorts scores into groups that can be compared.
 
-/// On what a design was run.
+/// The instance and seed of a design's run.
 struct RunKey {
   std::int64_t instance = 0;
   std::int64_t seed = 0;
@@ -23,11 +23,12 @@ struct RunKey {
   friend auto operator<=>(const RunKey&, const RunKey&) = default;
 };
 
-/// The scores of a design in a source.
+/// The scores of a design in one source.
 struct ScoredDesign {
   std::int64_t repetition = 0;
-  std::vector<double> scores;                      ///< in the order of the records
-  std::map<RunKey, std::vector<double>> by_place;  ///< the same; most often one a place
+  std::vector<double> scores;  ///< in the order of the records
+  std::map<RunKey, std::vector<double>>
+      by_place;  ///< the same scores by instance and seed; usually one each
 };
 using ScoredDesigns = std::map<DesignId, ScoredDesign>;
 
@@ -40,24 +41,24 @@ struct GroupKey {
 };
 using ScoreTable = std::map<GroupKey, ScoredDesigns>;
 
-/// The scores that the options ask for.
+/// The scores that the options select.
 ChosenScores wanted(std::vector<DesignScore> scores, const ComparisonOptions& options);
 
 ScoreTable score_table(const std::vector<DesignScore>& scores);
 
-/// The different texts of one part of the keys.
+/// The distinct values of one part of the keys.
 using Names = std::set<std::string, NameOrder>;
 Names names_in(const ScoreTable& table, std::string GroupKey::*part);
 
-/// One value a design, or one a run.
+/// One value per design, or one per run.
 std::vector<double> values_of(const ScoredDesigns& designs, ScoreUnit unit);
 
-/// Appends the pairs that make sense, each tested; without Holm's correction. `notes` get what was
-/// left out.
+/// Append the meaningful pairs with their tests, without Holm's correction. Data that were left out
+/// are mentioned in `notes`.
 void add_source_pairs(const ScoreTable& table, Comparison& comparison);
 void add_method_pairs(const ScoreTable& table, Comparison& comparison);
 
-/// Appends the rankings that the designs allow.
+/// Append the rankings that the designs allow.
 void add_source_ranks(const ScoreTable& table, Comparison& comparison);
 void add_method_ranks(const ScoreTable& table, Comparison& comparison);
 

@@ -22,7 +22,8 @@ constexpr double kCountSize = 2.2;
 constexpr double kBeforeCount = 0.5;
 constexpr std::size_t kMostCounted = 7;
 
-/// How often each value occurs, where that is worth writing: some do, and few differ.
+/// How often each value occurs. Empty unless some values repeat and there are only a few different
+/// ones.
 std::map<double, std::size_t> repeated(const std::vector<double>& values) {
   std::map<double, std::size_t> counts;
   for (const double value : values)
@@ -48,7 +49,7 @@ std::array<PagePoint, 4> corners_of(const BoxNumbers& box, const BoxPlace& place
            place.at(-place.half, lower)}};
 }
 
-/// What no point may hide.
+/// Draws the lines that no point may hide.
 void draw_lines(Svg& svg, const BoxNumbers& box, const BoxPlace& place, const Axis& axis,
                 const std::string& color) {
   const double half = place.half;
@@ -73,7 +74,7 @@ void draw_mean(Svg& svg, double mean, const BoxPlace& place, const Axis& axis) {
               {.fill = "#ffffff", .stroke = std::string(kInk), .width = 0.25, .dashes = {}});
 }
 
-/// Points of sorted values.
+/// Draws the points; the values must be sorted.
 void draw_points(Svg& svg, const std::vector<double>& sorted, const BoxPlace& place,
                  const Axis& axis, const std::string& color) {
   constexpr std::size_t kMany = 60;
@@ -82,7 +83,7 @@ void draw_points(Svg& svg, const std::vector<double>& sorted, const BoxPlace& pl
            sorted.size() > kMany ? lightened(color, 0.35) : color);
 }
 
-/// "x12" at the right of each value, unless they are too near to each other to be read.
+/// Writes "x12" to the right of each value, unless the values are too close to each other.
 void draw_counts(Svg& svg, const std::vector<double>& values, const BoxPlace& place,
                  const Axis& y) {
   const auto counts = repeated(values);
@@ -110,8 +111,8 @@ double count_room(const std::vector<double>& values) {
   return room;
 }
 
-/// Spread over the box by steps of the golden ratio in the order of the values: neighbours in
-/// value, tied ones above all, come to lie far apart.
+/// Spreads points over the box in steps of the golden ratio, in the order of the values, so that
+/// neighbouring values, and especially equal ones, are far apart.
 std::vector<PagePoint> point_places(const std::vector<double>& values, const BoxPlace& place,
                                     const Axis& axis) {
   constexpr double kGolden = 0.6180339887498949;

@@ -10,14 +10,14 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kRow = 5.4;      ///< of a box
-constexpr double kPairRow = 7.4;  ///< of two
+constexpr double kRow = 5.4;      ///< height for one box
+constexpr double kPairRow = 7.4;  ///< height for two boxes
 constexpr double kLeastSqueeze = 0.55;
-constexpr double kMostNamePart = 0.42;  ///< of a panel's width
-constexpr double kLeastArea = 34;       ///< what boxes need beside their names
+constexpr double kMostNamePart = 0.42;  ///< relative to a panel's width
+constexpr double kLeastArea = 34;       ///< minimum width of the boxes beside their names
 constexpr double kNameLine = 3.2;
 constexpr double kBeforeName = 1.5;
-constexpr double kCounts = 6;  ///< the column with n
+constexpr double kCounts = 6;  ///< width of the column with n
 constexpr double kCountSize = 2.2;
 constexpr double kAxisRoom = 7;
 constexpr std::string_view kGuide = "#dddddd";
@@ -107,7 +107,7 @@ void BoxRows::draw_panel(Svg& svg, const ScorePanel& panel, double left, double 
   area.width = left + grid_.width() - kCounts - area.left;
   draw_panel_title(svg, panel.title, left, area.top, grid_.width() - kCounts);
   svg.text({area.right() + kCounts, area.top - 1}, "n", ink(TextStyle::Anchor::End, kCountSize));
-  // Values at the ends stand clear of them.
+  // Keeps the outermost values away from the ends.
   const Axis x(range_of(panel), area.left + 1.5, area.right() - 1.5);
   const double step = tick_step(x.range(), ticks_across(x));
   for (const double tick : ticks_in(x.range(), step)) {

@@ -10,18 +10,18 @@
 
 namespace swarmsmith {
 
-/// Boxes come in pairs of one name, a narrow one and a wide one.
+/// Whether boxes come in pairs with the same name, a narrow and a wide one.
 bool has_pairs(const ScorePanel& panel);
-/// Beside the boxes, in their order; of a pair one.
+/// Names beside the boxes, in their order; one name per pair.
 std::vector<std::string> names_of(const ScorePanel& panel);
-/// Of a panel's axis.
+/// The range of a panel's axis.
 ValueRange range_of(const ScorePanel& panel);
 
-/// Boxes that lie below each other, their whole names at the left: for names that are too long to
-/// stand side by side, and for many boxes.
+/// Horizontal boxes one below the other, with their full names at the left: for long names, and for
+/// many boxes.
 class BoxRows {
  public:
-  /// `most_height`: rows become lower, as far as they can be read, to stay within it.
+  /// `most_height`: rows are made lower to stay within it, as long as they remain readable.
   BoxRows(const std::vector<ScorePanel>& panels, double page_width, double most_height);
 
   double height() const;
@@ -36,8 +36,8 @@ class BoxRows {
 
   const std::vector<ScorePanel>& panels_;
   PanelGrid grid_;
-  double names_ = 0;    ///< room for them
-  double squeeze_ = 1;  ///< part of the usual height that a row has
+  double names_ = 0;    ///< width of the names
+  double squeeze_ = 1;  ///< row height divided by the usual height
 };
 
 }  // namespace swarmsmith

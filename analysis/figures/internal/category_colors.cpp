@@ -27,7 +27,7 @@ bool before(const std::string& a, const std::string& b) {
   return a < b;
 }
 
-/// What is a colour by its name looks like it.
+/// A value that names a colour is drawn in that colour.
 std::optional<std::string> natural_color(std::string_view word) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kNatural = {
       {{"black_floor", "#000000"},
@@ -42,8 +42,8 @@ std::optional<std::string> natural_color(std::string_view word) {
   return std::nullopt;
 }
 
-/// Okabe and Ito's colours, pale and dark by turns: parts that are stacked in this order have a
-/// border in a print in black and white, too.
+/// Okabe and Ito's colours, alternately pale and dark, so that parts stacked in this order have
+/// visible borders in a black-and-white print, too.
 std::string stacked_color(std::size_t number) {
   constexpr std::array<std::pair<std::string_view, double>, 6> kColors = {{{"#e69f00", 0.35},
                                                                            {"#0072b2", 0},
@@ -53,11 +53,11 @@ std::string stacked_color(std::size_t number) {
                                                                            {"#d55e00", 0}}};
   const auto& [color, paleness] = kColors[number % kColors.size()];
   std::string result = lightened(std::string(color), paleness);
-  // Beyond them they begin again, paler.
+  // Beyond the last colour they repeat, paler.
   return number < kColors.size() ? result : lightened(result, 0.55);
 }
 
-/// Sets; no two share a value.
+/// Merges the lists into sets so that no two sets share a value.
 std::vector<std::set<std::string>> value_sets(const std::vector<std::vector<std::string>>& lists) {
   std::vector<std::set<std::string>> result;
   for (const auto& list : lists) {

@@ -7,7 +7,7 @@ namespace {
 
 using CellState = RacePlot::Cell::State;
 
-/// How the cells [first, end) of a row are painted together.
+/// The common colour of the cells [first, end) of a row.
 std::size_t paint_of(const RacePlot::Row& row, std::size_t first, std::size_t end) {
   double sum = 0;
   std::size_t ranked = 0;

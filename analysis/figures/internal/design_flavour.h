@@ -7,8 +7,8 @@
 
 namespace swarmsmith {
 
-/// The flavour that the store says of a design: built in, or one of its campaign's own; null where
-/// this version has none of that name.
+/// The flavour of a design according to the store: built in, or from its campaign; null if this
+/// version does not know the name.
 const Flavour* flavour_of_design(StoreReader& store, DesignId design, const std::string& name);
 
 }  // namespace swarmsmith

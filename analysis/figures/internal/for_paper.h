@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// The plot without what a paper says in its caption, when that is asked for: title, details, and
-/// how to read it.
+/// If the options ask for a paper, removes the parts that belong in its caption: title, details,
+/// and the explanation.
 template <class Plot>
 Plot for_paper(Plot plot, const FigureOptions& options) {
   if (!options.paper) return plot;

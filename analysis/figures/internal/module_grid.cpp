@@ -19,16 +19,16 @@ constexpr double kLeastCell = 6.6;
 constexpr double kMostCell = 16;
 constexpr double kNumberSize = 2.3;
 constexpr double kNameSize = 2.5;
-constexpr double kNameRoom = 3.2;  ///< of a line of methods' names
+constexpr double kNameRoom = 3.2;  ///< height of a line of methods' names
 constexpr double kBeforeCell = 1.5;
 constexpr double kMostLabel = 24;
 constexpr double kSmallGap = 3;
 constexpr std::string_view kShade = "#0072b2";
-constexpr double kDarkest = 0.3;  ///< towards white: letters stay readable
+constexpr double kDarkest = 0.3;  ///< lightened towards white, so that letters stay readable
 
 using Cells = std::vector<std::optional<ModuleCounts>>;
 
-/// A grid: what its columns are called, and their cells.
+/// The names of a grid's columns, and their cells.
 struct MissionGrid {
   std::string mission;
   std::vector<std::pair<std::string, Cells>> methods;
@@ -49,7 +49,7 @@ std::vector<MissionGrid> grids_of(const ModuleChart& chart) {
   return grids;
 }
 
-/// "n = 10", or the number of each where they differ.
+/// "n = 10", or the range if the numbers differ.
 std::string designs_text(const MissionGrid& grid) {
   const auto [least, most] = std::ranges::minmax(grid.designs);
   return least == most ? fmt::format("n = {}", least) : fmt::format("n = {} to {}", least, most);
@@ -66,8 +66,7 @@ class GridDrawing {
       most = std::max(most, grid.methods.size());
     cell_ =
         std::min((places_.width() - label() - kBeforeCell) / static_cast<double>(most), kMostCell);
-    // Names stand on as many lines as they need to be clear of each other, one line after the
-    // other.
+    // Names are on alternating lines, as many as needed to keep them apart.
     while (static_cast<double>(levels_) * cell_ < widest_method() + 1)
       ++levels_;
   }
@@ -153,7 +152,7 @@ class GridDrawing {
     }
   }
 
-  /// Over its column, on a line of its own where its neighbours are too near.
+  /// Draws the name above its column, on a separate line from its neighbours if they are too close.
   void draw_name(Svg& svg, const std::string& name, std::size_t number, double x, double cells,
                  double right) const {
     const std::size_t level = levels_ - 1 - number % levels_;

@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// The chart of many methods on one page: a grid a mission with rows of modules and columns of
-/// methods, a number and a shade a cell.
+/// A chart of many methods on one page: one grid per mission, with a row per module and a column
+/// per method; each cell has a number and a shade.
 std::string draw_module_grid(const ModuleChart& chart);
 
 }  // namespace swarmsmith

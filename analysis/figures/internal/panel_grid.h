@@ -10,14 +10,14 @@
 
 namespace swarmsmith {
 
-/// Panels of one width in rows, as many side by side as have their least width.
+/// Panels of equal width in rows; a row has as many panels as fit with their minimum width.
 class PanelGrid {
  public:
   PanelGrid(std::size_t panels, double least_width, double page_width) : panels_(panels) {
     const double room = page_width - 2 * kMargin;
     columns_ = static_cast<std::size_t>((room + kGap) / (least_width + kGap));
     columns_ = std::clamp<std::size_t>(columns_, 1, std::max<std::size_t>(1, panels));
-    // The last row is as full as the others, where that costs no further row.
+    // Fills the last row as much as the others, if this needs no additional row.
     columns_ = (panels_ + rows() - 1) / std::max<std::size_t>(1, rows());
     columns_ = std::max<std::size_t>(1, columns_);
     width_ = (room + kGap) / static_cast<double>(columns_) - kGap;
@@ -38,10 +38,10 @@ class PanelGrid {
   double width_ = 0;
 };
 
-/// A panel's name, bold, above its area, which begins at `area_top`.
+/// Draws a panel's name in bold above its area, which begins at `area_top`.
 void draw_panel_title(Svg& svg, const std::string& title, double left, double area_top,
                       double width);
-/// The room that it needs above the area.
+/// The height of the panel's name above the area.
 inline constexpr double kPanelTitleRoom = kLineHeight + 2;
 
 }  // namespace swarmsmith

@@ -10,8 +10,8 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kNamePart = 0.3;  ///< of the figure's width, at most
-constexpr double kFan = 0.065;     ///< of the figure's width: free height between two axes
+constexpr double kNamePart = 0.3;  ///< maximum part of the figure's width
+constexpr double kFan = 0.065;     ///< free height between two axes, relative to the figure's width
 constexpr std::size_t kMostLabelLines = 5;
 
 ValueRange range_of(const ParallelPlot::Parameter& parameter) {
@@ -54,7 +54,7 @@ double ParallelLayout::at(std::size_t parameter, double value, double spread) co
   return bands.centre(static_cast<std::size_t>(value)) + 0.6 * bands.width() * spread;
 }
 
-/// Both ends, which say how far the values go, and the middle.
+/// Both ends, which show the range of the values, and the middle.
 std::vector<ParallelLayout::Label> ParallelLayout::number_labels(
     const ParallelPlot::Parameter& parameter) const {
   std::vector<Label> labels;
@@ -69,8 +69,8 @@ std::vector<ParallelLayout::Label> ParallelLayout::number_labels(
   return labels;
 }
 
-/// All categories, in as few lines by turns as they fit in, at most five, and shortened where that
-/// is not enough.
+/// All categories, on alternating lines: as few lines as possible, at most five. Labels that still
+/// do not fit are shortened.
 std::vector<ParallelLayout::Label> ParallelLayout::labels_of(
     const ParallelPlot::Parameter& parameter) const {
   if (parameter.categories.empty()) return number_labels(parameter);
@@ -82,7 +82,7 @@ std::vector<ParallelLayout::Label> ParallelLayout::labels_of(
   std::size_t lines = 1;
   while (lines < kMostLabelLines && widest > static_cast<double>(lines) * bands.width())
     ++lines;
-  // Places of labels of one line touch nowhere, also where the ends of the axis cut them.
+  // Labels on the same line do not touch, even where the ends of the axis limit them.
   const double half = static_cast<double>(lines) * bands.width() / 2 - 0.5;
   for (std::size_t i = 0; i < parameter.categories.size(); ++i) {
     const double from = std::max(bands.centre(i) - half, left_ - 1.5);

@@ -10,28 +10,28 @@
 
 namespace swarmsmith {
 
-inline constexpr double kAxisText = 2.3;  ///< size of the texts at the axes
+inline constexpr double kAxisText = 2.3;  ///< size of the labels at the axes
 inline constexpr double kAxisTextLine = 2.7;
-inline constexpr double kInactivePlace = 7;  ///< width of the place of what is not active
+inline constexpr double kInactivePlace = 7;  ///< width of the place for inactive parameters
 inline constexpr std::string_view kScoreName = "mean score";
 
-/// Places and texts of all axes of parallel coordinates, mm; of a plot that outlives it.
+/// Places and labels of all axes of parallel coordinates, mm. The plot must outlive this object.
 class ParallelLayout {
  public:
   struct Label {
     double x = 0;  ///< middle
     std::string text;
-    std::size_t line = 0;  ///< below the axis
+    std::size_t line = 0;  ///< line number below the axis
   };
 
   explicit ParallelLayout(const ParallelPlot& plot);
 
   double left() const { return left_; }
   double right() const { return right_; }
-  double names() const { return names_; }  ///< width of the names of axes, at most
+  double names() const { return names_; }  ///< maximum width of the axes' names
   double inactive_left() const { return inactive_left_; }
   double row(std::size_t parameter) const { return rows_[parameter]; }
-  /// Below the labels of an axis.
+  /// The lower end of an axis's labels.
   double label_end(std::size_t parameter) const { return label_ends_[parameter]; }
   double score_row() const { return score_row_; }
   ValueRange scores() const { return scores_; }
@@ -39,7 +39,7 @@ class ParallelLayout {
   const std::vector<Label>& labels(std::size_t parameter) const { return labels_[parameter]; }
   double score_at(double mean) const { return Axis(scores_, left_, right_).at(mean); }
 
-  /// `spread` in [-0.5, 0.5] keeps lines through one category apart.
+  /// `spread` in [-0.5, 0.5] separates lines through the same category.
   double at(std::size_t parameter, double value, double spread) const;
 
  private:

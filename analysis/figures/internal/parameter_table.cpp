@@ -28,7 +28,7 @@ double number_of(const std::string& text) {
   return value;
 }
 
-/// Words as they are spelled, numbers as numbers.
+/// Words in alphabetical order, numbers in numerical order.
 struct ValueOrder {
   bool are_numbers = false;
   bool operator()(const std::string& a, const std::string& b) const {
@@ -36,7 +36,8 @@ struct ValueOrder {
   }
 };
 
-/// Few whole numbers, close together: sizes and counts, that are better seen one by one.
+/// Whether there are only a few whole numbers in a small range, such as sizes and counts, which are
+/// better shown one by one.
 bool are_few_whole(const std::vector<const ParameterRecord*>& records) {
   double low = std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::lowest();
@@ -82,7 +83,7 @@ ParameterColumn column_of(const ParameterTable& table, std::string name,
   return column;
 }
 
-/// Shares of the values of the candidates [first, end), the last one: not active.
+/// Shares of the values of the candidates [first, end); the last share is the inactive ones.
 std::vector<double> shares(const ParameterColumn& column, std::size_t first, std::size_t end) {
   const std::size_t kinds = column.is_category() ? column.categories.size() : kTenths;
   std::vector<double> result(kinds + 1, 0);
@@ -99,7 +100,7 @@ std::vector<double> shares(const ParameterColumn& column, std::size_t first, std
   return result;
 }
 
-/// Whose weights stand in its text alone.
+/// The weights of a network are only in its text.
 bool is_network(StoreReader& store, CandidateId id) {
   const auto found = candidate(store, id);
   return found && architecture_of_text(found->machine) == Architecture::Network;
@@ -120,7 +121,7 @@ ParameterTable parameter_table(std::vector<SampledRecord> candidates,
   std::ranges::sort(table.candidates, std::less<>(), &SampledRecord::candidate);
   std::map<std::string, std::vector<const ParameterRecord*>> by_name;
   for (const ParameterRecord& record : records) {
-    // A candidate that came between two queries of a running campaign is left for the next time.
+    // Ignores a candidate that a running campaign added between two queries.
     if (table.row_of(record.candidate) < table.candidates.size())
       by_name[record.parameter].push_back(&record);
   }

@@ -10,43 +10,44 @@
 
 namespace swarmsmith {
 
-/// A parameter over all candidates of a design.
+/// One parameter for all candidates of a design.
 struct ParameterColumn {
   std::string name;
-  std::string words{};  ///< the name as people read it
-  /// Of a parameter that is drawn value by value: words in their order, or at most seven whole
-  /// numbers in theirs. Empty for one that is drawn along an axis.
+  std::string words{};  ///< the name for people
+  /// For a parameter that is drawn value by value: words in alphabetical order, or at most seven
+  /// whole numbers in numerical order. Empty for a parameter that is drawn along an axis.
   std::vector<std::string> categories;
-  double low = 0;  ///< of the numbers
+  double low = 0;  ///< smallest number
   double high = 0;
-  bool is_whole = false;       ///< the numbers are
-  std::vector<double> values;  ///< a candidate: place in `categories`, or number; NaN: not active
-  std::size_t active = 0;      ///< candidates that have it
+  bool is_whole = false;  ///< the numbers are whole
+  std::vector<double>
+      values;              ///< one per candidate: index in `categories`, or number; NaN: inactive
+  std::size_t active = 0;  ///< number of candidates that have it
 
   bool is_category() const { return !categories.empty(); }
 };
 
 struct ParameterTable {
   std::vector<SampledRecord> candidates;  ///< in the order in which they were sampled
-  std::vector<ParameterColumn> columns;   ///< by name
+  std::vector<ParameterColumn> columns;   ///< sorted by name
 
-  /// Place of a candidate; the number of candidates when it is not there.
+  /// The index of a candidate; the number of candidates if it is not in the table.
   std::size_t row_of(CandidateId candidate) const;
 };
 
 ParameterTable parameter_table(std::vector<SampledRecord> candidates,
                                const std::vector<ParameterRecord>& records);
 
-/// Reads it. Errors: NotFound when the design has no candidates or they no parameters.
+/// Reads the table. Errors: NotFound if the design has no candidates or they have no parameters.
 Expected<ParameterTable> read_parameter_table(StoreReader& store, DesignId design);
 
-/// How much the distribution of a parameter changed while the race went on: total variation
-/// distance, 0 to 1, between the first and the last third of the candidates; numbers in tenths of
-/// their range, and not being active counts as a value.
+/// How much the distribution of a parameter changed during the race: the total variation distance,
+/// 0 to 1, between the first and the last third of the candidates. Numbers are divided into tenths
+/// of their range; being inactive counts as a value.
 double movement(const ParameterColumn& column);
 
-/// The columns that a list such as "s0,tau0" names, in its order; none of an empty list. Errors:
-/// BadInput for a name that is not there (with those that are), or for more than `most`.
+/// The columns in a list such as "s0,tau0", in its order; none for an empty list. Errors: BadInput
+/// for an unknown name (the message lists the known ones), or for more than `most`.
 Expected<std::vector<std::size_t>> named_columns(const ParameterTable& table,
                                                  std::string_view names, std::size_t most);
 

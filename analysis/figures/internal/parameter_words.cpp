@@ -16,7 +16,7 @@ bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
 }
 
-/// "0" stays, "0x1" becomes "0.1"; nothing for what is not a place.
+/// "0" stays, "0x1" becomes "0.1"; empty if the text is not a place.
 std::optional<std::string> place_in(std::string_view text) {
   std::string place(text);
   const std::size_t cross = place.find('x');
@@ -27,7 +27,7 @@ std::optional<std::string> place_in(std::string_view text) {
   return is_place ? std::optional(place) : std::nullopt;
 }
 
-/// "exploration tau", or "beta" where several modules have the symbol; empty for none.
+/// "exploration tau", or "beta" if several modules have the symbol; empty if no module has it.
 std::string parameter_of(std::string_view symbol, const std::vector<ModuleSpec>& modules) {
   std::string found;
   std::string shared;

@@ -31,14 +31,14 @@ std::string density_color(std::size_t shade) {
 }
 
 std::array<std::string, 2> end_texts(const SamplingPlot::Panel& panel) {
-  // Whole numbers have half of their part beyond them.
+  // The range of whole numbers extends half a unit beyond the smallest and largest one.
   const double beyond = panel.is_whole ? 0.5 : 0;
   return {fmt::format("{:.4g}", panel.low + beyond), fmt::format("{:.4g}", panel.high - beyond)};
 }
 
 SamplingPanel::SamplingPanel(Svg& svg, const SamplingPlot::Panel& panel, const PlotArea& area)
     : svg_(svg), panel_(panel), area_(area), bands_(panel.columns.size(), area.left, area.right()) {
-  // Narrow columns touch: gaps would take most of their colour.
+  // Narrow columns have no gaps, because gaps would hide most of their colour.
   thickness_ = bands_.width() < 1 ? bands_.width() : 0.9 * bands_.width();
 }
 

@@ -10,26 +10,26 @@
 
 namespace swarmsmith {
 
-/// A line of a panel's name, mm.
+/// The height of a line of a panel's name, mm.
 inline constexpr double kPanelNameLine = 3.2;
 
-/// Densities from which a shade begins, 1 being an even spread over the range.
+/// The density from which each shade is used; 1 is an even spread over the range.
 inline constexpr std::array<double, 4> kDensities = {0, 1, 2, 4};
 std::string density_color(std::size_t shade);
 
-/// The least and the largest number of a panel, as texts.
+/// The smallest and the largest number of a panel, as texts.
 std::array<std::string, 2> end_texts(const SamplingPlot::Panel& panel);
 
-/// Draws one panel within its area; the numbers at its ends stand left of it.
+/// Draws one panel within its area; the numbers at the ends of its axis are left of the area.
 class SamplingPanel {
  public:
   SamplingPanel(Svg& svg, const SamplingPlot::Panel& panel, const PlotArea& area);
 
-  /// Of categories: stacked.
+  /// Draws the shares of categories, stacked.
   void shares(const CategoryColors& colors);
-  /// Of numbers: shades, and the elites' values.
+  /// Draws the densities of numbers as shades, and the elites' values.
   void densities();
-  /// And the name, on its base line and so wide at most.
+  /// Draws the frame and the panel's name, whose baseline begins at `name`, at most `width` wide.
   void frame(PagePoint name, double width);
 
  private:

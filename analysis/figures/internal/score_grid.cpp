@@ -26,7 +26,7 @@ constexpr double kBars = 0.9;
 constexpr double kBeforeArea = 1.5;
 constexpr std::string_view kHow = "Bars: share of the scores of a method and source, %";
 
-/// A column: a mission's bins, and the share that fills a row.
+/// A column: a mission's bins, and the share that fills the height of a row.
 struct Column {
   const ScorePanel* panel = nullptr;
   ScoreBins bins;
@@ -103,7 +103,7 @@ class ScoreGrid {
 
  private:
   std::size_t bands() const { return (plot_.panels.size() + across_ - 1) / across_; }
-  /// The mission's name, whole, over its column.
+  /// The mission's full name above its column.
   std::vector<std::string> title_lines(const std::string& title) const {
     return whole_lines(title, kTextSize * kBolder, column_ + kGap - 1);
   }
@@ -163,7 +163,8 @@ class ScoreGrid {
     draw_axis(svg, column.range(), area);
   }
 
-  /// Thousands are short, and texts stay within the column: the next one begins beside it.
+  /// Thousands are abbreviated, and labels stay within the column, because the next column begins
+  /// right beside it.
   static void draw_axis(Svg& svg, ValueRange range, const PlotArea& area) {
     constexpr double kThousand = 1000;
     constexpr std::size_t kTicks = 3;

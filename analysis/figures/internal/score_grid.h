@@ -7,8 +7,8 @@
 
 namespace swarmsmith {
 
-/// Histograms of many groups on a page: a row a method, a column a mission, a colour a source,
-/// whose number among `sources` it is.
+/// Histograms of many groups on one page: a row per method, a column per mission, and a colour per
+/// source, given by its index in `sources`.
 std::string draw_score_grid(const ScoreDistribution& plot, const std::vector<std::string>& sources);
 
 }  // namespace swarmsmith

@@ -15,8 +15,8 @@
 namespace swarmsmith {
 namespace {
 
-/// What tells groups of a panel apart, method first: what a method got in one source stands beside
-/// what it got in the other, the source of the campaign's tests first.
+/// The key that separates and orders the groups of a panel. The method comes first, so that a
+/// method's scores in two sources are side by side, with the source of the campaign's tests first.
 std::tuple<std::size_t, bool, std::size_t> band_of(const DesignScore& score,
                                                    const StoreNames& names,
                                                    const std::string& tested) {
@@ -24,13 +24,13 @@ std::tuple<std::size_t, bool, std::size_t> band_of(const DesignScore& score,
           place_of(names.sources, score.source)};
 }
 
-/// The source of the campaign's tests; empty where none is drawn.
+/// The source of the campaign's tests; empty if no tests are drawn.
 std::string tested_source(const std::vector<DesignScore>& scores) {
   const auto test = std::ranges::find(scores, "test", &DesignScore::purpose);
   return test == scores.end() ? "" : test->source;
 }
 
-/// Whether what is drawn has more than one method, or source.
+/// Whether the scores have several methods or several sources.
 struct Several {
   bool methods = false;
   bool sources = false;

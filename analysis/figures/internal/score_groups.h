@@ -11,25 +11,27 @@
 
 namespace swarmsmith {
 
-/// Scores of winners, a panel a mission, ready to be drawn.
+/// Winners' scores prepared for drawing, one panel per mission.
 struct GroupedScores {
-  std::string by;  ///< what the colours stand for: source, method or mission
+  std::string by;  ///< the meaning of the colours: source, method or mission
   std::vector<ScorePanel> panels;
-  std::vector<std::string> details;  ///< how many scores of what
-  std::string csv;                   ///< a row a value
+  std::vector<std::string>
+      details;      ///< the number of scores and designs, and the meaning of a value
+  std::string csv;  ///< one row per value
 };
 
-/// Groups scores by `by`; without one by source where there are several, else by method. Neither
-/// several methods nor several sources ever get into one group: those of the other kind make groups
-/// of their own. Colours and order are the store's.
+/// Groups scores by `by`; if it is empty, by source if there are several sources, else by method. A
+/// group never mixes methods or sources: if there are several of both, each combination is a group.
+/// Colours and order are those of the store.
 GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::string_view by);
 
-/// Two sources of each method become pairs, as the field draws simulation beside another world: the
-/// first narrow, both with the method's name. Returns what tells them apart, in words; nothing, and
-/// changes nothing, where a group has no partner.
+/// Makes pairs if every method has exactly the same two sources, as usual in the field for
+/// simulation beside another environment: the box of the first source is narrow, and both have the
+/// method's name. Returns an explanation of the two widths. If a group has no partner, changes
+/// nothing and returns an empty text.
 std::string pair_boxes(std::vector<ScorePanel>& panels);
 
-/// Of a store. Errors: NotFound when no finished design has such a score.
+/// From a store. Errors: NotFound if no finished design has such a score.
 Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

@@ -4,7 +4,7 @@
 
 namespace swarmsmith {
 
-/// A value from `x` on, until the next one.
+/// A value that is valid from `x` until the next point.
 struct StairPoint {
   double x = 0;
   double y = 0;
@@ -12,10 +12,10 @@ struct StairPoint {
   friend bool operator==(const StairPoint&, const StairPoint&) = default;
 };
 
-/// The corners of the steps through points with growing x.
+/// The corners of the steps through points with increasing x.
 std::vector<StairPoint> stairs(const std::vector<StairPoint>& points);
 
-/// The median of several staircases, from where all of them have begun to where the first ends.
+/// The median of several staircases, from the last of their starts to the first of their ends.
 std::vector<StairPoint> median_of(const std::vector<std::vector<StairPoint>>& lines);
 
 }  // namespace swarmsmith

@@ -15,7 +15,8 @@ void sort(std::vector<std::string>& names) {
   names.erase(std::unique(names.begin(), names.end()), names.end());
 }
 
-/// Puts what a campaign says into the parameters that a unit hangs on, of the kinds that have them.
+/// Sets the parameters that decide the unit, for the kinds of score that have them, from the
+/// campaign's settings.
 struct PutUnit {
   std::string at;
   std::string unit;
@@ -32,7 +33,7 @@ struct PutUnit {
 
 std::string unit_of_score(const std::string& mission, const std::string& kind,
                           const std::string& at, const std::string& unit) {
-  if (kind.empty()) {  // imported designs: only their missions' names are known
+  if (kind.empty()) {  // imported designs: only the names of their missions are known
     const auto known = built_in_mission(mission);
     return known ? unit_of(known->rule) : "";
   }
@@ -43,7 +44,8 @@ std::string unit_of_score(const std::string& mission, const std::string& kind,
   return unit_of(*rule);
 }
 
-/// From what decides the campaigns: a JSON object of TOML values, in which texts have quotes.
+/// Reads the units from the campaigns' deciding settings: a JSON object of TOML values, in which
+/// texts have quotes.
 Expected<std::map<std::string, std::string>> units_of(StoreReader& store) {
   std::map<std::string, std::string> units;
   const auto end = store.query(

@@ -11,23 +11,24 @@
 
 namespace swarmsmith {
 
-/// What a store has names for, each in a fixed order (`NameOrder`).
-/// A thing's place is its colour in every figure of the store, whatever a figure leaves out.
+/// The names in a store, each list in a fixed order (`NameOrder`).
+/// The index of a name decides its colour in every figure of the store, even if a figure leaves out
+/// other names.
 struct StoreNames {
   std::vector<std::string> methods;          ///< of all designs
   std::vector<std::string> missions;         ///< of all designs
-  std::vector<std::string> sources;          ///< of all scores of winners, where asked for
-  std::map<std::string, std::string> units;  ///< by mission: what its scores count, where known
+  std::vector<std::string> sources;          ///< of all scores of winners, if requested
+  std::map<std::string, std::string> units;  ///< by mission: the unit of its scores, if known
 
   /// The mission in words, with its unit in brackets: "aggregation (robots)".
   std::string title_of(const std::string& mission) const;
 };
 
-/// All but the sources, for which the store reads all scores.
+/// All names except sources, for which the store would have to read all scores.
 Expected<StoreNames> names_of(StoreReader& store);
 Expected<StoreNames> names_with_sources(StoreReader& store);
 
-/// The number of names when it is none of them.
+/// The index of a name; the number of names if it is not among them.
 std::size_t place_of(const std::vector<std::string>& names, std::string_view name);
 
 }  // namespace swarmsmith

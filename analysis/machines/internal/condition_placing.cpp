@@ -9,13 +9,13 @@
 namespace swarmsmith {
 namespace {
 
-// Costs, in millimetres of way from the middle of an edge, as it were.
-constexpr double kUnderBox = 60;       // a curve that passes under a box,
-constexpr double kUnderBoxLength = 8;  // and more by the mm of it
+// Costs; the unit is 1 mm of distance from the middle of an edge.
+constexpr double kUnderBox = 60;       // for a curve that passes under a box,
+constexpr double kUnderBoxLength = 8;  // and in addition per mm under the box
 constexpr double kCrossing = 7;
-constexpr double kCrowded = 12;  // a mm of two ends of curves that are nearer than kEndDistance
+constexpr double kCrowded = 12;  // per mm by which two ends of curves are nearer than kEndDistance
 constexpr double kEndDistance = 2.4;
-constexpr double kAlongside = 8;  // a tenth of a curve that runs beside another
+constexpr double kAlongside = 8;  // per tenth of a curve that runs beside another one
 
 double under_cost(double length) {
   return length > 0 ? kUnderBox + kUnderBoxLength * length : 0;
@@ -28,7 +28,7 @@ class Placer {
       places_.push_back(places_of(task, edge));
   }
 
-  /// Edges in this order, then sweeps.
+  /// Places the edges in this order, then improves them in sweeps.
   Placing place(const std::vector<std::size_t>& order) {
     chosen_.assign(places_.size(), kNone);
     for (const std::size_t edge : order)
@@ -37,9 +37,8 @@ class Placer {
     return result();
   }
 
-  /// Takes some boxes that are near to each other out and puts them in again in another order, and
-  /// keeps what gets better: the way out of places that are best only as long as no other one
-  /// moves.
+  /// Removes some boxes that are close to each other, inserts them again in another order, and
+  /// keeps improvements. This escapes local optima in which no single box can be improved.
   Placing refine(const std::vector<PagePoint>& boxes) {
     start_from(boxes);
     Placing best = result();
@@ -66,7 +65,7 @@ class Placer {
     }
   }
 
-  /// The edge and those whose boxes are nearest to its box, the nearest first.
+  /// The edge, and the edges whose boxes are nearest to its box, nearest first.
   std::vector<std::size_t> neighbourhood(std::size_t edge, std::size_t count) const {
     std::vector<std::size_t> edges(places_.size());
     std::iota(edges.begin(), edges.end(), 0U);
@@ -111,7 +110,7 @@ class Placer {
            first.target == second.source || first.target == second.target;
   }
 
-  /// Two ends of curves that come too near to each other at a state that they share.
+  /// The cost of two ends of curves that are too close to each other at a common state.
   double crowding(std::size_t a, const EdgePlace& at, std::size_t b, const EdgePlace& other) const {
     const auto ends = [](const PlacingTask::Edge& edge, const EdgePlace& place) {
       return std::array{std::pair(edge.source, place.line.front()),
@@ -127,10 +126,11 @@ class Placer {
     return cost;
   }
 
-  /// What the place costs beside the others, as far as they have one; gives up beyond `most`.
+  /// The cost of the place together with the edges that have been placed; stops when it exceeds
+  /// `most`.
   double cost_of(std::size_t edge, const EdgePlace& place, double most) const {
     double cost = place.alone;
-    // What is quickly known and costs most comes first.
+    // The most expensive conflicts, which are quick to compute, come first.
     for (std::size_t other = 0; other < places_.size(); ++other) {
       if (other == edge || chosen_[other] == kNone) continue;
       const double overlap = overlap_of(place.box, place_of(other).box, kBoxGap - 1e-6);
@@ -150,7 +150,7 @@ class Placer {
     return cost;
   }
 
-  /// Moves the edge's box to its best place; whether that is another one.
+  /// Moves the edge's box to its best place. Returns whether the place has changed.
   bool improve(std::size_t edge) {
     double best = std::numeric_limits<double>::infinity();
     std::size_t found = chosen_[edge];
@@ -174,7 +174,7 @@ class Placer {
       placing.boxes.push_back(place.box.centre);
       placing.apart = placing.apart && place.apart;
       placing.clear = placing.clear && place.clear;
-      // Each pair is met twice.
+      // Each pair is counted twice.
       placing.cost +=
           (place.alone + cost_of(a, place, std::numeric_limits<double>::infinity())) / 2;
       for (std::size_t b = 0; b < places_.size(); ++b) {
@@ -199,7 +199,8 @@ Placing place_conditions(const PlacingTask& task) {
   std::iota(order.begin(), order.end(), 0U);
   Placing best = placer.place(order);
   for (int turn = 1; turn < kPlacingOrders; ++turn) {
-    // Turned round, then by halves: the first ones get the straight ways.
+    // Tries other orders by reversing and rotating the list: the first edges get the straightest
+    // curves.
     if (turn % 2 == 1) {
       std::ranges::reverse(order);
     } else {

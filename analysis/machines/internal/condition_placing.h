@@ -7,26 +7,25 @@
 
 namespace swarmsmith {
 
-/// Where the boxes of conditions go, when the states have their places.
+/// Finds places for the boxes of conditions; the states have their places already.
 
 struct Placing {
-  std::vector<PagePoint> boxes;  ///< centres, one an edge
-  /// Sum of overlaps (much the most), of curves under boxes, crossings, crowded arrow heads, and of
-  /// ways from the middles of the edges.
+  std::vector<PagePoint> boxes;  ///< centres, one per edge
+  /// Sum of the costs of overlaps (by far the largest), curves under boxes, crossings, crowded
+  /// arrow heads, and distances from the middles of the edges.
   double cost = 0;
-  bool apart = false;  ///< neither boxes nor states overlap, and all are on the page
-  bool clear = false;  ///< nor does a curve pass under a box or through a state
+  bool apart = false;  ///< boxes and states do not overlap, and all are on the page
+  bool clear = false;  ///< also, no curve passes under a box or through a state
 };
 
-/// Tries places in a grid round the middle of each edge: first one edge after the other, then
-/// again and again until nothing gets better or `kPlacingSweeps` are over. The same for the same
-/// task, always.
+/// Tries places on a grid around the middle of each edge: first one edge after the other, then all
+/// edges repeatedly until nothing improves or `kPlacingSweeps` are done. Deterministic.
 Placing place_conditions(const PlacingTask& task);
 inline constexpr int kPlacingSweeps = 8;
-/// In so many orders.
+/// Number of different orders of edges that are tried.
 inline constexpr int kPlacingOrders = 4;
 
-/// Goes on from a placing of the same task, `kRefinements` rounds at most.
+/// Improves a placing of the same task, in at most `kRefinements` rounds.
 Placing refine_conditions(const PlacingTask& task, const Placing& placing);
 inline constexpr int kRefinements = 5;
 

@@ -8,10 +8,10 @@
 
 namespace swarmsmith {
 
-/// A text in quotes, as Graphviz reads it back.
+/// The text in quotes, escaped for Graphviz.
 std::string dot_text(std::string_view text);
 
-/// Lines of a label in quotes, joined by DOT's own sign for a centred line.
+/// The lines of a label in quotes, joined by DOT's escape for a centred line.
 std::string dot_label(const std::vector<LabelLine>& lines);
 
 }  // namespace swarmsmith

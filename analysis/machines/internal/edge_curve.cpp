@@ -8,10 +8,11 @@ namespace {
 
 constexpr int kCurveSteps = 4;
 
-/// Where within a parabola its given point may be; nearer to an end it would rear up.
+/// Limits where on a parabola its given point may be; nearer to an end, the curve would bend too
+/// much.
 constexpr double kFirstPart = 0.2;
 
-/// `length` long; to the right when there is no direction.
+/// A vector of this length in the given direction; to the right if the direction is zero.
 PagePoint directed(PagePoint direction, double length) {
   const double norm = length_of(direction);
   if (norm == 0) return {length, 0};
@@ -33,8 +34,8 @@ PagePoint point_on(const EdgeCurve& curve, double part) {
 
 EdgeCurve curve_through(const PageCircle& from, const PageCircle& to, PagePoint middle) {
   EdgeCurve curve = {from.centre, middle, to.centre};
-  // Where a curve ends on the circles depends on its control point, and the other way round; a few
-  // steps bring both within a hundredth of a millimetre.
+  // The ends of a curve on the circles depend on its control point, and the control point depends
+  // on the ends; a few iterations bring both within a hundredth of a millimetre.
   for (int step = 0; step < kCurveSteps; ++step) {
     curve[0] = from.centre + directed(curve[1] - from.centre, from.radius);
     curve[2] = to.centre + directed(curve[1] - to.centre, to.radius);
@@ -53,7 +54,7 @@ double length_within(PagePoint from, PagePoint to, const PageBox& box) {
   if (std::min(from.x, to.x) >= box.centre.x + box.half_width) return 0;
   if (std::max(from.y, to.y) <= box.centre.y - box.half_height) return 0;
   if (std::min(from.y, to.y) >= box.centre.y + box.half_height) return 0;
-  // Liang and Barsky: the part of the segment between its first and its last border.
+  // Liang and Barsky: the part of the segment between the last entry and the first exit.
   double first = 0;
   double last = 1;
   const PagePoint step = to - from;

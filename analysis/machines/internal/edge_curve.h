@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// Curves of transitions, and what they meet. Lengths are mm.
+/// Geometry of the curves for transitions. Lengths are mm.
 
 inline PagePoint operator+(PagePoint a, PagePoint b) {
   return {a.x + b.x, a.y + b.y};
@@ -29,24 +29,24 @@ inline double length_of(PagePoint a) {
   return std::sqrt(dot(a, a));
 }
 
-/// A rectangle by its middle and half its sides.
+/// A rectangle, given by its centre and half of its sides.
 struct PageBox {
   PagePoint centre;
   double half_width = 0;
   double half_height = 0;
 };
 
-/// How deep two boxes reach into each other, when each is `gap` wider than it is; 0 when apart.
+/// How deep two boxes overlap if each is widened by `gap`; 0 if they do not.
 inline double overlap_of(const PageBox& a, const PageBox& b, double gap) {
   const double x = a.half_width + b.half_width + gap - std::fabs(a.centre.x - b.centre.x);
   const double y = a.half_height + b.half_height + gap - std::fabs(a.centre.y - b.centre.y);
   return std::max(0.0, std::min(x, y));
 }
 
-/// From the nearest point of the box to a point; 0 within.
+/// The distance of a point from the box; 0 inside.
 double distance_to(const PageBox& box, PagePoint point);
 
-/// Begin, control and end of a quadratic Bezier curve.
+/// Start, control point and end of a quadratic Bezier curve.
 using EdgeCurve = std::array<PagePoint, 3>;
 
 PagePoint point_on(const EdgeCurve& curve, double part);
@@ -56,13 +56,13 @@ struct PageCircle {
   double radius = 0;
 };
 
-/// From one circle to another, through `middle`. Leaves and comes at right angles to the circles.
+/// A curve from one circle to another through `middle`. It is perpendicular to both circles.
 EdgeCurve curve_through(const PageCircle& from, const PageCircle& to, PagePoint middle);
 
-/// The length of a segment that lies within a box.
+/// The length of the part of a segment that lies within a box.
 double length_within(PagePoint from, PagePoint to, const PageBox& box);
 
-/// From a point to the nearest one of a segment.
+/// The distance of a point from a segment.
 inline double distance_to_segment(PagePoint point, PagePoint from, PagePoint to) {
   const PagePoint step = to - from;
   const double length2 = dot(step, step);

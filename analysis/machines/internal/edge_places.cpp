@@ -9,16 +9,16 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kThroughState = 1000;
-constexpr double kSideways = 0.35;  // a mm that the curve goes away from its chord,
-constexpr double kBent = 30;        // and the square of that by the chord's length
-constexpr double kAlong = 0.3;      // a mm from the middle of the chord
-constexpr double kWrongSide = 5;    // so that the two directions keep to two sides
+constexpr double kSideways = 0.35;  // per mm that the curve deviates from its chord,
+constexpr double kBent = 30;        // plus the square of that divided by the chord's length
+constexpr double kAlong = 0.3;      // per mm from the middle of the chord
+constexpr double kWrongSide = 5;    // so that the two directions use different sides
 
-/// Between a box and its own states: the arrow head, and some of the line.
+/// Between a box and its own states: the arrow head, and a part of the line.
 constexpr double kOwnGap = kArrowLength + 1.6;
-/// From a box to a curve that passes by.
+/// Between a box and a curve that passes it.
 constexpr double kCurveGap = 0.7;
-/// Nearer curves run beside each other.
+/// Curves that are nearer than this run beside each other.
 constexpr double kLineDistance = 1.3;
 
 constexpr std::size_t kMostPlaces = 200;
@@ -36,7 +36,7 @@ PageBox box_around(const std::array<PagePoint, kSegments + 1>& line) {
 
 /// Whether a point is nearer to a segment than `kLineDistance`.
 bool lies_beside(PagePoint point, PagePoint from, PagePoint to) {
-  // Most are far away, which takes no division to see.
+  // Most segments are far away; this test needs no division.
   if (point.x < std::min(from.x, to.x) - kLineDistance) return false;
   if (point.x > std::max(from.x, to.x) + kLineDistance) return false;
   if (point.y < std::min(from.y, to.y) - kLineDistance) return false;
@@ -44,7 +44,7 @@ bool lies_beside(PagePoint point, PagePoint from, PagePoint to) {
   return distance_to_segment(point, from, to) < kLineDistance;
 }
 
-/// Adds what the box and the curve do to the states.
+/// Adds the cost of conflicts between the states and the box or its curve.
 void meet_states(const PlacingTask& task, const PlacingTask::Edge& edge, EdgePlace& place) {
   for (std::size_t state = 0; state < task.states.size(); ++state) {
     const bool own = state == edge.source || state == edge.target;
@@ -98,7 +98,8 @@ std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edg
   const PagePoint chord = task.states[edge.target] - source;
   const double length = std::max(1e-9, length_of(chord));
   const PagePoint normal{-chord.y / length, chord.x / length};
-  // Boxes that are stacked are half a box apart, or a fourth of a wide one.
+  // Places for boxes above each other are half a box height apart; for boxes side by side, a fifth
+  // of their width.
   const bool stacked = std::fabs(normal.y) > 0.6;
   const double step = stacked ? (edge.height + kBoxGap) / 2 : (edge.width + kBoxGap) / 5;
   const auto rows = static_cast<int>(task.edges.size()) + 4;
@@ -114,7 +115,7 @@ std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edg
       places.push_back(place);
     }
   }
-  // A place is large: only those that stay are moved.
+  // A place is a large object, so only the places that stay are moved.
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i].alone; });

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// Places where the box of a condition may stand, and how two of them get on.
+/// Possible places for a condition's box, and the conflicts between two places.
 
 struct PlacingTask {
   struct Edge {
@@ -20,44 +20,43 @@ struct PlacingTask {
   std::vector<PagePoint> states;
   double radius = 0;  ///< of each state
   std::vector<Edge> edges;
-  double left = 0;  ///< nothing may lie beyond these two
+  double left = 0;  ///< everything must lie between these two
   double right = 0;
 };
 
-/// What an arrow head takes of an edge.
+/// The length of an edge that its arrow head covers.
 inline constexpr double kArrowLength = 2.2;
-/// The least that is between boxes, and between a box and a state.
+/// The minimum distance between two boxes, and between a box and a state.
 inline constexpr double kBoxGap = 1;
 
 /// The curve of an edge whose box is at `box`, up to the arrow head.
 EdgeCurve edge_curve(const PlacingTask& task, const PlacingTask::Edge& edge, PagePoint box);
 
-/// Costs are in millimetres of way from the middle of an edge, as it were; this is that of two
-/// things that must not overlap.
+/// The cost of an overlap. The unit of all costs is 1 mm of distance from the middle of an edge.
 inline constexpr double kOverlap = 2000;
 
-/// Curves are looked at as so many straight pieces.
+/// Curves are approximated by this number of straight segments.
 inline constexpr std::size_t kSegments = 10;
 
-/// A place of an edge's box, and what follows from it.
+/// A place for an edge's box, with its curve and cost.
 struct EdgePlace {
   PageBox box;
   std::array<PagePoint, kSegments + 1> line;  ///< the curve as a polyline
-  PageBox around;                             ///< the curve
-  double alone = 0;                           ///< the cost, without other edges
+  PageBox around;                             ///< bounding box of the curve
+  double alone = 0;                           ///< cost without other edges
   bool apart = true;
   bool clear = true;
 };
 
-/// The places of one edge, the best ones first, in a grid round the middle of its chord.
+/// The possible places for one edge, best first, on a grid around the middle of its chord.
 std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edge& edge);
 
-/// How much of a curve passes under another one's box, mm.
+/// The length of a curve that passes under the box of another place, mm.
 double length_under(const EdgePlace& curve, const EdgePlace& other);
 
 int crossings(const EdgePlace& a, const EdgePlace& b);
 
-/// How many points of a curve lie beside another one.
+/// The number of points of curve `a` that lie beside curve `b`.
 int points_alongside(const EdgePlace& a, const EdgePlace& b);
 
 }  // namespace swarmsmith

@@ -8,32 +8,32 @@
 
 namespace swarmsmith {
 
-/// Labels of modules as lines of text, and the shapes that are large enough for them. Lengths are
-/// mm.
+/// Labels of modules as lines of text, and the sizes of shapes that contain them. Lengths are mm.
 
-inline constexpr double kLinePitch = 1.25;  ///< of lines, by their size
-inline constexpr double kMiddle = 0.35;     ///< from a base line up to the middle of its letters
+inline constexpr double kLinePitch = 1.25;  ///< distance of lines, relative to their size
+inline constexpr double kMiddle =
+    0.35;  ///< from the baseline up to the middle of the letters, relative to their size
 
-/// 6 points at least; more where there is room.
+/// At least 6 points; larger if there is room.
 struct LabelSizes {
   double state;
   double condition;
 };
 LabelSizes label_sizes(double width_mm);
 
-/// Lines centred on the origin.
+/// The label's lines, centred on the origin.
 std::vector<LabelLine> lines_of(const ModuleLabel& label, double size);
 
 void move_lines(std::vector<LabelLine>& lines, PagePoint by);
 
-/// Of the smallest circle round lines that are centred on the origin.
+/// The radius of the smallest circle around lines that are centred on the origin.
 double radius_round(const std::vector<LabelLine>& lines);
 
-/// Of the smallest pointed box round the lines, with its points.
+/// The width and height of the smallest pointed box around the lines, including its points.
 double box_width(const std::vector<LabelLine>& lines);
 double box_height(const std::vector<LabelLine>& lines);
 
-/// The box's corners, from the left point clockwise.
+/// The box's corners, clockwise from the left point.
 std::array<PagePoint, 6> pointed_box(PagePoint centre, double width, double height);
 
 }  // namespace swarmsmith

@@ -9,7 +9,7 @@
 
 namespace swarmsmith {
 
-/// What the three forms of a picture share, by the number of a state.
+/// Colours and dashes of states, for all three formats of a picture.
 
 inline constexpr double kEdgeWidth = 0.35;
 inline constexpr double kStateWidth = 0.45;
@@ -23,7 +23,7 @@ inline std::string state_fill(std::size_t state) {
   return lightened(state_color(state), 0.88);
 }
 
-/// A state that nothing leads to, and what leaves it, is grey.
+/// A state that cannot be reached is grey, and so are its transitions.
 inline std::string color_of(const MachineLayout& layout, std::size_t state) {
   return layout.states[state].reachable ? state_color(state) : "#b4b4b4";
 }
@@ -34,7 +34,7 @@ inline std::string fill_of(const MachineLayout& layout, std::size_t state) {
 
 inline constexpr std::string_view kGreyText = "#6b6b6b";
 
-/// Lengths of strokes and gaps, mm; empty for a full line.
+/// Lengths of dashes and gaps, mm; empty for a solid line.
 inline std::string_view state_dashes(std::size_t state) {
   constexpr std::string_view kDashes[] = {"", "2 0.8", "0.7 0.6", "2.4 0.6 0.6 0.6"};
   return kDashes[state % 4];

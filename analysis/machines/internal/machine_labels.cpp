@@ -27,7 +27,7 @@ std::vector<std::string> name_lines(const ModuleSpec& spec) {
   return lines;
 }
 
-/// The letter of the thesis.
+/// The letter for the parameter in the thesis.
 std::string symbol_of(const std::string& parameter) {
   if (parameter == "tau") return "τ";
   if (parameter == "alpha") return "α";
@@ -37,8 +37,8 @@ std::string symbol_of(const std::string& parameter) {
   return parameter;
 }
 
-/// The search has two decimals; numbers of people that have many are shortened, since the picture
-/// is not where a machine is read back from.
+/// Values from the search have two decimals. Longer numbers from users are shortened, because a
+/// picture is not used to read a machine back.
 std::string value_text(double value) {
   std::string text = fmt::format("{}", value);
   return text.size() <= 7 ? text : fmt::format("{:.4g}", value);
@@ -65,7 +65,7 @@ ModuleLabel label(Module module, std::span<const double> values, const Flavour& 
   return result;
 }
 
-/// Each line cut behind each `end`; a blank behind it goes.
+/// Breaks each line after each `end` and removes a blank after it.
 std::vector<std::string> cut_lines(const std::vector<std::string>& lines, char end) {
   std::vector<std::string> cut;
   for (std::string_view line : lines) {

@@ -9,17 +9,17 @@
 
 namespace swarmsmith {
 
-/// What stands in a state or a condition: the module's name, on as many lines as it takes to be no
-/// wider than its parameters, then the parameters on one line.
+/// The label of a state or a condition: the module's name, broken into lines that are no wider than
+/// its parameters, and then the parameters on one line.
 struct ModuleLabel {
   std::vector<std::string> name;
-  std::vector<std::string> parameters;  ///< lines: "ξ = 10, η = 19.66"; empty without
+  std::vector<std::string> parameters;  ///< lines: "ξ = 10, η = 19.66"; may be empty
 };
 
-/// The same with a word a line, and a parameter a line.
+/// The same label with one word per line and one parameter per line.
 ModuleLabel narrowed(const ModuleLabel& label);
 
-/// Throws std::invalid_argument when the flavour has no such module.
+/// Throws std::invalid_argument if the flavour does not have the module.
 ModuleLabel label_of(const Behaviour& behaviour, const Flavour& flavour);
 ModuleLabel label_of(const Condition& condition, const Flavour& flavour);
 

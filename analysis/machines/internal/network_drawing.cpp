@@ -28,18 +28,19 @@ constexpr double kBarGap = 5;
 constexpr std::size_t kMostTicks = 11;
 constexpr int kBarSteps = 50;
 
-/// White at 0, the full colour of a direction at `most`.
+/// White at 0, the full colour of its sign at `most`.
 std::string color_of(double weight, double most) {
   const double part = std::min(1.0, std::fabs(weight) / most);
   return lightened(std::string(weight < 0 ? kBackwards : kForwards), 1 - part);
 }
 
-/// Letters with a contrast of 4.5:1: black on all of the orange, and on the blue where it is light.
+/// The text colour with a contrast of at least 4.5:1: black on all orange cells, and on blue ones
+/// that are light enough.
 std::string_view ink_on(double weight, double most) {
   return weight > 0.93 * most ? "#ffffff" : "#000000";
 }
 
-/// The end of the scale, the same for all networks within the bounds of the search.
+/// The end of the scale; the same for all networks within the bounds of the search.
 double end_of_scale(const Network& network) {
   double most = kMostWeight;
   for (const double weight : network.weights)
@@ -53,12 +54,12 @@ std::string shown_name(const std::string& name) {
   return is_angle ? name + "°" : name;
 }
 
-/// What a name of an input begins with: its sensor.
+/// The sensor of an input: the first word of the input's name.
 std::string_view sensor_of(std::string_view name) {
   return name.substr(0, name.find(' '));
 }
 
-/// Where the table's rows and columns are.
+/// Positions of the table's rows and columns.
 struct Table {
   std::vector<std::string> names;
   std::vector<double> tops;  ///< of the rows
@@ -66,7 +67,7 @@ struct Table {
   double left = 0;  ///< of the first column
   double cell = 0;  ///< width
   double size = 0;  ///< of letters
-  double most = 0;  ///< the scale's end
+  double most = 0;  ///< end of the scale
 };
 
 double scale_width(const Table& table) {
@@ -100,7 +101,7 @@ void write(Sketch& sketch, PagePoint at, std::string text, double size, TextStyl
       at, std::move(text), {.size = size, .anchor = anchor, .fill = std::string(color)}});
 }
 
-/// Names of columns on two lines, "left" over "wheel", so that narrow cells have room for them.
+/// Writes the names of columns on two lines, "left" above "wheel", so that they fit narrow cells.
 void draw_columns(Sketch& sketch, const Table& table) {
   for (std::size_t wheel = 0; wheel < kWheels; ++wheel) {
     const double x = table.left + (static_cast<double>(wheel) + 0.5) * table.cell;
@@ -137,7 +138,7 @@ void draw_scale(Sketch& sketch, const Table& table) {
   const double left = table.left + kWheels * table.cell + kBarGap;
   const double top = table.tops.front();
   const Axis axis({-table.most, table.most}, table.bottom, top);
-  // Each part reaches to the top, so that no seams show between them.
+  // Each part extends to the top, so that no seams are visible between them.
   for (int i = 0; i < kBarSteps; ++i) {
     const double low = table.bottom + (top - table.bottom) * i / kBarSteps;
     const double value = table.most * (2 * (i + 0.5) / kBarSteps - 1);

@@ -19,7 +19,7 @@ struct SvgPen {
   void operator()(const SketchText& shape) const { svg->text(shape.at, shape.text, shape.style); }
 };
 
-/// Options of \draw.
+/// Options for \draw.
 std::string tikz_paint(const Paint& paint) {
   const auto color = [](std::string_view key, const std::string& value) {
     return value == "none" ? std::string() : fmt::format("{}={},", key, tikz_color(value));
@@ -85,7 +85,7 @@ Svg svg_of(const Sketch& sketch, std::string_view title, std::string_view descri
 }
 
 std::string tikz_of(const Sketch& sketch) {
-  // The page's y goes down, TikZ' up.
+  // On the page y goes down, in TikZ it goes up.
   std::string text = "\\begin{tikzpicture}[x=1mm,y=-1mm]\n";
   text += fmt::format("\\useasboundingbox (0,0) rectangle ({:.2f},{:.2f});\n", sketch.width,
                       sketch.height);

@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// Shapes of a picture that is written as SVG and as TikZ alike. Lengths are mm.
+/// Shapes of a picture that can be written as SVG or as TikZ. Lengths are mm.
 
 struct SketchLine {
   std::vector<PagePoint> points;
@@ -30,7 +30,7 @@ struct SketchCircle {
 };
 
 struct SketchText {
-  PagePoint at;  ///< on the base line
+  PagePoint at;  ///< on the baseline
   std::string text;
   TextStyle style;
 };
@@ -40,13 +40,14 @@ using SketchShape = std::variant<SketchLine, SketchPolygon, SketchCircle, Sketch
 struct Sketch {
   double width = 0;
   double height = 0;
-  std::vector<SketchShape> shapes;  ///< later ones on top
-  /// For each state, the first of its shapes and the one behind its last: in order, apart.
+  std::vector<SketchShape> shapes;  ///< later shapes are on top
+  /// For each state, the index of its first shape and the index after its last shape; in order,
+  /// without overlaps.
   std::vector<std::pair<std::size_t, std::size_t>> states;
 
   /// A rectangle.
   void box(PagePoint top_left, double wide, double high, const Paint& paint);
-  /// Lines of a label, names darker than parameters.
+  /// Lines of a label; names are darker than parameters.
   void label(const std::vector<LabelLine>& lines);
 };
 

@@ -11,17 +11,17 @@ namespace {
 
 constexpr double kGrow = 1.15;
 constexpr int kMostHeights = 14;
-/// Of the trials, those that are worked out further.
+/// The number of best trials that are refined.
 constexpr std::size_t kRefined = 3;
-/// Heights that are still tried after one that leaves nothing to be wished for.
+/// The number of further heights that are tried after a perfect result.
 constexpr int kFurther = 1;
-/// What a millimetre of height costs beside the costs of a placing.
+/// Costs per mm of height and width, added to the cost of a placing.
 constexpr double kHeightCost = 0.8;
 constexpr double kWidthCost = 0.15;
 
-/// The states of the four corners, from the upper left one clockwise. State 0 is the first; the
-/// others stand so that few transitions go across, and then few up and down, where boxes, which are
-/// wide, have less room than above each other.
+/// The states at the four corners, clockwise from the upper left one. State 0 is the first. The
+/// others are chosen so that few transitions are diagonal, and then so that few are vertical: boxes
+/// are wide, so they have more room stacked above each other between two states side by side.
 std::array<std::size_t, 4> corners_by_traffic(const PlacingTask& task) {
   std::array<std::size_t, 4> order = {0, 1, 2, 3};
   std::array<std::size_t, 4> best = order;
@@ -35,7 +35,7 @@ std::array<std::size_t, 4> corners_by_traffic(const PlacingTask& task) {
       const std::size_t a = corner(edge.source);
       const std::size_t b = corner(edge.target);
       const bool across = (a + 2) % 4 == b;
-      const bool sideways = a + b == 1 || a + b == 5;  // of neighbours: 0 and 1, or 2 and 3
+      const bool sideways = a + b == 1 || a + b == 5;  // neighbours: 0 and 1, or 2 and 3
       cost += across ? 2 : sideways ? 0 : 0.8;
     }
     if (cost < least) {
@@ -46,10 +46,10 @@ std::array<std::size_t, 4> corners_by_traffic(const PlacingTask& task) {
   return best;
 }
 
-/// The busiest pair stands side by side, where boxes are stacked best; the third state below it, or
-/// above it when it is state 0, which is read first.
+/// The busiest pair is side by side, because boxes between them can be stacked. The third state is
+/// below the pair, or above it if it is state 0, which is read first.
 std::vector<PagePoint> triangle(const PlacingTask& task, PagePoint middle, double x, double y) {
-  std::array<std::size_t, 3> traffic{};  // of the two others, by the third
+  std::array<std::size_t, 3> traffic{};  // transitions between the other two states, by the third
   for (const PlacingTask::Edge& edge : task.edges)
     ++traffic[3 - edge.source - edge.target];
   const auto third = static_cast<std::size_t>(std::ranges::max_element(traffic) - traffic.begin());
@@ -62,7 +62,7 @@ std::vector<PagePoint> triangle(const PlacingTask& task, PagePoint middle, doubl
   return {left, right, below};
 }
 
-/// Centres for states that are `width` and `height` apart.
+/// Centres of states that are `width` and `height` apart.
 std::vector<PagePoint> centres(const PlacingTask& task, std::size_t states, double width,
                                double height) {
   const double middle = (task.left + task.right) / 2;
@@ -87,7 +87,7 @@ std::vector<PagePoint> centres(const PlacingTask& task, std::size_t states, doub
   return result;
 }
 
-/// Distances of columns of states that are worth trying: room for one, two or three boxes between.
+/// Useful distances between columns of states, with room for one, two or three boxes.
 std::vector<double> widths_for(const PlacingTask& task, std::size_t states) {
   const double most = task.right - task.left - 2 * task.radius;
   double box = 20;
@@ -104,7 +104,7 @@ std::vector<double> widths_for(const PlacingTask& task, std::size_t states) {
   return widths;
 }
 
-/// A way to place the states, with what came of it.
+/// A placement of the states, and its result.
 struct Trial {
   std::vector<PagePoint> states;
   Placing placing;
@@ -113,12 +113,12 @@ struct Trial {
   double cost() const { return placing.cost + size_cost; }
 };
 
-/// All distances of states, the cheapest first.
+/// All distances between states, lowest cost first.
 std::vector<Trial> trials_of(PlacingTask& task, std::size_t states) {
   std::vector<Trial> trials;
   for (const double width : widths_for(task, states)) {
     double height = 2 * task.radius + 14;
-    // Neighbours on an ellipse do not touch.
+    // Neighbours on an ellipse must not touch.
     if (states > 4) height = std::max(height, static_cast<double>(states) * task.radius);
     int further = kFurther;
     for (int i = 0; i < kMostHeights && further >= 0; ++i) {

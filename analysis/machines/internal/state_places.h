@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// Finds places for the states, and for the conditions by `place_conditions`: tries a fixed list of
-/// distances between states and keeps the best. Fills `task.states`.
+/// Finds places for the states, and for the conditions with `place_conditions`: tries a fixed list
+/// of distances between states and keeps the best result. Fills `task.states`.
 Placing place_all(PlacingTask& task, std::size_t states);
 
 }  // namespace swarmsmith

@@ -8,7 +8,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kPointsPerMm = 72.27 / 25.4;  ///< TeX's points
+constexpr double kPointsPerMm = 72.27 / 25.4;  ///< points of TeX
 constexpr double kFontSize_pt = 10;
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
@@ -16,8 +16,8 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     text.replace(at, from.size(), to), at += to.size();
 }
 
-/// Labels hold letters, digits, signs of numbers and the thesis' five Greek letters; those of trees
-/// and networks an arrow and degrees.
+/// Labels contain letters, digits, signs of numbers and the five Greek letters of the thesis;
+/// labels of trees and networks also contain an arrow and degree signs.
 std::string tex_text(std::string text) {
   replace_all(text, "τ", "$\\tau$");
   replace_all(text, "α", "$\\alpha$");
@@ -72,8 +72,8 @@ std::string tikz_dashes(std::string_view dashes) {
 
 std::string tikz_label(PagePoint at, std::string_view text, double size, std::string_view color,
                        TextStyle::Anchor anchor) {
-  // Ten points, scaled: every font of LaTeX has them, while other sizes may be replaced by near
-  // ones.
+  // Always ten points, scaled: every LaTeX font has this size, while other sizes may be replaced by
+  // similar ones.
   return fmt::format(
       "\\node[anchor={},inner sep=0pt,outer sep=0pt,scale={:.3f},{}"
       "font=\\sffamily\\fontsize{{10}}{{12}}\\selectfont] at {} {{{}}};\n",

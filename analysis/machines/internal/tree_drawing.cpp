@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kSequenceWithMemory = "→*";
 constexpr std::string_view kSelector = "?";
 
-/// A square with its sign.
+/// A square with its symbol.
 void draw_node(Sketch& sketch, const TreeLayout& layout, PagePoint centre, std::string_view sign,
                std::string_view color) {
   const double side = layout.node_side;

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// A laid out tree as shapes. Colours and dashes follow the subtree.
+/// The shapes of a tree with a layout. Each subtree has its own colour and dashes.
 Sketch sketch_of(const TreeLayout& layout);
 
 std::string dot_of(const TreeLayout& layout, std::string_view title);

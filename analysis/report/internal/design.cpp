@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// `text` with the design's number for each "#".
+/// `text` with every "#" replaced by the design's number.
 std::string of_design(std::string_view text, DesignId design) {
   std::string result;
   for (const char letter : text)

@@ -5,10 +5,10 @@
 namespace swarmsmith {
 namespace {
 
-/// A report has a dozen of them at most for each design, and should fit in a mail.
+/// A report has at most a dozen figures per design and should fit into an e-mail.
 constexpr std::size_t kMostFigureBytes = 300'000;
 
-/// How a person draws the same figure.
+/// The command that draws the same figure.
 std::string command_of(std::string_view kind, const FigureOptions& options) {
   std::string command = fmt::format("swarmsmith figure {} STORE", kind);
   if (options.filter.design) command += " --design " + to_string(*options.filter.design);

@@ -14,12 +14,12 @@
 
 namespace swarmsmith {
 
-/// Widths of figures in papers, mm: a column, and both.
+/// Widths of figures in papers, mm: one column, and two columns.
 inline constexpr double kColumnWidth = 84;
 inline constexpr double kWholeWidth = 174;
 
-/// A report while it is written: the page, where its rows come from, and the first thing that went
-/// wrong, after which nothing more is read.
+/// A report that is being written: the page, the store with its rows, and the first error, after
+/// which nothing more is read.
 class ReportDraft {
  public:
   ReportDraft(StoreReader& store, const ReportOptions& options)
@@ -30,7 +30,7 @@ class ReportDraft {
   const ReportOptions& options() const { return *options_; }
   const std::optional<Error>& trouble() const { return trouble_; }
 
-  /// The value, or an empty one when there is trouble.
+  /// The value, or an empty one after an error.
   template <class Value>
   Value take(Expected<Value> value) {
     if (value) return std::move(*value);
@@ -41,13 +41,13 @@ class ReportDraft {
   void table(const std::string& caption, const std::vector<ViewColumn>& columns,
              const std::string& sql, std::size_t most = 200);
   void facts(std::string_view caption, const std::string& sql);
-  /// The figure of this kind. One of a kind that this program lacks, that does not apply, or for
-  /// which the store has nothing, is left out; one that would fill the report is replaced by the
-  /// command that draws it.
+  /// Adds the figure of this kind. Leaves it out if the program does not have this kind, if it does
+  /// not apply, or if the store has no data for it. A figure that is too large for the report is
+  /// replaced by the command that draws it.
   void figure(std::string_view kind, const FigureOptions& options, std::string_view caption);
 
  private:
-  /// One more part is begun.
+  /// Counts the start of one more part.
   void count() {
     ++parts_;
     if (options_->progress) options_->progress(parts_);

@@ -12,11 +12,11 @@
 namespace swarmsmith {
 namespace {
 
-/// What a first page has room for; the rest is below.
+/// Limits of the first page; the rest is on the following pages.
 constexpr std::size_t kMostSentences = 6;
 constexpr std::size_t kMostMissions = 3;
 
-/// Of methods, else of sources, else of each group.
+/// About methods and about sources; if there are no pairs, about each group.
 std::vector<PaperSentence> sentences_of(const std::vector<DesignScore>& scores) {
   std::vector<PaperSentence> sentences;
   for (const CompareBy by : {CompareBy::Method, CompareBy::Source}) {
@@ -45,7 +45,7 @@ void write_sentences(HtmlPage& page, const std::vector<DesignScore>& scores) {
   page.end_folded();
 }
 
-/// The winner of a mission with the highest mean.
+/// The winner with the highest mean in a mission.
 struct Best {
   DesignId design;
   std::string mission;

@@ -8,8 +8,8 @@
 namespace swarmsmith {
 namespace {
 
-/// The keys of a campaign's file below `prefix`, which is cut off; texts without their quotes.
-/// Lists without entries say nothing.
+/// Writes the keys of a campaign's file below `prefix`, which is removed, with texts without
+/// quotes. Leaves out empty lists.
 void write_keys(ReportDraft& draft, std::int64_t campaign, const std::string& caption,
                 const std::string& prefix) {
   draft.facts(caption,
@@ -19,7 +19,7 @@ void write_keys(ReportDraft& draft, std::int64_t campaign, const std::string& ca
                           prefix.size() + 1, campaign, sql_text(prefix)));
 }
 
-/// What the designs of a campaign have in this column of v_designs, each once.
+/// The distinct values of this column of v_designs for the designs of a campaign.
 std::vector<std::string> names_of(ReportDraft& draft, std::int64_t campaign,
                                   const std::string& column) {
   std::vector<std::string> names;

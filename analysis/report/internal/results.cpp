@@ -18,7 +18,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A page of a paper, for figures of all designs.
+/// A width for figures of all designs, so that they fit on a page of a paper.
 constexpr double kMiddleWidth = 120;
 
 struct ScoreGroup {
@@ -26,12 +26,12 @@ struct ScoreGroup {
   std::vector<double> values;
 };
 
-/// Mission, method, whether it is not a test, source, purpose: the world that designs were made in
-/// comes before the others.
+/// Mission, method, whether it is not a test, source, purpose. So the source of the campaign's own
+/// tests comes first.
 using Key = std::tuple<std::string, std::string, bool, std::string, std::string>;
 
-/// A row a mission, method, source and purpose: number, mean, standard deviation, and the five
-/// numbers of a box plot (analysis/statistics/summary.h).
+/// One row for each mission, method, source and purpose: number, mean, standard deviation, and the
+/// five numbers of a box plot (analysis/statistics/summary.h).
 HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
   HtmlTable table{.caption = caption,
                   .columns = {{"mission"}, {"method"}, {"source"}, {"purpose"}, {"designs", true}}};
@@ -66,7 +66,7 @@ HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
   return table;
 }
 
-/// Filmed runs, those that do not count included; stores before schema 5 have no view of them.
+/// Filmed runs, including those that do not count. Stores before schema 5 have no view of them.
 void write_real_runs(ReportDraft& draft) {
   if (draft.store().schema() < 5) return;
   draft.table(
@@ -153,7 +153,7 @@ void write_modules(ReportDraft& draft) {
   draft.page().end_folded();
 }
 
-/// What the drawings show, of the architectures that there are.
+/// An explanation of the drawings, for the architectures in the store.
 std::string how_to_read(ReportDraft& draft) {
   constexpr std::array kKinds = {
       std::pair{"--nstates*",

@@ -4,9 +4,9 @@
 
 namespace swarmsmith {
 
-/// The report's style. Figures keep a white ground in the dark, since their inks are made for
-/// paper; what is wider than a phone scrolls within its own box and is never scaled down until
-/// nothing in it can be read; on paper it fits the page.
+/// The report's style sheet. Figures keep a white background in dark mode, because their colours
+/// are made for paper. Content that is wider than a phone scrolls in its own box instead of being
+/// scaled down until it is unreadable; on paper it fits the page.
 inline constexpr std::string_view kReportStyle = R"(
 :root { color-scheme: light dark; --ink: #1c1c1c; --paper: #ffffff; --line: #c4c4c4; --soft: #f2f3f5;
   --faint: #595959; --link: #0b5394; }

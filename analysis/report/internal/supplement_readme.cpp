@@ -11,7 +11,8 @@
 namespace swarmsmith {
 namespace {
 
-/// What files are that begin and end like this; `pattern` is how the README names them.
+/// A description of files whose paths have this beginning and end; `pattern` is their name in the
+/// README.
 struct Kind {
   std::string_view pattern;
   std::string_view begin;
@@ -80,7 +81,7 @@ std::string file_list(const std::vector<SupplementFile>& files, const Supplement
   return text + "| `SHA256SUMS` | checksums of all other files |\n";
 }
 
-/// A campaign's name as Markdown shows it.
+/// A campaign's name, escaped for Markdown.
 std::string markdown_text(std::string_view text) {
   constexpr std::string_view kMarks = "\\`*_{}[]<>()#+-.!|&~";
   std::string marked;

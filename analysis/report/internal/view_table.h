@@ -9,13 +9,13 @@
 
 namespace swarmsmith {
 
-/// How the cells of a column are shown.
+/// The format of a column's cells.
 enum class Show {
   Text,
   Name,       ///< with blanks: "color selection"
-  Count,      ///< an integer as it is
+  Count,      ///< a whole number
   Number,     ///< four significant digits
-  Percent,    ///< a part of one
+  Percent,    ///< a fraction, shown as a percentage
   Design,     ///< "d3"
   Candidate,  ///< "c812"
   YesNo,
@@ -26,13 +26,13 @@ struct ViewColumn {
   Show show = Show::Text;
 };
 
-/// The rows of a statement over the store's views; a column of the statement for each one here,
-/// null as "-". Beyond `most` rows the caption says how many there are.
+/// The rows of a statement over the store's views. The statement must return one column for each of
+/// `columns`; null is shown as "-". If there are more than `most` rows, the caption says how many.
 Expected<HtmlTable> view_table(StoreReader& store, const std::string& caption,
                                const std::vector<ViewColumn>& columns, const std::string& sql,
                                std::size_t most = 200);
 
-/// Names and values: a statement with two columns.
+/// Names and values from a statement with two columns.
 Expected<std::vector<std::pair<std::string, std::string>>> view_facts(StoreReader& store,
                                                                       const std::string& sql);
 

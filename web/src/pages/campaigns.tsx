@@ -11,18 +11,19 @@ import { Campaign, Design, Event, Live } from "../types";
 
 export const kPause = "Evaluations that run now end and count; nothing more is given out until you resume. Nothing is lost.";
 
-/// Whether nothing more happens to it.
+/// Whether the design has ended.
 export function is_over({ state }: Design): boolean { return state === "finished" || state === "stopped"; }
 
-/// "iteration 4", or how another search says where it is; nothing before it begins.
+/// "iteration 4", or the stage in the words of another search; empty before it begins.
 export function stage_of({ stage, iteration }: Design): string {
   return stage ?? (iteration > 0 ? `iteration ${iteration}` : "not begun");
 }
 
-/// How good the best is: as its tests say, since the race's pairs chose it; before them the race.
+/// The best mean: from the tests if there are any, because the race's own pairs selected the best
+/// candidate; before the tests, from the race.
 export function told_mean({ test_mean, best_mean }: Design): number | null { return test_mean ?? best_mean; }
 
-/// What that mean is of.
+/// The origin of that mean.
 export function mean_of({ test_runs, best_mean }: Design): string {
   return test_runs > 0 ? "tested" : best_mean === null ? "" : "in race";
 }
@@ -40,11 +41,12 @@ function card(c: string, design: Design, leads: boolean) {
 }
 
 function grid({ c, designs }: Campaign) {
-  // Missions stand beside each other where their rows are short.
+  // If their rows are short, missions are side by side.
   const wide = designs.some((one) => one.repetition > 3);
   return <div class={wide ? "" : "missions"}>{in_order(designs.map((one) => one.mission)).map((mission) => {
     const here = designs.filter((one) => one.mission === mission);
-    // Scores of missions differ in their units, and a race's mean flatters beside one of tests.
+    // Scores of different missions have different units. A race's mean is too optimistic to be
+    // compared with a test mean.
     const tested = here.filter((one) => one.test_runs > 0);
     const compared = tested.length > 0 ? tested : here;
     const best = Math.max(...compared.map((one) => told_mean(one) ?? -Infinity));
@@ -59,7 +61,7 @@ function grid({ c, designs }: Campaign) {
   })}</div>;
 }
 
-/// A value of an event as a person reads it.
+/// A value of an event, formatted for people.
 export function said(value: unknown): string {
   if (typeof value === "number") return number(value, 6);
   if (!is_known(value) || typeof value !== "object") return String(value ?? "");
@@ -77,14 +79,15 @@ function events({ c, last_event }: Campaign) {
         { key: "data", label: "details", value: (one) => said(one.data) }]} />} />;
 }
 
-/// Of a campaign or of a design. It begins with the end of an iteration.
+/// The convergence of a campaign or of a design. It begins at the end of the first iteration.
 export function convergence(c: string, designs: Design[], design?: string) {
   const none = <Empty>{designs.every(is_over) ? "None." : "No iteration has ended yet: convergence comes after the first."}</Empty>;
   return designs.some(({ state, iteration }) => iteration > (state === "racing" || state === "interrupted" ? 1 : 0))
     ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version_of(designs)} missing={none} /> : none;
 }
 
-/// Moves when an iteration of any of them ends, or a design does: what winners and elites are does not change between.
+/// Changes when an iteration or a design ends; between these events, winners and elites do not
+/// change.
 export function version_of(designs: Design[]): string {
   return designs.map(({ iteration, state }) => iteration + state).join();
 }

@@ -1,4 +1,4 @@
-// A candidate: its machine, where it comes from, what it scored, and how it ended.
+// A candidate: its machine, its origin, its scores, and how it was dropped.
 
 import { h } from "preact";
 import { command, Copy, Empty, link, pairs, Panel, place_of, store_word, Table } from "../components";
@@ -29,13 +29,14 @@ interface Candidate {
 
 interface Answer { candidate: Candidate; ancestors: Candidate[]; scores: Columns; later: Row[] }
 
-/// How it ended, in a sentence.
+/// What happened to the candidate, in a sentence.
 function fate({ eliminated_in, eliminated_at, eliminated_by }: Candidate) {
   return eliminated_in === null ? <span class="good">never dropped</span>
     : `dropped in iteration ${eliminated_in}${eliminated_at !== null ? ` at step ${whole(eliminated_at)}` : ""}${eliminated_by ? `: ${words(eliminated_by)}` : ""}`;
 }
 
-/// What cannot be simulated again: programs' runs, and real ones that only have a score.
+/// A link to the run, except for runs that cannot be simulated again: runs of programs, and real
+/// runs with only a score.
 function watch({ id, source }: Row) {
   return source !== "command" && (source !== "real" || String(id)[0] === "r") && <a href={place_of(String(id))} aria-label={`watch ${id}`}>watch</a>;
 }

@@ -7,10 +7,10 @@ import { PageProps } from "../page";
 import { set_query } from "../route";
 import { Cell, Rows, View } from "../types";
 
-/// To begin with: the numbers of the other pages.
+/// The views to begin with: the numbers of the other pages.
 const kViews = ["v_designs", "v_leaderboard", "v_convergence", "v_module_frequency", "v_failures"];
 
-/// `sql` is in the field, `asked` was asked last.
+/// `sql` is the text in the field, `asked` is the last statement that was run.
 interface State { sql: string; asked: string; error?: ApiError }
 
 export class Data extends Component<PageProps, State> {

@@ -14,7 +14,7 @@ export function design_title(design: Design) {
 
 export const kNoRace = "No race: this method takes what it is given, or what it draws.";
 
-/// What may be done to a design, each after a question.
+/// The commands for a design, each with a confirmation.
 class Acts extends Component<{ c: string; design: Design }, { more: string }> {
   state = { more: "1000" };
   render({ c, design }: { c: string; design: Design }, { more }: { more: string }) {
@@ -33,7 +33,7 @@ class Acts extends Component<{ c: string; design: Design }, { more: string }> {
   }
 }
 
-/// The rows of an answer in columns.
+/// The rows of an answer that is given in columns.
 export function rows_of(columns: Columns): Row[] {
   const lists = Object.entries(columns).filter(([, list]) => Array.isArray(list));
   return (lists[0]?.[1] ?? []).map((_, i) => Object.fromEntries(lists.map(([name, list]) => [name, list[i]])));

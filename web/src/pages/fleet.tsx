@@ -6,10 +6,10 @@ import { Get } from "../get";
 import { PageProps } from "../page";
 import { History, Quarantine, SlotTimes, Status, Worker } from "../types";
 
-/// Why slots idle, and what a person can do.
+/// Why slots are idle, and what the user can do.
 interface Cause { name: string; why: string; todo: string }
 
-/// Of being busy, and of each cause.
+/// Colours for busy time and for each cause.
 const kColors: Record<string, string> = { busy: "#0072b2", "start-up": "#56b4e9", barrier: "#e69f00", credit: "#cc79a7", alone: "#999",
   commit: "#d55e00", held: "#f0e442", network: "#009e73" };
 
@@ -32,7 +32,7 @@ function slot_time({ slot_times: all, slot_times_last_minute: minute }: Status, 
   </div>;
 }
 
-/// Shares of the slots' time as areas above each other, and evaluations a second as a line.
+/// Draws shares of the slots' time as stacked areas, and evaluations per second as a line.
 function draw_past(pen: Pen, history: History): void {
   const times = history.t_s, n = times.length;
   const left = 52, right = pen.width - 44, top = 8, bottom = pen.height - 20;
@@ -71,7 +71,7 @@ function worst_first(workers: Worker[]): Worker[] {
   return [...workers].sort((a, b) => weight(b) - weight(a) || b.failed - a.failed || (b.last_heard_s ?? 0) - (a.last_heard_s ?? 0) || a.number - b.number);
 }
 
-/// What the counts mean whose names do not say it.
+/// Explanations of the counts whose names are not clear.
 const kCounts: Record<string, string> = {
   leased: "tasks that workers hold", ready: "tasks that wait for a slot", failed: "attempts without a score",
   requeued: "leases that went back to the queue", uncommitted: "outcomes that are not on disk yet",

@@ -1,4 +1,5 @@
-// Which method wins where, by how much, and how sure that is: methods by missions, one matrix a source.
+// Which method wins where, by how much, and how certain that is: methods by missions, one matrix
+// per source.
 
 import { h } from "preact";
 import { link, Panel, Table } from "../components";
@@ -27,7 +28,7 @@ function table({ source, missions, methods }: Matrix, chosen: string) {
   </table></div>;
 }
 
-/// The designs of the chosen cell, the best first.
+/// The designs of the chosen cell, best first.
 function designs_of(c: string, version: string, chosen: string) {
   return <Get<Columns> path={`${c}/leaderboard`} version={version} render={(data) =>
     <Table<Row> name="of" caption={`designs of ${chosen}`} rows={rows_of(data).filter(({ mission, method }) => `${mission}/${method}` === chosen)}

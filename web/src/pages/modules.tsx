@@ -10,7 +10,7 @@ import { Columns, Row } from "../types";
 import { version_of } from "./campaigns";
 import { rows_of } from "./design";
 
-/// A module's use by one method; rows by mission.
+/// How one method uses a module; rows by mission.
 interface Use { module: string; method: string; of: Record<string, Row> }
 
 function quoted(text: string): string { return "'" + text.replace(/'/g, "''") + "'"; }
@@ -50,7 +50,7 @@ export function Modules({ params: { c }, campaign, query: { mission = "", method
         if (mission && at !== mission || method && by !== method) continue;
         (uses[by + " " + module] ??= { module, method: by, of: {} }).of[at] = row;
       }
-      // Networks and parameters of programs have no modules: rows without any say nothing.
+      // Networks and parameters of programs have no modules; rows without any use are not shown.
       const some = Object.values(uses).filter(({ of }) => Object.values(of).some((one) => one.occurrence_rate));
       return some.length === 0 ? nothing : <div class="grid">
         <Panel title={title} command={command("figure modules", option("mission", mission) + option("method", method) + "-o modules.svg")}>

@@ -11,24 +11,25 @@ import { Race } from "../types";
 import { said } from "./campaigns";
 import { design_title, kNoRace } from "./design";
 
-// Parts of the picture, in CSS pixels.
+// Sizes of the parts of the picture, in CSS pixels.
 const kLeft = 86, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
 
-/// What the matrix shows of an answer.
+/// The data of the matrix, from an answer.
 class Matrix {
   constructor(readonly race: Race) {}
 
   /// 1 is best, ties share their mean rank; null without a score.
   rank({ row, step }: At): number | null { return this.race.ranks[step][row] ?? null; }
 
-  /// The rank of a cell as a part from 0 (best) to 1; a step in which all are the same has the
-  /// middle throughout.
+  /// The rank of a cell from 0 (best) to 1 (worst). If all are equal in a step, they have the value
+  /// in the middle.
   part(at: At): number | null {
     const rank = this.rank(at), ranked = this.race.ranked[at.step];
     return rank === null ? null : ranked < 2 ? 0.5 : (rank - 1) / (ranked - 1);
   }
 
-  /// The number of the last step that a row's candidate was in the race, as it was after `until`.
+  /// The number of the step that dropped a row's candidate; null if that was after `until` or
+  /// never.
   dropped(row: number, until: number): number | null {
     const at = this.race.dropped_at[row];
     return at !== null && at <= until ? at : null;
@@ -42,7 +43,7 @@ class Matrix {
 
   run_of({ row, step }: At): string { return evaluation_id(this.race.candidates[row], this.race.pairs[step]); }
 
-  /// A cell in words.
+  /// A description of a cell in words.
   sentence(at: At): string {
     const { race } = this;
     const { row, step } = at;
@@ -65,12 +66,12 @@ interface MapProps {
   label: string;
 }
 
-/// The matrix as a picture, with a cursor that pointer and arrows move.
+/// The matrix as a picture, with a cursor that follows the pointer and the arrow keys.
 class RaceMap extends Component<MapProps, { hover: At | null }> {
   state: { hover: At | null } = { hover: null };
   #width = 0;
 
-  /// Of a cell, in pixels.
+  /// The size of a cell, in pixels.
   #size(): { column: number; row: number } {
     const { candidates, steps } = this.props.matrix.race;
     return { column: Math.min(96, (this.#width - kLeft - kRight) / steps.length),
@@ -96,11 +97,11 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
       const y = kTop + i * row;
       const dropped = matrix.dropped(i, now);
       const end = dropped === null ? until + 1 : race.steps.indexOf(dropped) + 1;
-      // Grey where a candidate had fallen, the ground of what has not been evaluated.
+      // Grey after a candidate was dropped; the background colour where it was not evaluated.
       pen.box(inks.soft, x_of(end), y, (until + 1 - end) * column, row);
       for (let s = 0; s <= until; ++s) {
         const at = { row: i, step: s }, part = matrix.part(at);
-        // The best is farthest from the ground.
+        // The best cells have the strongest contrast to the background.
         if (part !== null || matrix.has_run(at)) pen.box(part === null ? vermilion : viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
       }
       if (dropped !== null && race.reasons[i] !== "not kept") pen.box(vermilion, x_of(end) - 1, y, 2.5, row);
@@ -108,7 +109,8 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
       if (race.elite_after[i] && until === columns - 1) pen.box(inks.ink, x_of(columns) + 4, y + (row - mark) / 2, 4, mark);
       if (i % Math.ceil(12 / row) === 0) pen.say("c" + candidate, kLeft - 9, y + Math.max(row, 4) / 2, "right");
     });
-    // Above: how many were alive after each step, and markers: letters where they fit, else a tick where some fell.
+    // Above: how many candidates were alive after each step, and markers: letters if they fit, else
+    // a line where candidates were dropped.
     const most = Math.max(1, race.rows_total);
     const y_of = (alive: number) => kAlive - 2 - (alive / most) * (kAlive - 10);
     const curve: Point[] = [[kLeft, y_of(most)]];
@@ -122,7 +124,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
     pen.say(whole(most), kLeft - 9, y_of(most) + 4, "right");
     pen.say("alive", kLeft - 9, y_of(0) - 4, "right");
     pen.say(whole(race.alive[until]), x_of(until + 1) + 4, y_of(race.alive[until]), "left");
-    // Below: steps, as many as there is room for.
+    // Below: step numbers, as many as fit.
     const y = pen.height - kBottom / 2 + 2;
     for (let s = 0; s < columns; s += Math.ceil(46 / column)) pen.say(String(race.steps[s]), x_of(s + 0.5), y);
     pen.say("step", kLeft - 9, y, "right");
@@ -193,7 +195,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
   }
 }
 
-/// The evaluation's id as people type it.
+/// The evaluation's id as users type it.
 function evaluation_id(candidate: number, pair: number): string { return `e${candidate * 100000 + pair}`; }
 
 const kLegend = [["viridis", "rank, best to worst"], ["dropped-end", "dropped here, a whole cell: rejected"], ["gone", "no longer in the race"], ["elite", "elite before (left), after (right)"]];
@@ -206,7 +208,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
     const row = race.candidates.indexOf(Number(candidate));
     if (row < 0) return null;
     let step = race.steps.indexOf(Number(at));
-    // A candidate alone: its last cell.
+    // If only a candidate is given: its last cell.
     if (step < 0) for (step = until; step > 0 && (race.scores[step][row] ?? null) === null;) --step;
     return { row, step: Math.min(step, until) };
   }
@@ -281,7 +283,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
       </div>;
     };
     const asked = params.iteration ? Number(params.iteration) : design.state === "racing" && !is_snapshot ? null : newest;
-    // While it races: the newest one that has a step, unless another is asked for.
+    // During a race: the newest iteration that has a step, unless another one is asked for.
     return <div>
       {design_title(design)}
       {design.iteration === 0 ? <Empty>{design.state === "finished" ? kNoRace : "No step of the race has ended yet: its cells come one by one."}</Empty>

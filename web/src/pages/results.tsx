@@ -1,4 +1,5 @@
-// Results: who is best, by how much, whether that is more than chance, and what became of it on real robots.
+// Results: which method is best, by how much, whether the difference is significant, and how it
+// performed on real robots.
 
 import { h } from "preact";
 import { path_of } from "../api";
@@ -63,7 +64,7 @@ function real_runs(rows: Row[]) {
         && <a href={place_of(String(id), { beside: `${id}-1,${id}-2`, speed: 1 })}>beside its simulations</a> }]} />;
 }
 
-/// What the scoring said: a JSON list of texts or of objects with one, or what is already a text.
+/// The reasons from the scoring: a JSON list of texts, or of objects with a text, or a plain text.
 function reasons_of(value: Cell | undefined): string {
   try {
     return (JSON.parse(String(value ?? "[]")) as (string | { text?: string; code?: string })[])

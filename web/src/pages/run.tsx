@@ -1,4 +1,4 @@
-// The run player: "#/c1/runs/e81200007?t=42&beside=c812-7,r7". Up to four runs on one clock.
+// The run player: "#/c1/runs/e81200007?t=42&beside=c812-7,r7". Up to four runs with one clock.
 
 import { Component, h } from "preact";
 import { ApiError, ask } from "../api";
@@ -20,13 +20,13 @@ const kTrails: Record<string, number> = { none: 0, "10 s": 100, "30 s": 300, all
 const kTints: [string, Tint][] = [["state", "state"], ["robot", "robot"], ["LEDs", "leds"]];
 
 interface State {
-  /// By id: the run, or why there is none.
+  /// By id: the run, or the error.
   runs: Record<string, Trajectory | ApiError>;
   playing: boolean;
-  cycle: number;         ///< as the texts say it; the canvas is drawn each frame
+  cycle: number;         ///< for the texts; the canvas is drawn at each frame
   chosen: number | null; ///< robot
-  said: string;          ///< for who cannot see the canvas
-  wanted: string;        ///< id in the field
+  said: string;          ///< for screen readers
+  wanted: string;        ///< the id in the field
 }
 
 function is_run(run: Trajectory | ApiError | undefined): run is Trajectory { return !!run && "robots" in run; }
@@ -41,13 +41,13 @@ function metres(value: number | undefined): string {
   return value?.toFixed(2).replace("-", "\u2212") ?? "–";
 }
 
-/// What acts in a robot.
+/// The active module of a robot.
 function doing({ behaviours }: Trajectory, robot: Robot, cycle: number): string {
   const state = value_at(robot.state, cycle);
   return state === null ? "" : words(behaviours[state] ?? `state ${state}`);
 }
 
-/// Lights up the states of a drawn machine that act, with the robots that are in them.
+/// Highlights the active states of a drawn machine, with the numbers of the robots in them.
 function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: number | null): void {
   const acting = run.robots.map((robot) => value_at(robot.state, cycle));
   svg.querySelectorAll<SVGGElement>("g[data-state]").forEach((part) => {
@@ -61,7 +61,7 @@ function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: numbe
       const attributes = { class: "here", x, y: y - radius > 4 ? y - radius - 1 : y + radius + 3, "font-size": 2.6, "text-anchor": "middle" };
       for (const [name, value] of Object.entries(attributes)) text.setAttribute(name, String(value));
       part.append(text);
-      const box = svg.viewBox.baseVal;  // a machine of one row has no room below it
+      const box = svg.viewBox.baseVal;  // a machine with a single row has no room below it
       box.height = Math.max(box.height, attributes.y + 1 - box.y);
     }
     if (text) text.textContent = here.length > 6 ? `${here.length} robots` : here.length ? `robot ${here.join(", ")}` : "";
@@ -70,13 +70,13 @@ function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: numbe
 
 const kOutcomes = ["failed", "warned", "not run", "passed"];
 
-/// "; not checked: length of the film": names once each.
+/// "; not checked: length of the film": each name once.
 function not_checked(checks: Check[] | null | undefined) {
   const names = [...new Set((checks ?? []).filter((one) => one.outcome === "not run").map((one) => one.name))];
   return names.length > 0 && <small>; not checked: {names.join(", ")}</small>;
 }
 
-/// What a real run was asked; what did not pass comes first.
+/// The checks of a real run; those that did not pass come first.
 function Checks({ checks }: { checks: Check[] | null }) {
   const measure = ({ unit }: Check, value: number | null) => value === null ? null : `${number(value)} ${unit}`.trim();
   const passed = checks?.filter((one) => one.outcome === "passed").length;
@@ -92,7 +92,7 @@ function Checks({ checks }: { checks: Check[] | null }) {
   </Panel>;
 }
 
-/// Another run is another player.
+/// A new player is made for each run.
 export function RunPage(props: PageProps) {
   return <Player key={`${props.params.c} ${props.params.id}`} {...props} />;
 }
@@ -149,7 +149,7 @@ class Player extends Component<PageProps, State> {
     return [...new Set([params.id, ...(query.beside ?? "").split(",")])].filter(Boolean).slice(0, kMostRuns);
   }
 
-  /// The runs that are there, in order.
+  /// The runs that have been loaded, in order.
   #shown(): Trajectory[] { return this.#ids().map((id) => this.state.runs[id]).filter(is_run); }
 
   #end(): number { return Math.max(1, ...this.#shown().map((run) => run.cycles)); }
@@ -179,7 +179,8 @@ class Player extends Component<PageProps, State> {
     }
   }
 
-  /// Plays, once the run is there, unless the address says when, or the reader wants it calm.
+  /// Starts playing when the run is loaded, unless the address gives an instant, or the reader
+  /// prefers reduced motion.
   #begin(): void {
     if (this.#has_begun || !is_run(this.state.runs[this.props.params.id])) return;
     this.#has_begun = true;
@@ -218,7 +219,7 @@ class Player extends Component<PageProps, State> {
     this.#frame = requestAnimationFrame(this.#tick);
   };
 
-  /// To an instant, which the address then names.
+  /// Moves to an instant and puts it into the address.
   #seek = (cycle: number): void => {
     this.#cycle = clamp(Math.round(cycle), 0, this.#end());
     this.setState({ cycle: this.#cycle, said: this.#sentence() });
@@ -247,7 +248,7 @@ class Player extends Component<PageProps, State> {
       ",": () => this.#step(-1), ".": () => this.#step(1), "[": () => speeds(-1), "]": () => speeds(1),
       Home: () => this.#seek(0), End: () => this.#seek(this.#end()), " ": this.#toggle,
     };
-    // A button or a link in focus has the space bar for itself.
+    // A button or a link with the focus handles the space bar itself.
     const act = actions[event.key];
     if (!act || event.key === " " && /^(BUTTON|A|SUMMARY)$/.test((event.target as Element).tagName)) return;
     event.preventDefault();
@@ -266,7 +267,7 @@ class Player extends Component<PageProps, State> {
     this.#strip?.paint();
   };
 
-  /// Asks for the pictures on the floor, and draws it again when they are there.
+  /// Fetches the pictures on the floor, and draws the floor again when they have arrived.
   #ask_for_images({ arena: { patches } }: Trajectory): void {
     for (const { image } of patches) {
       if (!image || this.#images.has(image)) continue;
@@ -379,7 +380,7 @@ class Player extends Component<PageProps, State> {
   #beside({ id, verdict, candidate, source, design, profiles, seed: own_seed }: Trajectory) {
     const seed = own_seed ?? 1;
     const put = (one: string) => this.#put_beside([...this.#ids().slice(1), one]);
-    /// Of pairs of a run and its name, those that do not stand there.
+    /// The pairs of a run and its name that are not shown yet.
     const offer = (name: string, runs: [string, string][]) => {
       const open = runs.filter(([one]) => !this.#ids().includes(one));
       return open.length > 0 && <p class="tools"><span class="faint">{name}</span> {open.map(([one, text]) => <button onClick={() => put(one)}>{text}</button>)}</p>;

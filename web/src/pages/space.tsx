@@ -1,4 +1,5 @@
-// The search space: which values candidates have, which the race kept, and where it looked next.
+// The search space: the values of the candidates, the values that the race kept, and where it
+// sampled next.
 
 import { Component, h } from "preact";
 import { path_of } from "../api";
@@ -12,11 +13,11 @@ import { Axis, axis_at, axis_of, Brush, chosen_by, draw_parallel, line_at, part_
 import { go, set_query } from "../route";
 
 const kUsualAxes = 9;
-/// Figures of more candidates than that are drawn when asked for: they read all of them.
+/// With more candidates, figures are drawn only on request, because they read all of them.
 const kMuch = 20000;
 const kSamples = [300, 1000, 5000];
 
-/// Those that vary and that most candidates have, in the order of the space.
+/// Parameters that vary and that most candidates have, in the order of the space.
 function usual({ parameters }: Sample): string[] {
   const known = (name: string) => parameters[name].filter(is_known).length;
   const names = varying(parameters);
@@ -26,10 +27,10 @@ function usual({ parameters }: Sample): string[] {
 
 function varying(parameters: Sample["parameters"]): string[] { return Object.keys(parameters).filter((name) => varies(parameters[name])); }
 
-/// Between two parts of an axis, in any order.
+/// A brush between two positions on an axis, in any order.
 function brush_of(a: number, b: number): Brush { return { from: clamp(Math.min(a, b), 0, 1), to: clamp(Math.max(a, b), 0, 1) }; }
 
-/// "RWM0:10:50,S0:stop:stop", values at both ends.
+/// "RWM0:10:50,S0:stop:stop": the values at both ends of each brush.
 function brushes_of(text: string, axes: Axis[]): Record<string, Brush> {
   const brushes: Record<string, Brush> = {};
   for (const one of text.split(",")) {
@@ -49,7 +50,8 @@ function text_of(axes: Axis[], brushes: Record<string, Brush>): string {
   }).join(",");
 }
 
-/// Parts from 0 (worst) to 1 (best), by rank: one outlier does not make all others alike.
+/// Shades from 0 (worst) to 1 (best), by rank, so that one outlier does not make all others look
+/// equal.
 function shade_of(values: (number | null)[]): (number | null)[] {
   const sorted = values.filter((value): value is number => value !== null).sort((a, b) => a - b);
   const first = new Map<number, number>();
@@ -74,7 +76,7 @@ export class Space extends Component<PageProps, { asked: number }> {
 }
 
 interface ParallelProps { d: string; data: Sample; query: Record<string, string>; again: () => void }
-/// `drag` holds parts of the axis.
+/// `drag` contains positions on the axis, from 0 to 1.
 interface ParallelState { met: number | null; drag: { axis: number; from: number; to: number } | null }
 
 class Parallel extends Component<ParallelProps, ParallelState> {
@@ -97,7 +99,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     set_query({ p: names.join(",") || "none", b: text_of(axes.filter((one) => names.includes(one.name)), brushes) });
   }
 
-  /// null, and what is all of the axis: no brush.
+  /// null, or a brush over the whole axis, removes the brush.
   #brush({ name }: Axis, brush: Brush | null): void {
     const { axes, brushes } = this.#plot();
     if (brush && brush.to - brush.from < 1) brushes[name] = brush; else delete brushes[name];
@@ -129,7 +131,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     const { drag, met } = this.state;
     if (drag) {
       const axis = this.#plot().axes[drag.axis];
-      // A click, not a drag: all values again.
+      // A click without dragging selects all values again.
       this.setState({ drag: null }, () => this.#brush(axis, Math.abs(drag.from - drag.to) < 0.02 ? null : brush_of(drag.from, drag.to)));
     } else if (met !== null) {
       go(place_of("c" + this.props.data.candidates[met]));
