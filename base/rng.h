@@ -12,7 +12,9 @@ namespace swarmsmith {
 /// A named, counter-based stream of random numbers: the n-th number is a fixed function of the
 /// stream's key and n, so the same seed gives the same numbers on every machine, compiler and
 /// standard library. The distributions are implemented here for the same reason. Not thread-safe;
-/// copy or split.  Generator: SplitMix64 (see base/hash.h), whose state is key + n * golden ratio.
+/// copy or split.
+///
+/// Generator: SplitMix64 (see base/hash.h), whose state is key + n * golden ratio.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) : key_(mix64(seed + kGolden)) {}

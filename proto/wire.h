@@ -11,10 +11,13 @@
 
 namespace swarmsmith {
 
-/// A frame is eight bytes of header and one message:  "SWRM" | major version, 16 bits little-endian
-/// | minor version, the same | protobuf  The header never changes, so that two versions can tell
-/// each other apart. Peers with the same major version understand each other; a minor version adds
-/// fields and bodies that older peers ignore.
+/// A frame is eight bytes of header and one message:
+///
+///     "SWRM" | major version, 16 bits little-endian | minor version, the same | protobuf
+///
+/// The header never changes, so that two versions can tell each other apart. Peers with the same
+/// major version understand each other; a minor version adds fields and bodies that older peers
+/// ignore.
 inline constexpr std::string_view kFrameMagic = "SWRM";
 inline constexpr std::size_t kFrameHeaderBytes = 8;
 inline constexpr std::uint16_t kProtocolMajor = 4;

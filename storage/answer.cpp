@@ -229,7 +229,7 @@ void add_answer(Digest& digest, const Row& row) {
 }
 
 bool same_answer(const Row& a, const Row& b) {
-  // 128 bits that agree by accident would take longer than any campaign.
+  // Two different rows will never have the same 128 bits by accident.
   return a.index() == b.index() && in_answer(a) == in_answer(b) &&
          digest_of(a).hex() == digest_of(b).hex();
 }

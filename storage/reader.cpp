@@ -81,7 +81,7 @@ class SqliteReader final : public StoreReader {
 
   std::shared_ptr<Connection> connection_;
   std::optional<std::int64_t> only_;  ///< the campaign to read; none: all
-  std::shared_ptr<bool> is_whole_;    ///< the store's rows were found to be those of one commit
+  std::shared_ptr<bool> is_whole_;    ///< the store's rows were found to be in a committed state
 };
 
 std::vector<StoredCampaign> SqliteReader::campaigns() {

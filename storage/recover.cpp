@@ -29,8 +29,8 @@ using sqlite::Connection;
 using sqlite::SqliteError;
 using sqlite::Statement;
 
-/// Removes rows with values that only damage can have caused, but that the types of the columns
-/// allow.
+/// Statements that remove rows with values that only damage can have caused, but that the types of
+/// the columns allow.
 std::vector<std::string> nonsense() {
   const std::string other_purpose = "purpose NOT IN " + numbers_in_sql(is_any);
   const std::string other_verdict = "verdict NOT IN " + verdicts_in_sql();
@@ -49,8 +49,8 @@ std::vector<std::string> nonsense() {
   };
 }
 
-/// Remove rows that refer to a lost row. Each statement may make other rows such orphans, so all
-/// are repeated until they remove nothing more.
+/// Statements that remove rows that refer to a lost row. Each statement may make other rows such
+/// orphans, so all are repeated until they remove nothing more.
 constexpr std::array kOrphans{
     "DELETE FROM candidate WHERE (id - 1) / 1000000 + 1 NOT IN (SELECT id FROM design)",
     "DELETE FROM candidate WHERE parent IS NOT NULL AND parent NOT IN (SELECT id FROM candidate)",

@@ -111,7 +111,7 @@ class Store {
   /// The progress of each design of the campaign, in the order of their ids. Merged or imported
   /// designs are not included.
   virtual std::vector<DesignStateRow> design_states() = 0;
-  /// The tested ones of these designs, without those that have a targetEvaluator.
+  /// Those of these designs that have tests, without those that have a targetEvaluator.
   virtual std::vector<TestedDesign> tested_designs() { return {}; }
   /// Users' commands to the campaign, by number.
   virtual std::vector<CommandRow> commands() = 0;
@@ -233,7 +233,7 @@ class StoreReader {
     std::int64_t rows = 0;
     bool truncated = false;
   };
-  /// Frees the memory in which SQLite caches pages for the next statement.
+  /// Frees the memory that SQLite uses to cache pages for the next statement.
   virtual void rest() {}
   virtual Expected<QueryEnd> query(
       const std::string& sql, const QueryLimits& limits,

@@ -93,12 +93,12 @@ std::string words_in_sql(bool (*is_meant)(const PurposeFacts&));
 constexpr bool is_any(const PurposeFacts&) {
   return true;
 }
-/// Counts in the answer whether or not a race used it.
+/// Whether an evaluation counts in the answer even if no race used it.
 constexpr bool always_counts(const PurposeFacts& facts) {
   return facts.replay == PurposeFacts::Replay::Tests ||
          facts.replay == PurposeFacts::Replay::Evaluator;
 }
-/// A replay asks for it.
+/// Whether a replay asks for the evaluation.
 constexpr bool is_of_replay(const PurposeFacts& facts) {
   return facts.replay != PurposeFacts::Replay::None;
 }
@@ -111,7 +111,7 @@ constexpr bool is_simulated(const PurposeFacts& facts) {
 constexpr bool is_test(const PurposeFacts& facts) {
   return facts.replay == PurposeFacts::Replay::Tests;
 }
-/// A test that also counts among the scores of winners.
+/// Whether it is a test that also counts among the scores of winners.
 constexpr bool is_transfer(const PurposeFacts& facts) {
   return is_test(facts) && facts.counts_as == "score";
 }

@@ -18,8 +18,8 @@ std::string damaged_text(const std::string& fault);
 /// Whether the file begins as SQLite's files do.
 bool has_database_header(const sqlite::Connection& connection);
 
-/// Corrupt when the file of a fresh connection does not begin as a SQLite database does, or is
-/// shorter than its header says (unless a write-ahead log lies beside it, which may have the rest).
+/// Corrupt when the file of a fresh connection does not begin as an SQLite database does, or is
+/// shorter than its header says (unless a write-ahead log is beside it, which may have the rest).
 /// An empty file passes. `path` is the name for messages. Throws SqliteError.
 Expected<void> check_database_file(const sqlite::Connection& connection,
                                    const std::filesystem::path& path);

@@ -16,7 +16,7 @@
 
 namespace swarmsmith {
 
-/// The implementation of Store::open: a queue of batches, and a thread that commits everything in
+/// The Store that Store::open returns: a queue of batches, and a thread that commits everything in
 /// the queue as one transaction. The busier it is, the larger its transactions, so that more rows
 /// share the cost of an fsync.
 class GroupWriter final : public Store {

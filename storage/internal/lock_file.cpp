@@ -96,7 +96,8 @@ Expected<LockFile> LockFile::acquire(const std::filesystem::path& store,
     }
     const bool left_behind = !read_holder(descriptor).empty();
     const std::string holder = holder_text(std::to_string(::getpid())) + "\n";
-    // The text is only for users: if the disk is so full that this fails, we can still go on.
+    // The text is only for users: if the disk is so full that this fails, the store can still be
+    // opened.
     if (::ftruncate(descriptor, 0) != 0 ||
         ::pwrite(descriptor, holder.data(), holder.size(), 0) < 0) {
       return LockFile(path, descriptor, true);

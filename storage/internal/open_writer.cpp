@@ -24,7 +24,7 @@ using sqlite::Connection;
 using sqlite::Statement;
 
 /// Moves the log that a crash has left into the file, and checks the whole file: every page, its
-/// schema and keys, and whether its rows are those of one commit.
+/// keys, and whether its rows are in a committed state.
 Expected<void> check_all(Connection& connection, const fs::path& path, bool unclean) {
   connection.execute("PRAGMA wal_checkpoint(TRUNCATE)");
   if (auto sound = check_database_file(connection, path); !sound) return sound;

@@ -6,7 +6,7 @@
 namespace swarmsmith {
 
 /// A table with parts of real runs, and the column of real_run with the number of its rows that a
-/// run has. From this number follows which parts a damaged store has lost.
+/// run has. This number shows which parts a damaged store has lost.
 struct RealRunPart {
   const char* column;
   const char* table;

@@ -224,7 +224,7 @@ void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
   // A copy with that name can only be from an earlier, interrupted attempt: the store has not
   // changed since then.
   const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);
-  std::error_code stays;  // then SQLite says why
+  std::error_code stays;  // if it could not be removed, SQLite reports that
   std::filesystem::remove(copy, stays);
   sqlite::Statement(connection, "VACUUM INTO ?").run(copy);
   upgrade(connection, steps);

@@ -76,7 +76,7 @@ class Statement {
   /// Throws SqliteError when `sql` does not parse.
   Statement(const Connection& connection, std::string_view sql);
 
-  /// Binds all parameters anew, in order.
+  /// Binds all parameters, in order.
   template <class... Values>
   Statement& bind(const Values&... values) {
     reset();
