@@ -20,8 +20,8 @@ struct LogField {
 };
 
 /// Writes one line to standard error: UTC time with milliseconds, level, component, event (with a
-/// verb in the past tense: "lease expired"), fields. The form is key=value, or one JSON object. Any
-/// thread. Only programs write logs; libraries return values.
+/// verb in the past tense: "lease expired"), fields. The form is key=value, or one JSON object.
+/// Thread-safe. Only programs write logs; libraries return values.
 ///
 /// At most `LogLimiter::kMostASecond` lines of one event are written per second; another line
 /// reports how many were left out.

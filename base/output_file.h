@@ -11,7 +11,7 @@ namespace swarmsmith {
 
 /// Outputs never destroy inputs: the one rule for every file that a program writes.
 
-/// Records that this process reads the file; does nothing for an unreadable one. Any thread.
+/// Records that this process reads the file; does nothing for an unreadable one. Thread-safe.
 void note_input(const std::filesystem::path& file);
 
 /// Allows writing to a file that has been read, to replace it: a calibration, for example.

@@ -41,7 +41,7 @@ double gamma_series(double a, double x) {
   return sum * gamma_factor(a, x);
 }
 
-/// Lentz's evaluation of a continued fraction b0 + a1/(b1 + a2/(b2 + ...)), one term a call.
+/// Lentz's evaluation of a continued fraction b0 + a1/(b1 + a2/(b2 + ...)), one term per call.
 class ContinuedFraction {
  public:
   explicit ContinuedFraction(double b0) : value_(b0 == 0 ? kTiny : b0), c_(value_) {}
@@ -104,7 +104,7 @@ double incomplete_beta(double a, double b, double x, double y) {
 }
 
 /// Cornish and Fisher's expansion of the t quantile about the normal one (Abramowitz and Stegun,
-/// 26.7.5). The first term left out is of order dof^-5.
+/// 26.7.5). The first omitted term is of order dof^-5.
 double expanded_t_quantile(double z, double dof) {
   const double s = z * z;
   const double g1 = (s + 1) * z / 4;

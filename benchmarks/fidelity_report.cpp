@@ -104,10 +104,10 @@ void draw_panel(Svg& svg, const char* name, PagePoint middle, double scale) {
   svg.text({middle.x, below}, name, {.size = 2.8, .anchor = TextStyle::Anchor::Middle});
 }
 
-/// The recorded runs side by side.
+/// Draws the recorded runs side by side.
 std::string draw_trajectories() {
   constexpr double kPanel_mm = 58;
-  constexpr double kScale = 21;  // mm a metre
+  constexpr double kScale = 21;  // mm per metre
   Svg svg(3 * kPanel_mm, kPanel_mm + 6, "Recorded trajectories and ours",
           "Trails of the original simulator, broad and pale, and of ours, thin, which cover them");
   double x = kPanel_mm / 2;

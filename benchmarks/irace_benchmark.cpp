@@ -89,7 +89,7 @@ double trivial_cost(const Configuration& configuration, const Experiment& experi
 }
 
 void design(benchmark::State& state, TestType type, bool one_task_at_a_time) {
-  static const double memory_before = peak_memory();  // at the first design
+  static const double memory_before = peak_memory();  // before the first design
   std::int64_t used = 0;
   double in_race = 0;
   for (auto _ : state) {

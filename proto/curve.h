@@ -38,13 +38,13 @@ struct ListedClient {
   friend bool operator==(const ListedClient&, const ListedClient&) = default;
 };
 
-/// A server's own key, and the list of the only clients that it admits.
+/// A server's own key, and the clients that it admits; it refuses all others.
 struct ServerKeys {
   std::string secret_key;
   std::vector<ListedClient> clients;
 };
 
-/// A client's own key, and that of the only server that it trusts.
+/// A client's own key, and the key of the only server that it trusts.
 struct ClientKeys {
   std::string secret_key;
   std::string server_key;  ///< the public key; a server without the secret key for it cannot answer

@@ -156,8 +156,8 @@ struct ServerSocket::Impl {
   }
 
   /// The kernel knows the user of a connection, and libzmq knows whether the connection still
-  /// exists. Only if it does, the descriptor in the message cannot belong to another connection by
-  /// now: libzmq learns of an end before it closes the descriptor.
+  /// exists. If it does, the descriptor in the message cannot belong to another connection by now,
+  /// since libzmq learns of an end before it closes the descriptor.
   bool is_of_same_user(PeerId id, const Peer& peer) {
     if (!swarmsmith::is_of_same_user(peer.connection.descriptor)) return false;
     if (!options.probes_newcomers) return true;

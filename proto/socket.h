@@ -76,7 +76,7 @@ struct Refusals {
 };
 
 /// The coordinator's end: one socket with one connection for each worker; a message is one frame.
-/// For one thread. Errors of the operating system are thrown as std::runtime_error.
+/// Not thread-safe. Errors of the operating system are thrown as std::runtime_error.
 class ServerSocket {
  public:
   struct Received {
@@ -127,7 +127,7 @@ class ServerSocket {
 
 /// The worker's end. It never reconnects automatically: `lost` reports that the connection ended,
 /// and `connect` makes a new one. On loopback without keys it connects only to processes of its own
-/// user or of root. For one thread.
+/// user or of root. Not thread-safe.
 class ClientSocket {
  public:
   explicit ClientSocket(std::string endpoint, const SocketOptions& options = {},

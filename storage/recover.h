@@ -17,7 +17,7 @@ struct SalvagedTable {
   std::string name;
   std::int64_t rows = 0;        ///< complete rows
   std::int64_t lost_pages = 0;  ///< pages with more rows that cannot be read
-  std::int64_t broken = 0;      ///< rows of which a part is lost
+  std::int64_t broken = 0;      ///< rows that lost a part
   bool tree_is_lost = false;    ///< the table's first page is unknown: it may have had more rows
 };
 

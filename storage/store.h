@@ -135,7 +135,7 @@ struct StoredCampaign {
   std::int64_t designs = 0;         ///< number of its designs
 };
 
-/// Read-only access to a store, for any process, also while a campaign runs. For one thread. Each
+/// Read-only access to a store, for any process, also while a campaign runs. Not thread-safe. Each
 /// call sees the store as it is at that moment. Members throw std::runtime_error when the disk
 /// fails.
 class StoreReader {

@@ -29,7 +29,7 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Starts `words[0]`, which is searched in PATH if it has no slash, with further variables
+  /// Starts `words[0]`, which is looked up in PATH if it has no slash, with further variables
   /// ("NAME=value") in its environment. No process of this object may be running.
   Expected<void> start(const std::vector<std::string>& words, Streams streams,
                        const std::vector<std::string>& variables = {});

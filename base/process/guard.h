@@ -12,8 +12,8 @@ namespace swarmsmith {
 /// there are threads. Without a guard, `guard` and `unguard` do nothing.
 Expected<void> start_guard();
 
-/// Registers a process group that must end with this process. Any thread, and a child of vfork: it
-/// only writes to a pipe.
+/// Registers a process group that must end with this process. Can be called from any thread, and in
+/// a child of vfork: it only writes to a pipe.
 void guard(pid_t group);
 /// Reports that the group has ended.
 void unguard(pid_t group);

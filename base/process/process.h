@@ -13,7 +13,7 @@ namespace swarmsmith {
 
 /// A program to run, and its time limit.
 struct ProcessCall {
-  /// Program and arguments. A program whose name has no slash is searched in PATH.
+  /// Program and arguments. A program whose name has no slash is looked up in PATH.
   std::vector<std::string> words;
   /// The file to run under the name `words[0]`; empty: the file with that name.
   std::string file{};
@@ -37,7 +37,7 @@ struct Captured {
 /// How a program ended, and its output.
 struct ProcessEnd {
   enum class Why { Itself, Limit, Interrupted };
-  Why why = Why::Itself;  ///< Limit and Interrupted: it was ended
+  Why why = Why::Itself;  ///< Limit, Interrupted: this process ended it
   int exit_code = 0;      ///< valid when no signal ended it
   int signal = 0;         ///< the signal that ended it; 0 for none
   Captured output;

@@ -10,8 +10,8 @@
 namespace swarmsmith {
 
 /// JSON in the form that all programs of the project write: on one line, without blanks, keys in
-/// the order of writing. nlohmann's writer is only for JSON whose exact text does not matter: it
-/// writes 1.0 for 1, while the bytes of `--json` are guaranteed.
+/// the order in which they are added. nlohmann's writer is only for JSON whose exact text does not
+/// matter: it writes 1.0 for 1, while the bytes of `--json` are guaranteed.
 
 /// A text in quotes. Each byte that is not UTF-8 becomes U+FFFD.
 std::string json_text(std::string_view text);

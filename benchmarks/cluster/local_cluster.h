@@ -19,7 +19,7 @@ struct ClusterShape {
   WorkerShape each;
   Work work;
   bool curve = false;  ///< whether connections are encrypted, with listed keys
-  /// Number of designs in the store, from 1, to which the source's candidates belong.
+  /// Number of designs in the store, with ids from 1; the source's candidates belong to them.
   int designs = 1;
 };
 

@@ -196,7 +196,7 @@ class Model {
     if (!items.empty()) at(now + shape_.latency_us, Kind::Tasks, number, std::move(items));
   }
 
-  /// Only for idle slots: other evaluations would have to wait behind these.
+  /// Gives evaluations ahead only to idle slots: more of them would delay the needed ones.
   void look_ahead(double now) {
     std::int64_t idle = 0;
     for (const Worker& worker : workers_)

@@ -12,7 +12,7 @@ namespace swarmsmith {
 /// have no more access than this.
 enum class Privacy {
   Secret,    ///< only its owner may read or write it
-  Integral,  ///< others may read it, not write it
+  Integral,  ///< others may read it, but not write it
 };
 
 /// The content of a file of this user, at most 1 MB. Errors name the file and never show its

@@ -291,7 +291,7 @@ void Gate::weigh_all(std::size_t resident) {
   }
   if (of_all <= kNextToNothing || calm_ == 0) calm_ = resident;
   const bool takes_too_much = resident > calm_ + options_.most_waiting_memory;
-  // The next time only after the same growth again: the process may keep memory that was freed.
+  // Growth counts from here again, since the process may keep memory that was freed.
   if (takes_too_much) calm_ = resident;
   const std::uint64_t half = of_all / 2;
   // The connections with the most waiting bytes are closed first.

@@ -31,11 +31,11 @@ namespace swarmsmith {
 /// of unknown peers.
 class Gate {
  public:
-  /// Bytes received from a connection: its frames, and roughly their overhead.
+  /// Bytes received from a connection: its frames, and their approximate overhead.
   using Taken = std::shared_ptr<std::atomic<std::uint64_t>>;
 
-  /// What a newcomer must prove: that its key is listed, or that it belongs to the same user of
-  /// this host. Without either, all are admitted.
+  /// What a newcomer must prove: that its key is listed, or that its process belongs to the same
+  /// user of this host. Without either, all are admitted.
   struct Asks {
     bool key = false;
     bool user = false;

@@ -31,7 +31,7 @@ class SqliteError : public StoreFailure {
 /// pictures, at most 24 MB.
 inline constexpr int kMostValueBytes = 25 << 20;
 
-/// An open database file. One thread at a time. The content of the file is only data and cannot run
+/// An open database file. Not thread-safe. The content of the file is only data and cannot run
 /// anything: its triggers do not run, its views are not read unless that is allowed, its functions
 /// are not trusted, and no statement can write its schema as text.
 class Connection {

@@ -71,7 +71,7 @@ struct Birth {
 [[gnu::noinline]] pid_t begin(Birth& birth) {
   const pid_t pid = vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork): see above
   if (pid == 0)
-    become(birth);  // NOLINT(clang-analyzer-unix.Vfork): it calls async-signal-safe functions alone
+    become(birth);  // NOLINT(clang-analyzer-unix.Vfork): it calls only async-signal-safe functions
   return pid;
 }
 
