@@ -25,7 +25,7 @@ std::optional<in_addr> four_of(const std::string& host) {
   return inet_pton(AF_INET, host.c_str(), &number) == 1 ? std::optional(number) : std::nullopt;
 }
 
-/// Of an IPv6 number, which may be followed by its interface.
+/// An IPv6 address; an interface may follow it.
 std::optional<in6_addr> six_of(const std::string& host) {
   in6_addr number = {};
   return inet_pton(AF_INET6, host.substr(0, host.find('%')).c_str(), &number) == 1
@@ -43,8 +43,8 @@ std::string text_of(const sockaddr& address) {
   return text.data();
 }
 
-/// Why this host cannot be reached by a link-local number, if so: each interface has such a
-/// network, so that the number alone does not say which is meant.
+/// Why this host cannot be reached by a link-local address, or empty if it can: each interface has
+/// its own link-local network, so the address alone does not determine the host.
 std::string objection_to(const std::string& host) {
   const auto six = six_of(host);
   if (!six || !IN6_IS_ADDR_LINKLOCAL(&*six)) return "";

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Stops the process when `condition` is false: our own logic is wrong, and a race that went on
-/// would record wrong results. Stays on in every kind of build; the campaign resumes from its
-/// store. `what` says what must hold.
+/// Stops the process when `condition` is false: the program's own logic is wrong, and a race that
+/// continued would record wrong results. It is active in every kind of build; the campaign resumes
+/// from its store. `what` is the sentence that must be true.
 #define SWARMSMITH_ASSERT(condition, what)                                          \
   do {                                                                              \
     if (!(condition)) [[unlikely]]                                                  \

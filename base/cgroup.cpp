@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A group of this process: "2:cpu,cpuacct:/job/7", or "0::/job/7" of version 2.
+/// A control group of this process: "2:cpu,cpuacct:/job/7", or "0::/job/7" for version 2.
 struct Group {
-  std::vector<std::string> controllers;  ///< none: version 2
+  std::vector<std::string> controllers;  ///< empty: version 2
   fs::path path;
 };
 
@@ -54,10 +54,10 @@ bool only_goes_up(const fs::path& path) {
                      [](const fs::path& name) { return name == "/" || name == ".."; });
 }
 
-/// Folders of a group and of those above it, as far as the mount shows them.
+/// The folders of a group and of the groups above it, as far as the mount shows them.
 std::vector<fs::path> folders_of(const Group& group, const Mount& mount) {
-  // A mount from outside of the namespace of our group shows a group above it, but not which one
-  // below is ours.
+  // A mount from outside of the namespace of our group shows a group above ours, but not which of
+  // the groups below is ours.
   if (goes_up(mount.root))
     return only_goes_up(mount.root) ? std::vector{mount.point} : std::vector<fs::path>();
   const fs::path inside = group.path.lexically_relative(mount.root);
@@ -89,12 +89,12 @@ std::vector<fs::path> folders(const fs::path& root, std::string_view controller)
 std::optional<double> number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return std::nullopt;  // "max", or nothing
+  if (error != std::errc()) return std::nullopt;  // "max", or no value
   return value;
 }
 
 std::optional<double> share(std::optional<double> quota, std::optional<double> period) {
-  if (!quota || !period || !(*quota > 0) || !(*period > 0)) return std::nullopt;  // -1: none
+  if (!quota || !period || !(*quota > 0) || !(*period > 0)) return std::nullopt;  // -1: no limit
   return *quota / *period;
 }
 

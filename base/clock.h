@@ -4,7 +4,7 @@
 
 namespace swarmsmith {
 
-/// Monotonic time, for leases, heartbeats and rates. Wall-clock time is only for people.
+/// Monotonic time, for leases, heartbeats and rates. Wall-clock time is only shown to users.
 using TimePoint = std::chrono::time_point<std::chrono::steady_clock, std::chrono::nanoseconds>;
 using Duration = std::chrono::nanoseconds;
 
@@ -15,7 +15,7 @@ inline double seconds_of(Duration duration) {
   return std::chrono::duration<double>(duration).count();
 }
 
-/// Time as something handed in, so that tests own it.
+/// A clock that is passed as an argument, so that tests can control it.
 class Clock {
  public:
   virtual ~Clock() = default;

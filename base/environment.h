@@ -5,7 +5,7 @@
 
 namespace swarmsmith {
 
-/// The environment variable; `unset` where there is none.
+/// The value of the environment variable; `unset` if it does not exist.
 inline std::string environment(const char* name, const char* unset = "") {
   const char* value = std::getenv(name);
   return value == nullptr ? unset : value;

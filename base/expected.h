@@ -6,9 +6,9 @@
 
 namespace swarmsmith {
 
-/// What kind of trouble an `Error` is; programs turn it into an exit code.
+/// The kind of an `Error`; programs turn it into an exit code.
 enum class ErrorKind {
-  BadInput,     ///< the outside sent something wrong: a file, a text, an argument, a message
+  BadInput,     ///< invalid input: a file, a text, an argument, a message
   NotFound,     ///< no such id, file or name
   Conflict,     ///< it exists, but belongs to another campaign or is held by another process
   Corrupt,      ///< a store or message is damaged
@@ -16,22 +16,22 @@ enum class ErrorKind {
   Unavailable,  ///< a peer or the environment does not answer
 };
 
-/// Something that went wrong outside of our own logic, as a value: what was found and what was
-/// wanted (`message`, a sentence for people), and where (`where`: file:line:column, a field's
-/// path, a token's position; may be empty).
+/// An error outside of the program's own logic, as a value. `message` is a sentence for users with
+/// what was found and what was expected; `where` is the place (file:line:column, a field's path, a
+/// token's position; may be empty).
 struct Error {
   ErrorKind kind = ErrorKind::BadInput;
   std::string message;
   std::string where;
 
-  /// Not defaulted: ROS's side of robots is C++17.
+  /// Not defaulted, since the ROS code for robots is C++17.
   friend bool operator==(const Error& a, const Error& b) {
     return a.kind == b.kind && a.message == b.message && a.where == b.where;
   }
 };
 
-/// A value of `T`, or the reason why there is none. Has the interface of C++23's std::expected, so
-/// that it can be replaced by it.
+/// A value of `T`, or the reason why there is none. It has the interface of C++23's std::expected,
+/// which can replace it later.
 template <class T>
 using Expected = tl::expected<T, Error>;
 
@@ -45,7 +45,7 @@ inline Unexpected bad_input(std::string message, std::string where = {}) {
   return unexpected(ErrorKind::BadInput, std::move(message), std::move(where));
 }
 
-/// "where: message", or the message alone when the place is not known.
+/// "where: message", or only the message when the place is unknown.
 inline std::string to_string(const Error& error) {
   return error.where.empty() ? error.message : error.where + ": " + error.message;
 }

@@ -19,19 +19,19 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 }
 
 /// An order-dependent 128-bit digest of a stream of words and texts, the same on every machine. It
-/// finds differences and damage; it does not protect against damage that is done on purpose.
+/// finds differences and damage, but does not protect against changes on purpose.
 class Digest {
  public:
   void add(std::uint64_t word);
   void add(std::int64_t word) { add(static_cast<std::uint64_t>(word)); }
   void add(std::int32_t word) { add(static_cast<std::uint64_t>(word)); }
-  /// The bits of the value: -0 and 0 differ.
+  /// Adds the bits of the value: -0 and 0 differ.
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  /// Length first, so that ("ab", "c") and ("a", "bc") differ.
+  /// Adds the length first, so that ("ab", "c") and ("a", "bc") differ.
   void add(std::string_view text);
   void add(const char* text) { add(std::string_view(text)); }
 
-  /// The low word; enough where a table keeps one integer.
+  /// The low word, which is enough for tables with one integer.
   std::uint64_t value64() const;
   /// 32 hexadecimal digits.
   std::string hex() const;

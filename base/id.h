@@ -11,8 +11,9 @@
 
 namespace swarmsmith {
 
-/// A small integer that names one thing of one kind, so that two kinds cannot be swapped. `Tag` has
-/// a `static constexpr char kLetter`, with which people see it: d3, c812. Zero is not an id.
+/// A small integer that identifies one thing of one kind, so that ids of two kinds cannot be
+/// confused. `Tag` has a `static constexpr char kLetter`, the letter of printed ids: d3, c812. Zero
+/// is not an id.
 template <class Tag>
 struct Id {
   std::int64_t value = 0;
@@ -26,7 +27,7 @@ std::string to_string(Id<Tag> id) {
   return Tag::kLetter + std::to_string(id.value);
 }
 
-/// The id that people write as "d3"; nothing when the text is none.
+/// The id in a text such as "d3"; empty when the text is not an id.
 template <class Tag>
 std::optional<Id<Tag>> id_from_text(std::string_view text) {
   if (text.empty() || text.front() != Tag::kLetter) return std::nullopt;

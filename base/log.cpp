@@ -18,7 +18,7 @@
 namespace swarmsmith {
 namespace {
 
-// A signal's handler changes it: of a lock-free type, and there from the beginning.
+// A signal handler changes it, so it must be lock-free and initialised from the beginning.
 std::atomic<int> g_level{static_cast<int>(LogLevel::Info)};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -58,7 +58,8 @@ class Log {
   bool has_level() const { return has_level_; }
 
  private:
-  /// One write a line: lines of several processes on one terminal stay whole.
+  /// Writes each line in one call, so that lines of several processes on one terminal are not
+  /// mixed.
   void put(LogLevel level, std::string_view component, std::string_view event,
            std::span<const LogField> fields) {
     const std::string line = log_line(json_, time_text(), level, component, event, fields) + "\n";
@@ -107,7 +108,7 @@ void log_event(LogLevel level, std::string_view component, std::string_view even
 }
 
 void set_log_level(LogLevel level) {
-  the_log();  // what the environment says comes first, and is replaced
+  the_log();  // reads the environment first, whose level is then replaced
   g_level = static_cast<int>(level);
 }
 

@@ -32,7 +32,7 @@ std::vector<LogLimiter::LeftOut> LogLimiter::take_left_out(TimePoint now, bool a
       taken.push_back({at->first, second.left_out});
       second.left_out = 0;
     }
-    // Names of events are few, but not for ever the same ones.
+    // There are few names of events at a time, but not always the same ones.
     at = over ? seconds_.erase(at) : std::next(at);
   }
   return taken;

@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// Passes a limited number of lines per event and second, and counts the others. Pure.
+/// Admits a limited number of lines per event and second, and counts the others. Pure.
 class LogLimiter {
  public:
   static constexpr int kMostASecond = 10;
@@ -22,7 +22,8 @@ class LogLimiter {
 
   /// Whether a line of this event may be written now.
   bool admit(std::string_view event, TimePoint now);
-  /// Lines dropped in past seconds, reported once; with `all` also those of the present second.
+  /// The numbers of lines dropped in past seconds, each reported once; with `all` also those of the
+  /// current second.
   std::vector<LeftOut> take_left_out(TimePoint now, bool all = false);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kLevels = {"debug", "info", "warning", "error", "none"};
 
-/// A text that is not UTF-8 gets question marks: JSON has no escape for a byte.
+/// Bytes that are not UTF-8 become question marks, since JSON has no escape for a byte.
 void append_quoted(std::string& out, std::string_view text) {
   out += '"';
   while (!text.empty()) {
@@ -34,7 +34,7 @@ void append_quoted(std::string& out, std::string_view text) {
   out += '"';
 }
 
-/// Bare when it reads as one word, quoted otherwise.
+/// Without quotes if it reads as one word, else in quotes.
 void append_word(std::string& out, std::string_view text) {
   const bool word = !text.empty() && text.find_first_of(" \"=\\") == std::string_view::npos &&
                     as_shown(text, Layout::Escaped) == text;

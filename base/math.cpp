@@ -35,7 +35,7 @@ double scale(double x, int n) {
   return x * std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52U);
 }
 
-/// std::floor of what fits into an integer, without a call of the C library.
+/// std::floor for a value that fits into an integer, without calling the C library.
 double whole_below(double x) {
   const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
   return whole > x ? whole - 1 : whole;
@@ -75,7 +75,7 @@ double atan_kernel(double t) {
 double atan_unit(double t) {
   static constexpr std::array<double, 5> kAtanQuarters = {
       0.0, 0.24497866312686415, 0.4636476090008061, 0.6435011087932844, 0.7853981633974483};
-  // Any rounding of halves will do: both neighbours are near enough.
+  // Any rounding of halves is good enough: both neighbours are near.
   const int k = static_cast<int>(t * 4.0 + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   if (k == 0) return atan_kernel(t);
   const double quarter = k / 4.0;

@@ -2,10 +2,11 @@
 
 namespace swarmsmith {
 
-/// Elementary functions of our own, from + - * / and square root only, which IEEE 754 all fixes
-/// to the last bit. The C library's differ in their last bits between CPUs, since it picks variants
-/// by what the CPU offers; everything that decides a race or moves a robot calls these instead.
-/// Errors stay below three units in the last place, tested against the C library.
+/// Elementary functions that use only + - * / and square root, for which IEEE 754 defines every bit
+/// of the result. The functions of the C library differ in their last bits between CPUs, since it
+/// selects variants by the features of the CPU. Everything that decides a race or moves a robot
+/// uses these functions instead. Their errors are below three units in the last place, tested
+/// against the C library.
 
 inline constexpr double kPi = 3.141592653589793;
 

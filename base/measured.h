@@ -5,16 +5,18 @@
 
 namespace swarmsmith {
 
-/// What an evaluation gives, from the worker to the store. A further number is a field here: what
-/// reads and writes messages and rows takes these apart by name, and does not compile without it.
+/// The result of an evaluation on its way from the worker to the store. A new number must be a
+/// field here: the code that reads and writes messages and rows takes the fields apart by
+/// structured bindings, and does not compile if one is missing.
 struct Measured {
-  double score = 0;                ///< larger is better; 0 of a rejected evaluation
-  std::uint64_t state_digest = 0;  ///< of the simulation's end: equal bits, equal run
-  std::int64_t wall_us = 0;        ///< of the worker's clock; no part of the answer
-  double time = 0;                 ///< as a target says it, in its unit; 0 where it does not
+  double score = 0;  ///< larger is better; 0 for a rejected evaluation
+  std::uint64_t state_digest =
+      0;                     ///< of the final state of the simulation: equal bits mean an equal run
+  std::int64_t wall_us = 0;  ///< wall time on the worker; not part of the answer
+  double time = 0;           ///< as reported by a target, in its unit; 0 if it reports none
 };
 
-/// Whether two runs of one evaluation gave the same, bit by bit. What a clock says may differ.
+/// Whether two runs of one evaluation gave the same result, bit by bit. Times may differ.
 inline bool same_bits(const Measured& one, const Measured& other) {
   return std::bit_cast<std::uint64_t>(one.score) == std::bit_cast<std::uint64_t>(other.score) &&
          one.state_digest == other.state_digest;

@@ -7,7 +7,8 @@
 
 namespace swarmsmith {
 
-/// The value in the middle by size; of an even number the larger of the two there. At least one.
+/// The median; for an even number of values, the larger of the two in the middle. At least one
+/// value.
 inline double upper_median(std::vector<double> values) {
   SWARMSMITH_ASSERT(!values.empty(), "a median of nothing");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -15,7 +16,7 @@ inline double upper_median(std::vector<double> values) {
   return *middle;
 }
 
-/// The same, but of an even number the mean of the two.
+/// The median; for an even number of values, the mean of the two in the middle.
 inline double median_of(std::vector<double> values) {
   const double upper = upper_median(values);
   if (values.size() % 2 == 1) return upper;

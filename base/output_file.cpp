@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Device, inode and when it was made: an inode's number is given again.
+/// Device, inode and birth time, since inode numbers are reused.
 using Identity =
     std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::int64_t, std::uint32_t>;
 
@@ -34,7 +34,7 @@ Inputs& inputs() {
   return known;
 }
 
-/// Of a plain file; links are followed.
+/// The identity of a regular file; symbolic links are followed.
 std::optional<Identity> identity_of(const fs::path& file) {
   struct statx status {};
   constexpr unsigned kWanted = STATX_TYPE | STATX_INO | STATX_BTIME;
@@ -60,7 +60,7 @@ std::string beginning_of(const fs::path& file) {
   return bytes;
 }
 
-/// The first line that says something: neither empty nor a comment.
+/// The first line that is neither empty nor a comment.
 std::string_view first_line(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
@@ -94,7 +94,7 @@ bool is_toml(std::string_view line) {
          !line.starts_with("--");
 }
 
-/// What a link leads to, though nothing is there yet.
+/// The target of a symbolic link, which need not exist yet.
 fs::path followed(fs::path file) {
   constexpr int kMostLinks = 40;
   std::error_code failed;

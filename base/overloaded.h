@@ -2,14 +2,14 @@
 
 namespace swarmsmith {
 
-/// One callable out of several lambdas, for std::visit over a variant. Without a default case a new
-/// alternative does not compile until every reader has thought of it.
+/// One callable object made of several lambdas, for std::visit over a variant. Without a default
+/// case, code does not compile after a new alternative is added until each visitor handles it.
 template <class... Callables>
 struct Overloaded : Callables... {
   using Callables::operator()...;
 };
 
-/// GCC does without; clang 14 does not.
+/// GCC does not need this; clang 14 does.
 template <class... Callables>
 Overloaded(Callables...) -> Overloaded<Callables...>;
 

@@ -18,7 +18,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A descriptor that is closed at the end.
+/// A descriptor that the destructor closes.
 struct Descriptor {
   explicit Descriptor(int opened) : number(opened) {}
   ~Descriptor() {
@@ -34,7 +34,7 @@ struct Ends {
   sockaddr_storage theirs = {};
 };
 
-/// An IPv4 address within IPv6, as a socket of both families has it, as one of IPv4.
+/// Converts an IPv4 address within IPv6, which a socket of both families reports, to plain IPv4.
 void unmap(sockaddr_storage& end) {
   const auto six = reinterpret_cast<const sockaddr_in6&>(end);
   if (end.ss_family != AF_INET6 || !IN6_IS_ADDR_V4MAPPED(&six.sin6_addr)) return;
@@ -58,8 +58,8 @@ std::optional<Ends> ends_of(int socket) {
   return ends;
 }
 
-/// Whose a socket is. One that no process holds any more has no inode, and the kernel says of it
-/// that it is root's.
+/// The user of a socket. A socket that no process has any more has no inode, and the kernel reports
+/// root as its user.
 std::optional<uid_t> holder(uid_t user, std::uint64_t inode) {
   return inode != 0 ? std::optional(user) : std::nullopt;
 }
@@ -76,8 +76,8 @@ void set_end(const sockaddr_storage& end, __be32* address, __be16& port) {
   }
 }
 
-/// What the kernel says of the socket that has these ends (sock_diag(7)); nothing when it knows
-/// none, or does not answer such questions.
+/// The kernel's data on the socket with these ends (sock_diag(7)); empty when there is no such
+/// socket, or when the kernel does not answer.
 std::optional<inet_diag_msg> ask_kernel(const sockaddr_storage& own,
                                         const sockaddr_storage& other) {
   struct {
@@ -96,7 +96,7 @@ std::optional<inet_diag_msg> ask_kernel(const sockaddr_storage& own,
   const int kernel = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG);
   if (kernel < 0) return std::nullopt;
   std::array<char, 4096> answer{};
-  // It has answered when `send` returns.
+  // The answer is there when `send` returns.
   const bool sent = send(kernel, &question, sizeof question, 0) == sizeof question;
   const ssize_t got = sent ? recv(kernel, answer.data(), answer.size(), MSG_DONTWAIT) : -1;
   close(kernel);
@@ -108,7 +108,7 @@ std::optional<inet_diag_msg> ask_kernel(const sockaddr_storage& own,
   return head.nlmsg_type == SOCK_DIAG_BY_FAMILY ? std::optional(found) : std::nullopt;
 }
 
-/// An end as the kernel's list has it: words of four bytes in this machine's order, then the port.
+/// An end as in the kernel's list: words of four bytes in this machine's byte order, then the port.
 std::string listed(const sockaddr_storage& end) {
   std::array<std::uint32_t, 4> words{};
   std::uint16_t port = 0;
@@ -123,7 +123,8 @@ std::string listed(const sockaddr_storage& end) {
   return text + part.data();
 }
 
-/// From the list of all sockets. The kernel looks through its whole table for it: milliseconds.
+/// The user from the list of all sockets. The kernel searches its whole table for it, which takes
+/// milliseconds.
 std::optional<uid_t> user_in_list(const Ends& ends) {
   std::ifstream list(ends.ours.ss_family == AF_INET6 ? "/proc/net/tcp6" : "/proc/net/tcp");
   const std::string own = listed(ends.theirs);
@@ -150,10 +151,10 @@ std::optional<uid_t> user_in_list(const Ends& ends) {
 std::optional<uid_t> user_of_peer(int socket) {
   const auto ends = ends_of(socket);
   if (!ends) return std::nullopt;
-  // Theirs is a socket of this host, whose own end is what is the other one for us.
+  // The peer's end is a socket of this host; its own address is the remote address of ours.
   if (const auto theirs = ask_kernel(ends->theirs, ends->ours))
     return holder(theirs->idiag_uid, theirs->idiag_inode);
-  // A kernel that knows our end and not theirs says that theirs is elsewhere.
+  // If the kernel knows our end but not the peer's, the peer is on another host.
   if (ask_kernel(ends->ours, ends->theirs)) return std::nullopt;
   return user_in_list(*ends);
 }
@@ -178,7 +179,7 @@ std::optional<uid_t> user_who_listens(const std::string& number, int port) {
   } else {
     return std::nullopt;
   }
-  four.sin_port = htons(static_cast<std::uint16_t>(port));  // where IPv6 has it, too
+  four.sin_port = htons(static_cast<std::uint16_t>(port));  // at the same offset as in IPv6
   sockaddr_storage none = {};
   none.ss_family = own.ss_family;
   const auto found = ask_kernel(own, none);

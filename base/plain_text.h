@@ -20,7 +20,7 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
   }
 }
 
-/// The lines of a text, without their ends. The last line may have none.
+/// The lines of a text, without their line ends. The last line may have no line end.
 inline std::vector<std::string_view> split_lines(std::string_view text) {
   auto lines = split(text, '\n');
   if (lines.back().empty()) lines.pop_back();

@@ -32,7 +32,8 @@ std::optional<fs::path> program_in(std::string_view search_path, std::string_vie
 
 namespace {
 
-/// Of a process: its file; nothing without /proc, or where a loader of its own started it.
+/// The file of this process's program; empty without /proc, or if the program was started by its
+/// own loader.
 std::optional<fs::path> running_file() {
   std::error_code failed;
   fs::path file = fs::read_symlink("/proc/self/exe", failed);
@@ -44,7 +45,7 @@ std::optional<fs::path> running_file() {
 
 fs::path own_program() {
   if (auto file = running_file()) return *file;
-  // The launcher hands on its own path as the name that it was called by.
+  // The launcher passes its own path as the name of the program.
   const fs::path named = program_invocation_name;
   if (named.is_absolute()) return named;
   std::error_code failed;

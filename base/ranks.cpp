@@ -6,8 +6,8 @@
 namespace swarmsmith {
 namespace {
 
-/// From how many arrangements have each value of the statistic. The distribution is symmetric: each
-/// tail is summed from its own end, where small numbers keep their digits.
+/// The tails from the number of arrangements with each value of the statistic. The distribution is
+/// symmetric: each tail is summed from its own end, where small numbers keep their digits.
 Tails tails_of(const std::vector<double>& counts, std::size_t value) {
   double all = 0;
   double lower = 0;
@@ -43,8 +43,8 @@ AverageRanks average_ranks(std::span<const double> values) {
 Tails rank_sum_tails(std::size_t value, std::size_t m, std::size_t n) {
   const std::size_t few = std::min(m, n);
   const std::size_t most = m * n;
-  // chosen[j][w]: ways to choose j of the first ranks as those of the smaller sample such that w
-  // pairs have the ranks not chosen below them.
+  // chosen[j][w]: number of ways to choose j of the ranks so far for the smaller sample such that w
+  // pairs have a rank that was not chosen below one that was.
   std::vector<std::vector<double>> chosen(few + 1, std::vector<double>(most + 1));
   chosen[0][0] = 1;
   for (std::size_t rank = 1; rank <= m + n; ++rank) {

@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// Ranks of values, the smallest has 1 and ties share their mean rank.
+/// Ranks of values: the smallest value has rank 1, and equal values share their mean rank.
 struct AverageRanks {
   std::vector<double> ranks;
   double ties = 0;  ///< sum of u^3 - u over the sizes u of the groups of equal values
@@ -14,19 +14,19 @@ struct AverageRanks {
 
 AverageRanks average_ranks(std::span<const double> values);
 
-/// Distributions of Wilcoxon's statistics without ties when nothing differs, by counting: R's
-/// pwilcox and psignrank.
+/// Exact distributions of Wilcoxon's statistics without ties under the null hypothesis, by
+/// counting: R's pwilcox and psignrank.
 
-/// The two tails at a value that the statistic can have.
+/// The two tails at a possible value of the statistic.
 struct Tails {
   double lower = 1;  ///< P(statistic <= value)
   double upper = 1;  ///< P(statistic >= value)
 };
 
-/// Of W, how many of the m n pairs have x > y; both below 50.
+/// The tails of W, the number of the m n pairs with x > y; both m and n below 50.
 Tails rank_sum_tails(std::size_t value, std::size_t m, std::size_t n);
 
-/// Of V, the sum of the ranks of positive differences among n; n below 50.
+/// The tails of V, the sum of the ranks of positive differences among n; n below 50.
 Tails signed_rank_tails(std::size_t value, std::size_t n);
 
 }  // namespace swarmsmith

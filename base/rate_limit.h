@@ -9,13 +9,13 @@
 
 namespace swarmsmith {
 
-/// A burst, and a rate per second.
+/// The parameters of a token bucket: size of a burst, and rate per second.
 struct Rate {
   double burst = 0;
   double per_second = 0;
 };
 
-/// Passes whatever stays within a rate (a token bucket). Pure.
+/// Admits amounts that stay within a rate (a token bucket). Pure.
 class RateLimit {
  public:
   explicit RateLimit(Rate rate) : rate_(rate), left_(rate.burst) {}
@@ -46,8 +46,8 @@ class RateLimit {
   TimePoint when_;
 };
 
-/// The same for each of many names, which strangers may choose. When there are too many, quiet
-/// names are forgotten first, then all.
+/// A rate limit for each of many names, which unknown peers may choose. When there are too many,
+/// names without recent use are forgotten first, then all.
 class RateLimits {
  public:
   explicit RateLimits(Rate rate) : rate_(rate) {}

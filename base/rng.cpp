@@ -15,7 +15,7 @@ Rng Rng::split(std::string_view name, std::uint64_t index) const {
 
 std::uint64_t Rng::below(std::uint64_t n) {
   SWARMSMITH_ASSERT(n > 0, "a draw needs at least one outcome");
-  // The largest multiple of n that fits; numbers beyond it are drawn again.
+  // The largest multiple of n that fits; numbers above it are drawn again.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % n + 1) % n;
   std::uint64_t x = next();
   while (x > limit)

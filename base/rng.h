@@ -11,14 +11,15 @@ namespace swarmsmith {
 
 /// A named, counter-based stream of random numbers: the n-th number is a fixed function of the
 /// stream's key and n, so the same seed gives the same numbers on every machine, compiler and
-/// standard library. Distributions are our own for the same reason. Not thread-safe; copy or split.
+/// standard library. The distributions are implemented here for the same reason. Not thread-safe;
+/// copy or split.
 ///
 /// Generator: SplitMix64 (see base/hash.h), whose state is key + n * golden ratio.
 class Rng {
  public:
   explicit Rng(std::uint64_t seed) : key_(mix64(seed + kGolden)) {}
 
-  /// A stream of its own, which depends on this stream's key, the name and the index, and not on
+  /// An independent stream, which depends on this stream's key, the name and the index, but not on
   /// how many numbers were drawn.
   [[nodiscard]] Rng split(std::string_view name, std::uint64_t index = 0) const;
 
@@ -37,7 +38,7 @@ class Rng {
   }
   /// True with probability p (never for p <= 0, always for p >= 1).
   bool bernoulli(double p) { return uniform() < p; }
-  /// Standard normal by inversion: one number drawn, one returned.
+  /// Standard normal by inversion: each value takes one number of the stream.
   double normal();
   double normal(double mean, double sd) { return mean + sd * normal(); }
 
@@ -47,7 +48,7 @@ class Rng {
       std::swap(items[i - 1], items[below(i)]);
   }
 
-  /// How many numbers were drawn; with the key, the whole state.
+  /// How many numbers were drawn. Together with the key, this is the whole state.
   std::uint64_t drawn() const { return drawn_; }
   std::uint64_t key() const { return key_; }
 

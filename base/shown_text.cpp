@@ -15,7 +15,7 @@ unsigned code_of(std::string_view character) {
     case 3:
       return (byte(0) & 0x0fU) << 12U | (byte(1) & 0x3fU) << 6U | (byte(2) & 0x3fU);
     default:
-      return 0x10000U;  // none of those that are not shown is longer
+      return 0x10000U;  // all characters that need an escape are shorter
   }
 }
 
@@ -23,13 +23,14 @@ bool is_control(unsigned code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }
 
-/// Marks of direction and embedding, and the two line ends of Unicode.
+/// Marks of direction and embedding, and Unicode's two line ends.
 bool turns_or_breaks(unsigned code) {
   return code == 0x061c || code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||
          (code >= 0x2066 && code <= 0x2069);
 }
 
-/// Bytes at the begin that are shown as they are in any layout: what most texts consist of.
+/// Number of bytes at the beginning that are shown unchanged in any layout; most texts have only
+/// these.
 std::size_t plain_length(std::string_view text) {
   std::size_t length = 0;
   while (length < text.size() && text[length] >= ' ' && text[length] < '\x7f')

@@ -12,8 +12,8 @@ constexpr double kHalfLogTwoPi = 0.9189385332046728;
 constexpr double kTiny = 1e-300;
 constexpr double kPrecision = 1e-16;
 
-/// log_gamma(x) minus Stirling's (x - 1/2) ln x - x + ln(2 pi)/2: its asymptotic series from 15 on,
-/// below that the recurrence from x + 1 to x.
+/// log_gamma(x) minus Stirling's (x - 1/2) ln x - x + ln(2 pi)/2: from 15 on by the asymptotic
+/// series, below that by the recurrence from x + 1 to x.
 double stirling_rest(double x) {
   double rest = 0;
   while (x < 15) {
@@ -41,12 +41,12 @@ double gamma_series(double a, double x) {
   return sum * gamma_factor(a, x);
 }
 
-/// Lentz's evaluation of a continued fraction b0 + a1/(b1 + a2/(b2 + ...)), one term a call.
+/// Lentz's evaluation of a continued fraction b0 + a1/(b1 + a2/(b2 + ...)), one term per call.
 class ContinuedFraction {
  public:
   explicit ContinuedFraction(double b0) : value_(b0 == 0 ? kTiny : b0), c_(value_) {}
 
-  /// False when the term changed nothing any more.
+  /// False when the term has not changed the value.
   bool add(double a, double b) {
     d_ = b + a * d_;
     if (d_ == 0) d_ = kTiny;
@@ -95,7 +95,7 @@ double beta_fraction(double a, double b, double x, double y) {
   return exp(a * log(x) + b * log(y) - log_beta(a, b)) / (a * fraction.value());
 }
 
-/// Regularised incomplete beta function, from whichever side converges.
+/// Regularised incomplete beta function, by the fraction that converges.
 double incomplete_beta(double a, double b, double x, double y) {
   if (x <= 0) return 0;
   if (y <= 0) return 1;
@@ -104,7 +104,7 @@ double incomplete_beta(double a, double b, double x, double y) {
 }
 
 /// Cornish and Fisher's expansion of the t quantile about the normal one (Abramowitz and Stegun,
-/// 26.7.5). The first term left out is of order dof^-5.
+/// 26.7.5). The first omitted term is of order dof^-5.
 double expanded_t_quantile(double z, double dof) {
   const double s = z * z;
   const double g1 = (s + 1) * z / 4;
@@ -136,9 +136,10 @@ double student_t_two_sided_tail(double t, double dof) {
 double student_t_upper_quantile(double upper_tail, double dof) {
   SWARMSMITH_ASSERT(upper_tail > 0 && upper_tail < 0.5 && dof >= 1, "a tail and a sample");
   const double z = -normal_quantile(upper_tail);
-  // Where the expansion is exact to double precision it is the answer.
+  // If the expansion is exact to double precision, it is the result.
   if (dof >= 1000 && z < 5) return expanded_t_quantile(z, dof);
-  // Newton on the logarithm of the tail in ln t: nearly a straight line, for thin and thick tails.
+  // Newton's method on the logarithm of the tail as a function of ln t, which is nearly a straight
+  // line for thin and for thick tails.
   const double log_constant = -log_beta(dof / 2, 0.5) - 0.5 * log(dof);
   double t = dof < 3 ? 1 / (kPi * upper_tail) : std::fmax(expanded_t_quantile(z, dof), z);
   for (int i = 0; i < 100; ++i) {

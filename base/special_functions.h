@@ -18,8 +18,8 @@ double student_t_two_sided_tail(double t, double dof);
 /// about 1e-12.
 double student_t_upper_quantile(double upper_tail, double dof);
 
-/// Quantiles of one fixed tail for many degrees of freedom; the small ones, which come again and
-/// again, are computed once.
+/// Quantiles for one fixed tail and many degrees of freedom. Those for few degrees of freedom,
+/// which are used often, are computed only once.
 class StudentQuantiles {
  public:
   explicit StudentQuantiles(double upper_tail) : upper_tail_(upper_tail) {}
@@ -27,7 +27,7 @@ class StudentQuantiles {
 
  private:
   double upper_tail_;
-  std::vector<double> known_;  ///< by degrees of freedom; 0 is not yet computed
+  std::vector<double> known_;  ///< by degrees of freedom; 0: not computed yet
 };
 
 }  // namespace swarmsmith

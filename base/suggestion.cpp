@@ -14,12 +14,12 @@ char folded(char letter) {
 
 constexpr std::size_t kEdit = 2;
 
-/// Of a letter that is added or left out: a dash is half a letter.
+/// The cost of adding or leaving out a letter; a dash costs half.
 std::size_t cost_of(char letter) {
   return folded(letter) == '_' ? kEdit / 2 : kEdit;
 }
 
-/// Optimal string alignment distance: edits and swaps of neighbours, kEdit each.
+/// Optimal string alignment distance: edits and swaps of neighbours cost kEdit each.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> rows(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 1; i <= a.size(); ++i)

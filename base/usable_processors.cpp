@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The kernel refuses a mask that is too short for its processors.
+/// Uses a larger mask until it fits: the kernel refuses one that is too short for its processors.
 int processors_of_mask() {
   constexpr int kMost = 1 << 20;
   for (int room = CPU_SETSIZE; room <= kMost; room *= 2) {

@@ -2,9 +2,10 @@
 
 namespace swarmsmith {
 
-/// Lines of a worker behind a pipe, for the launcher at its other end.
-inline constexpr const char* kWorkerBegins = "swarmsmith-worker: begins";  ///< the login is over
+/// Lines that a worker writes to a pipe, for the launcher at its other end.
+inline constexpr const char* kWorkerBegins =
+    "swarmsmith-worker: begins";  ///< the login has succeeded
 inline constexpr const char* kWorkerConnected = "swarmsmith-worker: connected";
-inline constexpr const char* kWorkerAlone = "swarmsmith-worker: alone";  ///< not connected any more
+inline constexpr const char* kWorkerAlone = "swarmsmith-worker: alone";  ///< no longer connected
 
 }  // namespace swarmsmith

@@ -1,5 +1,5 @@
-// What does an evaluation cost the coordinator? Trivial evaluations through real sockets, into a
-// real store. Without arguments: the table of docs/performance.md.
+// What does an evaluation cost the coordinator? Runs trivial evaluations through real sockets into
+// a real store. Without arguments, prints the table of docs/performance.md.
 //
 //   cluster_benchmark [--evaluations N] [--processes P] [--workers-each W] [--slots S]
 //                     [--spin-us T | --sleep-us T] [--window N] [--curve] [--memory] [--json]
@@ -20,7 +20,7 @@ struct Case {
   std::int64_t evaluations = 300'000;
   std::int64_t window = 10'000;
   ClusterShape shape;
-  bool memory = false;  ///< a line each half a million evaluations
+  bool memory = false;  ///< print a line for each half a million evaluations
 };
 
 void print_head() {

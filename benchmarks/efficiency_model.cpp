@@ -1,6 +1,6 @@
-// How many cores can a campaign use? The model of benchmarks/cluster/pool_model.h over races that
-// go as recorded ones did (benchmarks/record_races). Useful efficiency is evaluations that count x
-// time / (cores x wall time), over whole campaigns from the first evaluation to the last.
+// How many cores can a campaign use? Runs the model of benchmarks/cluster/pool_model.h on races
+// that proceed like recorded ones (benchmarks/record_races). Useful efficiency is evaluations that
+// count x time / (cores x wall time), over whole campaigns from the first evaluation to the last.
 //
 //   efficiency_model RACES.csv                   the table of docs/performance.md, as CSV
 //   efficiency_model RACES.csv SLOTS WORKER_SLOTS MS DESIGNS AHEAD    one case

@@ -16,19 +16,20 @@
 #include "tests/sim/engine/reference_data.h"
 #include "tests/sim/engine/reference_runs.h"
 
-// What one evaluation costs: three robots, 120 s, 1200 control cycles, on one core. The counter
-// ms_each is CPU time per evaluation, bare_loops the same in bare Box2D loops of the same world.
+// The cost of one evaluation: three robots, 120 s, 1200 control cycles, on one core. The counter
+// ms_each is CPU time per evaluation; bare_loops is the same time in units of a bare Box2D loop of
+// the same world.
 
 namespace swarmsmith {
 namespace {
 
-/// Control software with the mission it is measured on.
+/// Control software, and the runs on which it is measured.
 struct Subject {
   Controller controller;
   const ReferenceRuns* runs;
 };
 
-/// The missions with the original's instances, in the flavour and profile.
+/// The missions with the original's instances, with the given flavour and profile.
 std::map<std::string, ReferenceRuns> missions_in(const char* flavour, const char* profile) {
   std::map<std::string, ReferenceRuns> missions;
   for (const ReferenceMission& mission : kReferenceMissions) {
@@ -40,11 +41,11 @@ std::map<std::string, ReferenceRuns> missions_in(const char* flavour, const char
   return missions;
 }
 
-/// The yardstick: the same bodies and walls, one step a cycle, no sensors, no control software; the
-/// robots drive in circles of 0.2 m, clear of each other, so that contacts cost nothing. Without
-/// continuous collision, which nothing here is fast enough to need: with it Box2D 2.4 also works
-/// out when each robot would meet each wall whose box it is in, and reads the clock twice each
-/// time, which doubles the loop's time.
+/// The reference for times: the same bodies and walls, one step for each cycle, no sensors, no
+/// control software. The robots drive in circles of 0.2 m without meeting each other, so that
+/// contacts cost nothing. Continuous collision is off, since nothing here is fast enough to need
+/// it: with it, Box2D 2.4 also computes when each robot would hit each wall whose box it is in, and
+/// reads the clock twice each time, which doubles the loop's time.
 void run_bare_loop() {
   static constexpr std::array<Pose, 3> kStarts = {Pose{0.7, -0.2, 0}, Pose{-0.35, 0.4, 0},
                                                   Pose{-0.35, -0.8, 0}};
@@ -83,7 +84,7 @@ double cpu_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// CPU seconds of one bare loop.
+/// CPU time of one bare loop, seconds.
 double time_bare_loop() {
   constexpr int kLoops = 10;
   const double begin = cpu_seconds();
@@ -92,11 +93,11 @@ double time_bare_loop() {
   return (cpu_seconds() - begin) / kLoops;
 }
 
-/// One evaluation of each subject on a seed.
+/// One evaluation of each subject with a seed.
 using Round = std::function<void(int seed)>;
 
-/// Runs rounds of `evaluations` each on the seeds 1 to 100, in turn with the yardstick, so that
-/// both meet the same noise of the machine.
+/// Runs rounds of `evaluations` each on the seeds 1 to 100, alternating with the bare loop, so that
+/// noise of the machine affects both.
 void run_rounds(benchmark::State& state, double evaluations, const Round& round) {
   int seed = 0;
   double spent_s = 0;
@@ -124,7 +125,7 @@ void run_all(benchmark::State& state, const std::vector<Subject>& subjects) {
   });
 }
 
-/// The thirty machines of the thesis on their missions; `only` keeps one mission's ten.
+/// The thirty machines of the thesis on their missions; `only` selects the ten of one mission.
 void thesis_designs_on(benchmark::State& state, const char* flavour, const char* profile,
                        ContactModel contacts, const char* only) {
   std::map<std::string, ReferenceRuns> missions = missions_in(flavour, profile);
@@ -154,7 +155,7 @@ void reference_machines_on(benchmark::State& state, const char* flavour, const c
   run_all(state, subjects);
 }
 
-/// Ten networks on each mission, their weights drawn from all of the search space.
+/// Ten networks on each mission, with weights drawn from the whole search space.
 void networks_on(benchmark::State& state, const char* flavour, const char* profile) {
   const std::map<std::string, ReferenceRuns> missions = missions_in(flavour, profile);
   std::vector<Subject> subjects;
@@ -189,15 +190,15 @@ BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr_grid, "watermelon", "rvr", C
                   "grid");
 BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr_color, "watermelon", "rvr", ContactModel::Exact,
                   "color");
-// The same flavour without noise: the difference to rvr is the noise's price.
+// The same flavour without noise: the difference to rvr is the cost of the noise.
 BENCHMARK_CAPTURE(thesis_designs_on, watermelon_without_noise, "watermelon", "argos3",
                   ContactModel::Exact, kAll);
 BENCHMARK_CAPTURE(networks_on, watermelon_rvr, "watermelon", "rvr");
 BENCHMARK_CAPTURE(networks_on, watermelon_without_noise, "watermelon", "argos3");
 BENCHMARK_CAPTURE(reference_machines_on, watermelon_argos3, "watermelon-argos3", "argos3");
 
-/// The thesis' designs for grid exploration in an arena with as much room for each robot as theirs.
-/// Lidar on: all 719 rays of each robot in each cycle.
+/// The thesis' designs for grid exploration, in an arena with as much space for each robot as in
+/// the thesis. With `lidar`, all 719 rays of each robot in each cycle.
 void swarm(benchmark::State& state, bool lidar) {
   constexpr double kInradius_m = 1.226;
   const auto robots = static_cast<int>(state.range(0));

@@ -17,19 +17,19 @@
 namespace swarmsmith {
 namespace {
 
-/// Streams of control draws for each of the original's seeds.
+/// Number of streams of control draws for each of the original's seeds.
 int streams_of(ContactModel model) {
   return model == ContactModel::Exact ? 30 : 10;
 }
 
-/// All comparisons of one contact solver, mission by mission.
+/// All comparisons for one contact solver, mission by mission.
 struct Results {
   int equal_runs = 0;
   std::vector<MissionComparison> missions;
   std::vector<DesignsComparison> designs;
 };
 
-/// A thread for each mission.
+/// Runs one thread for each mission.
 Results compare_all(ContactModel model) {
   std::vector<std::future<MissionComparison>> missions;
   std::vector<std::future<DesignsComparison>> designs;
@@ -74,8 +74,8 @@ from the original's starting poses and patches. `./dev bench fidelity` writes th
 )");
 }
 
-/// One panel: the original's trails broad and pale, ours thin on top of them, up to the first
-/// contact.
+/// Draws one panel up to the first contact: the original's trails broad and pale, ours thin on top
+/// of them.
 void draw_panel(Svg& svg, const char* name, PagePoint middle, double scale) {
   const LoggedRun log = logged_run(name);
   const OpenLoop again = drive_again(log);
@@ -104,10 +104,10 @@ void draw_panel(Svg& svg, const char* name, PagePoint middle, double scale) {
   svg.text({middle.x, below}, name, {.size = 2.8, .anchor = TextStyle::Anchor::Middle});
 }
 
-/// The recorded runs side by side.
+/// Draws the recorded runs side by side.
 std::string draw_trajectories() {
   constexpr double kPanel_mm = 58;
-  constexpr double kScale = 21;  // mm a metre
+  constexpr double kScale = 21;  // mm per metre
   Svg svg(3 * kPanel_mm, kPanel_mm + 6, "Recorded trajectories and ours",
           "Trails of the original simulator, broad and pale, and of ours, thin, which cover them");
   double x = kPanel_mm / 2;
@@ -141,7 +141,7 @@ the start, 1200 ticks, three robots. The logs round poses to 0.01 mm and command
       "from them.\n\n");
 }
 
-/// What both solvers reach, in a few lines.
+/// Prints the results of both solvers in a few lines.
 void print_summary(const Results& exact, const Results& box2d) {
   fmt::print(R"(## In short, for both contact solvers
 
@@ -229,7 +229,8 @@ so that the interval of a single machine is too narrow there; the mean of the te
   }
 }
 
-/// Measured with the original at hand, which these data are not enough for.
+/// Prints results that were measured with the original simulator, since these data are not enough
+/// for them.
 void print_more_robots() {
   fmt::print(R"(
 ## More than three robots

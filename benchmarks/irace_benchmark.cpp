@@ -13,27 +13,28 @@
 #include "irace_core/iterated_race.h"
 #include "tests/irace_core/spaces.h"
 
-// What iterated racing itself costs: one test step, a whole design of 100,000 experiments on
+// The cost of iterated racing itself: one test step, a whole design of 100,000 experiments on
 // AutoMoDe's 149 parameters with a target that costs nothing, and the sampling of 1,000
 // configurations of that space.
 
 namespace swarmsmith::irace {
 namespace {
 
-/// CPU time of this thread: other programs on the machine do not count.
+/// CPU time of this thread, which does not include other programs on the machine.
 double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-/// Noise around the quality of a configuration: one in a hundred is good, the tests drop most.
+/// The quality of a configuration with noise: one in a hundred is good, and the tests drop most of
+/// the others.
 double noisy_cost(std::size_t column, Rng& rng) {
   return static_cast<double>(column % 100) / 50 + rng.uniform();
 }
 
-/// The fifth task of a first race of so many candidates: its costs arrive, are ranked and tested,
-/// and the losers are taken out of all sums.
+/// Measures the fifth task of a first race with as many candidates as the argument: its costs
+/// arrive, are ranked and tested, and the losers are removed from all sums.
 void test_step(benchmark::State& state, TestType type) {
   RaceSettings settings{.test_type = type,
                         .min_survival = 9,
@@ -72,14 +73,14 @@ Scenario hundred_thousand(TestType type) {
   return scenario;
 }
 
-/// Megabytes that the process has ever held at once.
+/// Largest memory of the process so far, MB.
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// A few bits of the configuration, and noise: what a target can say for nothing.
+/// A quality from a few bits of the configuration, and noise: a target that costs nothing.
 double trivial_cost(const Configuration& configuration, const Experiment& experiment) {
   const double quality = configuration[0] + (configuration.is_active(1) ? configuration[1] : 4);
   const std::uint64_t noise = mix64(static_cast<std::uint64_t>(experiment.seed) ^
@@ -88,7 +89,7 @@ double trivial_cost(const Configuration& configuration, const Experiment& experi
 }
 
 void design(benchmark::State& state, TestType type, bool one_task_at_a_time) {
-  static const double memory_before = peak_memory();  // of the first design
+  static const double memory_before = peak_memory();  // before the first design
   std::int64_t used = 0;
   double in_race = 0;
   for (auto _ : state) {
@@ -119,7 +120,7 @@ BENCHMARK_CAPTURE(design, t_test, TestType::TTest, false)->Unit(benchmark::kMill
 BENCHMARK_CAPTURE(design, f_test_single_tasks, TestType::FTest, true)
     ->Unit(benchmark::kMillisecond);
 
-/// The first race of such a design with all its configurations, about a thousand.
+/// The first race of such a design, with all its configurations, about a thousand.
 void first_configurations(benchmark::State& state) {
   std::int64_t sampled = 0;
   for (auto _ : state) {
@@ -143,7 +144,7 @@ void uniform_configurations(benchmark::State& state) {
 }
 BENCHMARK(uniform_configurations)->Unit(benchmark::kMillisecond);
 
-/// From the models of nine elites, after their first update.
+/// Configurations from the models of nine elites, after their first update.
 void configurations_of_models(benchmark::State& state) {
   const ParameterSpace space = testing::automode_space();
   Rng rng(1);

@@ -1,10 +1,10 @@
-// What our races reach on the benchmark `colony`, beside R's irace.
+// The results of our races on the benchmark `colony`, compared with R's irace.
 //
 //   irace_quality DATA PICTURE [ROWS [REPETITIONS]]
 //
-// DATA: benchmarks/data/irace_colony_r.csv. 20 races (or REPETITIONS) at each of its budgets, in
-// process; PICTURE is written as SVG, ROWS as CSV like DATA; the table goes to the standard output
-// as Markdown. Exit code 1 where our winners are significantly worse at 1 %.
+// DATA is benchmarks/data/irace_colony_r.csv. Runs 20 races (or REPETITIONS) with each of its
+// budgets in this process. Writes PICTURE as SVG and ROWS as CSV like DATA; the table goes to the
+// standard output as Markdown. The exit code is 1 if our winners are significantly worse at 1 %.
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::array<std::int64_t, 4> kBudgets = {1000, 5000, 20'000, 100'000};
-/// Of R's programs: the one with its ordinals mended, and the one as it is.
+/// R's programs in DATA: the one in which the sampling of ordinals is corrected, and the original.
 constexpr const char* kMended = "R-4.4.3-ordinal-fixed";
 constexpr const char* kUnmended = "R-4.4.3";
 
@@ -87,7 +87,7 @@ Result tune(std::int64_t budget, std::uint64_t seed) {
   return {colony::true_cost(race->configuration(race->elites().front().configuration)), calls};
 }
 
-/// All repetitions of a budget, on all cores.
+/// Runs all repetitions with a budget, on all cores.
 std::vector<Result> tune_all(std::int64_t budget, std::size_t repetitions) {
   std::vector<Result> results(repetitions);
   std::atomic<std::size_t> next = 0;
@@ -103,7 +103,7 @@ std::vector<Result> tune_all(std::int64_t budget, std::size_t repetitions) {
   return results;
 }
 
-/// Median true cost of a thousand first configurations, nothing raced.
+/// Median true cost of a thousand first configurations, without racing.
 double median_of_random() {
   Scenario scenario;
   scenario.max_experiments = 100'000;
@@ -154,7 +154,7 @@ int main(int count, char** words) {
     }
     const std::vector<double>& mended = of_r.at({kMended, budget});
     const auto unmended = of_r.find({kUnmended, budget});
-    // Equal costs throughout have p 1 on this side: there is always one.
+    // If all costs are equal, this side has p = 1, so there is always a value.
     const double p = *rank_sum_test(ours, mended, Alternative::Greater).p_value;
     worse = worse || p < 0.01;
     const double median = box_numbers(ours).median;

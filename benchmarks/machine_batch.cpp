@@ -1,9 +1,9 @@
-// Evaluates machines in one process, for benchmarks that would measure process starts otherwise.
+// Evaluates machines in one process, for benchmarks that would otherwise measure process starts.
 //
 //   machine_batch CAMPAIGN < LINES
 //
-// Each line is a seed and a machine's text; prints the cost, minus the score, a line each. Mission,
-// flavour and profile are those of the campaign's first design.
+// Each line has a seed and a machine's text; for each the program prints the cost, which is minus
+// the score. Mission, flavour and profile are those of the campaign's first design.
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// The evaluations of a finished campaign once more, in a plain loop over threads: what the same
-// work costs without race, messages and store.
+// Repeats the evaluations of a finished campaign in a plain loop over threads: the cost of the same
+// work without race, messages and store.
 //
 //   plain_loop STORE [THREADS]
 

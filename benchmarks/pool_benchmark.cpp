@@ -1,6 +1,6 @@
-// How busy are the slots of a pool that several designs share? Real coordinator, sockets, store and
-// worker processes; evaluations wait instead of computing, so that a small machine has many slots.
-// Races are real ones over synthetic scores, or go as recorded ones did.
+// How busy are the slots of a pool that several designs share? Coordinator, sockets, store and
+// worker processes are real; evaluations wait instead of computing, so that a small machine has
+// many slots. Races are real ones over synthetic scores, or proceed like recorded ones.
 //
 //   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
 //                  [--processes P] [--slots S] [--sleep-us T] [--curve] [--memory] [--keep N]
@@ -31,13 +31,14 @@ struct Case {
   int designs = 10;
   std::int64_t budget = 5'000;
   std::string recorded;
-  std::size_t ahead = 0;  ///< of recorded races
+  std::size_t ahead = 0;  ///< for recorded races
   bool memory = false;
-  std::size_t keep = 0;  ///< finished races, whatever their size; 0: as programs do
+  std::size_t keep =
+      0;  ///< number of finished races to keep, whatever their size; 0: the programs' default
   ClusterShape shape{.processes = 8, .each = {.slots = 8}};
 };
 
-/// Time that slots worked, over the middle half of a campaign's evaluations.
+/// Time that slots were working, over the middle half of a campaign's evaluations.
 class BusyTime {
  public:
   explicit BusyTime(std::int64_t total) : from_(total / 4), to_(total - total / 4) {}
@@ -46,7 +47,7 @@ class BusyTime {
     for (const Row& row : rows) {
       const auto* evaluation = std::get_if<EvaluationRow>(&row);
       if (evaluation == nullptr) continue;
-      // The second row of an evaluation that was made ahead: a race uses it.
+      // The second row of an evaluation that was made ahead: a race uses the result.
       if (evaluation->worker == 0) {
         --unused_;
         continue;
@@ -66,7 +67,8 @@ class BusyTime {
     return static_cast<double>(to_ - from_) / std::chrono::duration<double>(end_ - begin_).count();
   }
   std::int64_t done() const { return done_; }
-  /// Look-ahead that no race asked for; of recorded races the rows do not say.
+  /// Number of look-ahead evaluations that no race has used; the rows of recorded races do not show
+  /// it.
   std::int64_t unused() const { return unused_; }
 
  private:
@@ -80,7 +82,7 @@ class BusyTime {
   Clock::time_point end_;
 };
 
-/// A campaign with that many designs; its races are real, its simulator is not.
+/// The designs of a campaign with real races, but without a real simulator.
 Expected<std::vector<DesignPlan>> plans_for(const Case& c) {
   const std::string text =
       "format = 1\n[campaign]\nrepetitions = " + std::to_string(c.designs) +
@@ -97,7 +99,7 @@ int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy,
   if (!run) return std::fprintf(stderr, "%s\n", to_string(run.error()).c_str()), 1;
   if (c.memory) std::fprintf(stderr, "at the end: %.0f MB\n", run->resident_mb);
   const int slots = c.shape.processes * c.shape.each.slots;
-  // Over the whole campaign, its end included; what was not used does not count.
+  // Over the whole campaign including its end; unused evaluations do not count.
   const double efficiency =
       static_cast<double>((busy.done() - unused) * c.shape.work.us) / (1e6 * run->wall_s * slots);
   std::printf("| %d | %s | %d x %d | %.1f | %lld | %.0f | %.1f %% | %.1f %% | %.1f %% | %.1f |\n",
@@ -109,7 +111,7 @@ int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy,
   return 0;
 }
 
-/// Says what the coordinator takes each half a million evaluations.
+/// Prints the coordinator's memory after each half a million evaluations.
 std::function<void(const LiveStatus&)> watch_of(const Case& c) {
   if (!c.memory) return {};
   constexpr std::int64_t kEvery = 500'000;
@@ -174,6 +176,6 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (swarmsmith::bench::is_worker()) swarmsmith::bench::be_worker();
-  mallopt(M_ARENA_MAX, 1);  // as `run` has it
+  mallopt(M_ARENA_MAX, 1);  // the same setting as in `run`
   return swarmsmith::bench::run(argc, argv);
 }

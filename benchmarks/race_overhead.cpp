@@ -1,4 +1,4 @@
-// What a race costs by itself: the space of a campaign's machines, a target that is one line.
+// The cost of the race itself: the space of a campaign's machines, with a target of one line.
 //
 //   race_overhead CAMPAIGN BUDGET
 //
@@ -29,8 +29,8 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// A worth of its own for each configuration, and noise as large; benchmarks/irace_overhead gives R
-/// the same function.
+/// A different quality for each configuration, and noise of the same size;
+/// benchmarks/irace_overhead gives R the same function.
 double cost_of(const Experiment& experiment) {
   const auto id = static_cast<double>(experiment.configuration);
   const auto seed = static_cast<double>(experiment.seed);
@@ -38,7 +38,7 @@ double cost_of(const Experiment& experiment) {
          fraction(id * 0.7548776662466927 + seed * 0.5698402909980532);
 }
 
-/// Answers everything; returns how much that was.
+/// Answers all experiments; returns their number.
 std::int64_t run(IteratedRace& race) {
   std::int64_t experiments = 0;
   std::vector<double> costs;

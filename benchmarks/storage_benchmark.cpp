@@ -1,7 +1,8 @@
-// storage_benchmark [DESIGNS [FILE]]: what a store costs, and how fast its views are. Fills a store
-// with one synthetic design of 100,000 experiments as fast as it takes them, and then one with
-// DESIGNS of them (30: 3 million experiments), and reads every documented view, whole and for one
-// design. The last file stays when it is named; else it is made in the folder for temporary files.
+// storage_benchmark [DESIGNS [FILE]]: the cost of a store, and the speed of its views. Fills a
+// store with one synthetic design of 100,000 experiments as fast as the store accepts them, then
+// another with DESIGNS of them (30: 3 million experiments), and reads every documented view,
+// completely and for one design. The last file is kept if FILE is given; otherwise it is in the
+// folder for temporary files.
 
 #include <unistd.h>
 
@@ -29,7 +30,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the whole process: on a machine that others use, too, it says more than the time on the wall.
+/// CPU time of the whole process, which is more reliable than wall time on a machine that others
+/// use, too.
 double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -45,8 +47,8 @@ std::size_t count_evaluations(const std::vector<std::vector<Row>>& batches) {
   return count;
 }
 
-/// Design by design. While a design is stored, everything but the writer sleeps, so that the
-/// process' CPU time is the writer's.
+/// Fills the store design by design. Only the writer runs while a design is stored, so that the
+/// process's CPU time is the writer's.
 void fill(const fs::path& path, std::int64_t designs, std::size_t in_flight) {
   fs::remove(path);
   SyntheticSize size = kHundredThousand;

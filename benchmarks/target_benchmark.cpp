@@ -1,5 +1,6 @@
-// What does a call of a target-runner cost beside the program itself? /bin/echo by a bare loop of
-// posix_spawn, by run_process, and by the whole runner (words, output, numbers).
+// What does a call of a target-runner cost in addition to the program itself? Calls /bin/echo in a
+// bare loop of posix_spawn, with run_process, and with the whole runner (arguments, output,
+// numbers).
 //
 //   target_benchmark [CALLS]
 
@@ -32,7 +33,7 @@ void bare_call() {
   waitpid(pid, nullptr, 0);
 }
 
-/// Of this process and the programs that it ran.
+/// CPU time of this process and of the programs that it ran.
 double cpu_us() {
   double sum = 0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -44,7 +45,7 @@ double cpu_us() {
   return sum;
 }
 
-/// Microseconds a call: as the wall clock has them, with so many threads calling at once, and CPU.
+/// Microseconds per call: wall time with this many threads calling at the same time, and CPU time.
 struct Cost {
   double wall = 0;
   double cpu = 0;

@@ -1,5 +1,5 @@
-// Seconds of CPU a frame of 1080p costs to search for tags, beside the plain detector over the
-// whole frame, on pictures of the tests' virtual camera; and which share of the tags is found.
+// CPU time to search for tags in a frame of 1080p, compared with the plain detector on the whole
+// frame, on pictures of the tests' virtual camera; and the share of tags that is found.
 
 #include <benchmark/benchmark.h>
 
@@ -23,7 +23,8 @@ namespace {
 constexpr double kFrame_s = 1.0 / 60;
 constexpr int kPictures = 30;
 
-/// The lens that tracking facts were measured with, 2.7 m up, tilted by some 3 degrees.
+/// The lens with which the tracking facts were measured, at a height of 2.7 m, tilted by about 3
+/// degrees.
 View ceiling_view() {
   const CameraModel lens{
       {1920, 1080}, Lens::Pinhole, 1015, 1015, 959.5, 539.5, {-0.285, 0.08, 0.0005, -0.0003, 0}};
@@ -37,7 +38,7 @@ film::Scene scene_of(int robots) {
     const double angle = (15 + 60 * i) * std::numbers::pi / 180;
     scene.tags.push_back({100 + i, {1.08 * std::cos(angle), 1.08 * std::sin(angle), 0}});
   }
-  // In rows of five; all drive circles in step, so that no tag is ever covered, at 0.3 m/s.
+  // In rows of five; all drive in circles in step at 0.3 m/s, so that no tag is ever covered.
   constexpr double kApart_m = 0.42;
   constexpr double kRadius_m = 0.12;
   constexpr double kTurn_rad_s = 0.3 / kRadius_m;
@@ -60,7 +61,7 @@ film::Scene scene_of(int robots) {
   return scene;
 }
 
-/// Half a second of a run, with where the robots' tags are in truth.
+/// Half a second of a run, with the true positions of the robots' tags.
 struct Clip {
   ImageSize size;
   std::vector<std::vector<std::uint8_t>> pictures;
@@ -83,7 +84,7 @@ double cpu_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// What was found of what can be seen, and how far off its corners are.
+/// Counts of visible and of found tags, and the errors of their corners.
 struct Tally {
   double visible = 0;
   double found = 0;
@@ -113,8 +114,9 @@ struct Tally {
   }
 };
 
-/// The clip forth and back, a frame an iteration. The whole frame is searched beside it in every
-/// tenth and thirtieth, so that all meet the same noise of the machine.
+/// Plays the clip forwards and backwards, one frame per iteration. Every tenth frame is also
+/// searched as a whole at half size, and every thirtieth at full size, so that noise of the machine
+/// affects all searches.
 void search(benchmark::State& state, const film::Shooting& shooting) {
   const auto robots = static_cast<int>(state.range(0));
   const Clip clip = filmed(robots, shooting);
@@ -221,7 +223,7 @@ film::Shooting smeared() {
   return shooting;
 }
 
-/// Half a second of 20 robots, read again and again; the codec's own threads count.
+/// Decodes half a second with 20 robots again and again; the codec's own threads count.
 void decode(benchmark::State& state, const char* codec) {
   const TemporaryFolder folder;
   const std::string file = folder / "run.mkv";

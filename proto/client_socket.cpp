@@ -14,13 +14,14 @@ namespace swarmsmith {
 
 namespace {
 
-/// All but the first two mean that there is no connection (any more).
+/// All events except the first two mean that there is no connection (any more).
 constexpr int kEvents = ZMQ_EVENT_CONNECTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
                         ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_CLOSED |
                         ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
                         ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
 
-/// The numbers behind endpoints with names; why there are none, if so.
+/// The numeric addresses of the endpoints, whose hosts may be names; or the reason why there are
+/// none.
 Expected<std::vector<Address>> looked_up(const std::vector<std::string>& endpoints) {
   std::vector<Address> all;
   Error first{ErrorKind::Unavailable, "no address to connect to", ""};
@@ -41,8 +42,9 @@ Expected<std::vector<Address>> looked_up(const std::vector<std::string>& endpoin
   return all;
 }
 
-/// Whose program listens there, where it is another user's. Root's does not let others in, but may
-/// be the end of a tunnel.
+/// A sentence that names the user of the program that listens there, if it is another user; else
+/// empty. A coordinator of root does not admit other users, but a program of root may be the end of
+/// a tunnel.
 std::string other_owner(const Address& address) {
   if (!is_loopback(address.host)) return "";
   const auto user = user_who_listens(address.host, address.port);
@@ -69,9 +71,9 @@ struct ClientSocket::Impl {
   bool stood = false;
   bool lost = false;
   std::string trouble;
-  int descriptor = -1;  ///< of the connection, while it is made
+  int descriptor = -1;  ///< of the connection that is being made
 
-  /// Whether the kernel is asked who serves.
+  /// Whether to ask the kernel for the user of the server.
   bool asks_for_user() const { return !keys && is_loopback(address.host); }
 
   void begin() {
@@ -86,7 +88,7 @@ struct ClientSocket::Impl {
     if (const auto user =
             asks_for_user() ? user_who_listens(address.host, address.port) : std::nullopt;
         user && !is_same_user(*user)) {
-      // Not even a greeting for them.
+      // Other users do not even get a greeting.
       lost = true;
       trouble = other_owner(address);
       return;
@@ -105,7 +107,7 @@ struct ClientSocket::Impl {
     socket.connect(tcp_endpoint(address));
   }
 
-  /// Before frames are taken: who sent them is then known.
+  /// To be called before frames are taken, so that their sender is known.
   void hear() {
     MonitorEvent event;
     while (monitor && receive_event(monitor, event)) {
@@ -125,13 +127,14 @@ struct ClientSocket::Impl {
     }
   }
 
-  /// Who shook hands has taken the connection, so that it is a process's by now.
+  /// A server that has completed the handshake has accepted the connection, so the connection now
+  /// belongs to a process.
   bool is_served_by_same_user() const {
     static const bool is_known = kernel_names_users();
     return is_of_same_user(descriptor) || !is_known;
   }
 
-  /// Throws nothing: the destructor calls it.
+  /// Throws nothing, since the destructor calls it.
   void drop(std::chrono::milliseconds linger) {
     if (!socket) return;
     stop_watching(socket);

@@ -33,7 +33,7 @@ KeyPair make_key_pair() {
 
 bool is_key(std::string_view text) {
   if (text.size() != kKeyCharacters || !std::ranges::all_of(text, is_z85)) return false;
-  // Five characters hold more than four bytes: some texts are out of range.
+  // Five characters can hold more than four bytes, so some texts are out of range.
   std::array<std::uint8_t, 32> bytes{};
   return zmq_z85_decode(bytes.data(), std::string(text).c_str()) != nullptr;
 }

@@ -25,29 +25,29 @@ KeyPair make_key_pair();
 /// Whether the text has the form of a key.
 bool is_key(std::string_view text);
 
-/// The public half that belongs to a secret key, which has the form of one.
+/// The public key that belongs to a secret key; the text must have the form of a key.
 std::string public_key_of(const std::string& secret_key);
 
-/// Whose key a coordinator lets in.
+/// A client that a coordinator may admit.
 struct ListedClient {
   std::string name;
   Role role = Role::Worker;
   std::string public_key;
-  bool expired = false;  ///< known, but its time is over: refused
+  bool expired = false;  ///< known, but expired: refused
 
   friend bool operator==(const ListedClient&, const ListedClient&) = default;
 };
 
-/// What a server needs to admit the clients with these keys alone.
+/// A server's own key, and the clients that it admits; it refuses all others.
 struct ServerKeys {
   std::string secret_key;
   std::vector<ListedClient> clients;
 };
 
-/// What a client shows, and which server it trusts.
+/// A client's own key, and the key of the only server that it trusts.
 struct ClientKeys {
   std::string secret_key;
-  std::string server_key;  ///< the public one; who has another secret cannot answer
+  std::string server_key;  ///< the public key; a server without the secret key for it cannot answer
 
   friend bool operator==(const ClientKeys&, const ClientKeys&) = default;
 };

@@ -37,7 +37,7 @@ bool wait_for_bytes(int descriptor, const Deadline& deadline) {
     const int ready = poll(&item, 1, static_cast<int>(time));
     if (ready > 0) return true;
     if (ready == 0 && std::chrono::steady_clock::now() >= *deadline) return false;
-    if (ready < 0 && errno != EINTR) return true;  // the read says what is wrong
+    if (ready < 0 && errno != EINTR) return true;  // the read reports the error
   }
 }
 

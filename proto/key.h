@@ -4,8 +4,8 @@
 
 namespace swarmsmith {
 
-/// An evaluation's key in one word, for hash maps: 6 bits for the campaign (its place among those
-/// of the coordinator), 35 of candidate, 20 of pair, 3 of purpose. Zero is not a key, since
+/// An evaluation's key in one integer, for hash maps: 6 bits for the campaign (its index in the
+/// coordinator), 35 for the candidate, 20 for the pair, 3 for the purpose. Zero is not a key, since
 /// candidates count from 1.
 using PackedKey = std::uint64_t;
 
@@ -14,7 +14,7 @@ inline constexpr std::int64_t kMaxCandidate = (std::int64_t{1} << 35) - 1;
 inline constexpr std::int64_t kMaxPair = (std::int64_t{1} << 20) - 1;
 inline constexpr std::int32_t kMaxPurpose = 7;
 
-/// Purposes and numbers that a worker must know, as the store counts them (storage/rows.h).
+/// Purposes and limits that a worker must know, with the values of the store (storage/rows.h).
 inline constexpr std::int32_t kTestPurpose = 2;
 inline constexpr std::int32_t kEvaluatorPurpose = 5;
 inline constexpr std::int64_t kMostCandidates = 1'000'000;  ///< of a design
@@ -24,7 +24,7 @@ constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::i
          pair >= 0 && pair <= kMaxPair;
 }
 
-/// The caller has checked the key.
+/// The caller must have checked the key.
 constexpr PackedKey pack(std::int64_t candidate, std::int32_t purpose, std::int64_t pair,
                          std::uint32_t campaign = 0) {
   return static_cast<PackedKey>(campaign) << 58U | static_cast<PackedKey>(candidate) << 23U |

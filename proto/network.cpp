@@ -21,7 +21,7 @@ std::string network_of(const std::string& address) {
   if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) {
     return bytes[0] == 127 ? kLoopback : text;
   }
-  // An interface may follow: fe80::1%eth0.
+  // The name of an interface may follow: fe80::1%eth0.
   if (inet_pton(AF_INET6, text.substr(0, text.find('%')).c_str(), bytes.data()) != 1) return text;
   if (text == "::1") return kLoopback;
   std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});

@@ -2,10 +2,10 @@
 
 namespace swarmsmith {
 
-/// What a peer may do, by its key. On a connection without keys, which only loopback has unless
-/// --insecure was given, all clients may do everything.
+/// The permissions of a peer, which depend on its key. On a connection without keys, which is
+/// possible only on loopback unless --insecure was given, all clients may do everything.
 enum class Role {
-  Anyone,    ///< no key: all that the others may
+  Anyone,    ///< no key: may do everything that the others may
   Worker,    ///< takes tasks, and nothing else
   Operator,  ///< pauses, resumes, cancels, gives more budget; reads
   Reader,    ///< asks for the status

@@ -17,11 +17,12 @@
 namespace swarmsmith {
 namespace {
 
-/// Names that a ROUTER makes itself: a zero byte and four of a counter. A peer that brings a name
-/// of its own has another form, and is ignored.
+/// Routing ids that a ROUTER makes itself: a zero byte, and a counter of four bytes. A peer that
+/// sets its own id has another form, and is ignored.
 constexpr std::size_t kRoutingIdBytes = 5;
 
-/// Connections that the system holds until libzmq takes them: a whole cluster comes back at once.
+/// Connections that the system holds until libzmq accepts them: a whole cluster may reconnect at
+/// once.
 constexpr int kBacklog = 4096;
 
 using RoutingId = std::array<unsigned char, kRoutingIdBytes>;
@@ -38,25 +39,26 @@ RoutingId routing_id_of(PeerId peer) {
           static_cast<unsigned char>(peer >> 8U), static_cast<unsigned char>(peer)};
 }
 
-/// Peers that are remembered; gone ones are forgotten when a message does not reach them, or all
-/// together when there are more.
+/// Maximum number of peers that are remembered. A peer that is gone is forgotten when a message
+/// cannot reach it; above this number all are forgotten.
 constexpr std::size_t kMostPeers = 20'000;
 
-/// What comes with a frame besides its bytes, about: a header, and the signs of life since the
-/// frame before, which honest peers send every second; encrypted, if so.
+/// Approximate overhead of a frame in bytes: a header, and the heartbeats since the previous frame,
+/// which well-behaved peers send every second. The second number is for encrypted connections.
 constexpr std::uint64_t kBesidesAFrame = 32;
 constexpr std::uint64_t kBesidesAFrameByKey = 128;
-/// A longer frame may have to wait until others have theirs. Leases never are so long.
+/// A longer frame may have to wait until other peers have received theirs. Messages with leases are
+/// never that long.
 constexpr std::size_t kLongFrame = 1U << 20U;
-/// Of who has less than this on its way, nothing is taken for the sake of others.
+/// A peer with less than this on its way is not restricted in favour of others.
 constexpr std::uint64_t kLittle = 64U << 10U;
-/// While others wait, a long frame must get there at this pace.
+/// While others wait, a long frame must be received at this rate.
 constexpr double kLeastBytesPerSecond = 256U << 10U;
 constexpr Duration kPatience = std::chrono::seconds(5);
 constexpr Duration kLookAgain = std::chrono::milliseconds(50);
 
-/// Where to listen: libzmq looks no host's name up there. Another name may be an
-/// interface's, which it knows.
+/// The address to listen at. Names of hosts are looked up here, since libzmq does not do that.
+/// Another name may be that of an interface, which libzmq knows.
 Expected<Address> address_to_bind(const std::string& endpoint) {
   auto address = address_of(endpoint);
   if (!address) return bad_input("invalid address; expected tcp://HOST:PORT", endpoint);
@@ -94,21 +96,21 @@ std::string tcp_endpoint(const Address& address) {
 }
 
 struct ServerSocket::Impl {
-  /// What is known of a peer since its first message. Measured: to ask libzmq for the user of a
-  /// message takes 18 ns, to find the peer here 14 ns; but then there is no lock and no look-up by
-  /// key a message, and a revocation finds the peers to cut off.
+  /// What is known of a peer since its first message. Measured: asking libzmq for the user id of a
+  /// message takes 18 ns, finding the peer here 14 ns; but this needs no lock and no look-up by key
+  /// for each message, and lets a revocation find the peers to disconnect.
   struct Peer {
     std::string key;
-    std::optional<ListedClient> client;  ///< nothing once it is cut off
+    std::optional<ListedClient> client;  ///< empty once it is disconnected
     std::string address;
-    bool stranger = false;  ///< another user's
+    bool stranger = false;  ///< it belongs to another user
     Connection connection;
     Gate::Taken taken;
     std::uint64_t* unsent_to_host = nullptr;
     std::uint64_t given = 0;       ///< bytes of frames that were sent to it
-    std::uint64_t arrived = 0;     ///< of them, when that was looked up last
-    std::uint64_t long_frame = 0;  ///< size of one that is on its way
-    TimePoint slow_after;          ///< with that
+    std::uint64_t arrived = 0;     ///< how many of them had arrived at the last check
+    std::uint64_t long_frame = 0;  ///< size of a long frame that is on its way
+    TimePoint slow_after;          ///< when that frame counts as too slow
 
     std::uint64_t unsent() const { return given - arrived; }
   };
@@ -123,13 +125,13 @@ struct ServerSocket::Impl {
   std::unordered_map<PeerId, Peer> peers;
   std::unordered_map<std::string, std::uint64_t> unsent_to;  ///< by network
   std::uint64_t unsent_to_all = 0;
-  std::vector<PeerId> gone;  ///< whose last words may wait to be read
-  TimePoint looked;          ///< at all peers
+  std::vector<PeerId> gone;  ///< their last messages may still have to be read
+  TimePoint looked;          ///< when all peers were checked last
   std::string endpoint;
   zmq::message_t name;
   zmq::message_t frame;
 
-  /// The peer of a message, `frame` being its first part.
+  /// The peer of a message whose first part is `frame`.
   Peer& peer_behind(PeerId id) {
     const auto known = peers.find(id);
     if (known != peers.end()) return known->second;
@@ -153,13 +155,13 @@ struct ServerSocket::Impl {
     return peer;
   }
 
-  /// The kernel knows whose a connection is, and libzmq that it still stands: only then is the
-  /// descriptor that the message names not another one's by now. libzmq hears of an end before it
-  /// closes the descriptor.
+  /// The kernel knows the user of a connection, and libzmq knows whether the connection still
+  /// exists. If it does, the descriptor in the message cannot belong to another connection by now,
+  /// since libzmq learns of an end before it closes the descriptor.
   bool is_of_same_user(PeerId id, const Peer& peer) {
     if (!swarmsmith::is_of_same_user(peer.connection.descriptor)) return false;
     if (!options.probes_newcomers) return true;
-    (void)socket.get(zmq::sockopt::events);  // takes what it has heard, which a sending may put off
+    (void)socket.get(zmq::sockopt::events);  // processes pending events, which sending may postpone
     const RoutingId to = routing_id_of(id);
     const std::string_view bytes(reinterpret_cast<const char*>(to.data()), to.size());
     return send_on(socket, bytes, zmq::send_flags::sndmore) == SendStatus::Sent &&
@@ -175,8 +177,8 @@ struct ServerSocket::Impl {
     if (peer.unsent() <= kLittle) peer.long_frame = 0;
   }
 
-  /// Asks the system what of the sent has arrived. libzmq sends more than frames, so that more may
-  /// have arrived than was given.
+  /// Asks the system how much of the sent data has arrived. libzmq sends more than the frames, so
+  /// more bytes may have arrived than frames have.
   void look_at(Peer& peer) {
     const std::optional<TcpBytes> bytes = tcp_bytes_of(peer.connection);
     const std::uint64_t arrived = bytes ? bytes->acknowledged : peer.given;
@@ -199,7 +201,7 @@ struct ServerSocket::Impl {
     change_unsent(peer, peer.given, peer.given);
   }
 
-  /// Whether so much may be sent to this peer now.
+  /// Whether this many bytes may be sent to the peer now.
   SendStatus room_for(Peer& peer, std::size_t size) {
     if (peer.unsent() + size > kLittle) look_at(peer);
     const bool is_long = size > kLongFrame;
@@ -209,7 +211,7 @@ struct ServerSocket::Impl {
       return SendStatus::Full;
     }
     const auto fits = [&] {
-      // Alone, the longest frame may be sent.
+      // If nothing else is on its way, even the longest frame may be sent.
       return unsent_to_all <= kLittle ||
              (unsent_to_all + size <= options.most_unsent_to_all &&
               *peer.unsent_to_host + size <= options.most_unsent_to_host);
@@ -231,7 +233,7 @@ struct ServerSocket::Impl {
     change_unsent(peer, peer.given + size, peer.arrived);
   }
 
-  /// Looks the peer up in the list as it is now; false when it has been cut off.
+  /// Looks up the peer in the current list; false when it has been disconnected.
   bool check(Peer& peer) {
     peer.client = gate->find(peer.key);
     if (peer.client) return true;
@@ -251,11 +253,11 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
   if (!address) return Unexpected(address.error());
   auto impl = std::make_unique<Impl>();
   apply(options, kMaxFrameBytes, impl->socket);
-  // "*" is then every interface of both families.
+  // "*" then means every interface of both families.
   const bool both = address->host == "*";
   impl->socket.set(zmq::sockopt::ipv6, both || address->host.find(':') != std::string::npos);
   impl->socket.set(zmq::sockopt::backlog, kBacklog);
-  // Else a message to a peer that has gone vanishes without an error.
+  // Otherwise a message to a peer that has gone would be lost without an error.
   impl->socket.set(zmq::sockopt::router_mandatory, true);
   impl->by_key = keys.has_value();
   impl->options = options;

@@ -18,7 +18,7 @@ Wakeup::~Wakeup() {
 
 void Wakeup::notify() {
   const std::uint64_t one = 1;
-  // A full counter is a notification already.
+  // A full counter already means a notification.
   [[maybe_unused]] const ssize_t written = write(fd_, &one, sizeof one);
 }
 

@@ -11,7 +11,7 @@ class Wakeup {
   Wakeup& operator=(const Wakeup&) = delete;
 
   void notify();
-  /// Forgets notifications so far; by the thread that waits.
+  /// Forgets all notifications so far; to be called by the waiting thread.
   void clear();
   int file_descriptor() const { return fd_; }
 

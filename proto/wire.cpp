@@ -56,8 +56,8 @@ Expected<std::string_view> payload_of(std::string_view frame, std::size_t most) 
   return frame.substr(kFrameHeaderBytes);
 }
 
-/// Whether a message's body has more parts than any that is within the limits. Counted before it is
-/// parsed, which makes an object of some hundred bytes of each part of two bytes.
+/// Whether a message's body has more parts than the limits allow. They are counted before parsing,
+/// since parsing makes an object of some hundred bytes from each part of two bytes.
 bool has_too_many_parts(std::string_view payload) {
   using google::protobuf::internal::WireFormatLite;
   constexpr int kMost = kMaxItemsPerMessage + 64;
@@ -79,7 +79,7 @@ bool has_too_many_parts(std::string_view payload) {
       if (!WireFormatLite::SkipField(&stream, inner)) break;
     }
     stream.PopLimit(limit);
-    // A text of a later version is not a body: what follows it counts.
+    // A text field of a later version is not a body, so the parts after it count.
     if (!stream.Skip(end - stream.CurrentPosition())) return false;
   }
   return false;
@@ -88,8 +88,7 @@ bool has_too_many_parts(std::string_view payload) {
 template <class Message>
 Expected<const Message*> parse(std::string_view frame, std::size_t most,
                                google::protobuf::Arena& arena) {
-  // What is wrong with a frame is returned as a value; the library would write it to standard
-  // error.
+  // Errors in a frame are returned as values; the library would write them to standard error.
   [[maybe_unused]] static auto* const kLoud = google::protobuf::SetLogHandler(nullptr);
   const Expected<std::string_view> payload = payload_of(frame, most);
   if (!payload) return Unexpected(payload.error());

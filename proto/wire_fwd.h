@@ -1,6 +1,6 @@
 #pragma once
 
-/// The names of messages alone: to include the generated code takes as long as to compile a small
+/// Only the names of the messages: including the generated code takes as long as compiling a small
 /// file.
 namespace swarmsmith::pb {
 

@@ -10,9 +10,9 @@
 namespace swarmsmith {
 namespace {
 
-/// The one list of what counts: calls `field` with the name and value of every field of the row
-/// that is part of the answer, keys first. What only some campaigns have is left out where it is
-/// not there, so that it changes no other campaign's digest.
+/// The one list of the fields that are part of the answer: calls `field` with the name and value of
+/// each such field of the row, keys first. A field that only some campaigns have is left out where
+/// it has no value, so that the digests of other campaigns do not change.
 template <class Field>
 void visit_fields(const Row& row, Field&& field) {
   std::visit(
@@ -136,7 +136,7 @@ struct Describe {
     constexpr std::size_t kLongest = 80;
     text += value.substr(0, kLongest);
     if (value.size() <= kLongest) return;
-    // Rows are compared by their descriptions: what is cut off must count.
+    // Rows are compared by their descriptions, so the rest must be part of them.
     Digest rest;
     rest.add(value);
     text += fmt::format("...({:x})", rest.value64());
@@ -229,7 +229,7 @@ void add_answer(Digest& digest, const Row& row) {
 }
 
 bool same_answer(const Row& a, const Row& b) {
-  // 128 bits that agree by accident would take longer than any campaign.
+  // Two different rows will never have the same 128 bits by accident.
   return a.index() == b.index() && in_answer(a) == in_answer(b) &&
          digest_of(a).hex() == digest_of(b).hex();
 }

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::SqliteError;
 
-/// All pages of one database, into another that is empty. The source's transaction must be open:
-/// it fixes the state that is copied, however much is written meanwhile.
+/// Copies all pages of a database into an empty one. The source's transaction must be open: it
+/// fixes the state that is copied, even if the store is written meanwhile.
 void copy_pages(const Connection& from, const Connection& to, const OnCopied& on_copied) {
   constexpr int kPagesAtOnce = 512;
   sqlite3_backup* copying = sqlite3_backup_init(to.handle(), "main", from.handle(), "main");
@@ -35,8 +35,8 @@ void copy_pages(const Connection& from, const Connection& to, const OnCopied& on
   if (code != SQLITE_DONE) to.fail(code, sqlite3_errstr(code));
 }
 
-/// All rows of our tables, into an empty database: nothing else that stands in the file comes
-/// along.
+/// Copies all rows of the store's own tables into an empty database, without any other objects of
+/// the file.
 void copy_our_rows(const Connection& from, Connection& to, std::int64_t schema) {
   sqlite::Transaction transaction(to);
   create_tables(to, schema);
@@ -59,7 +59,7 @@ Unexpected copying_failed(const SqliteError& error, const fs::path& from, const 
 }
 
 Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnCopied& on_copied) {
-  // Says what is wrong with a file that is not a store, or a newer one.
+  // Gives the error for a file that is not a store, or a newer one.
   if (const auto reader = StoreReader::open(store); !reader) return Unexpected(reader.error());
   Backup made;
   try {
@@ -78,13 +78,13 @@ Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnC
       copy.execute("PRAGMA foreign_keys = OFF");
       copy_our_rows(original, copy, schema);
     }
-    // A migration counts the rows anew.
+    // A migration counts the rows again.
     if (const std::string changed = schema == kSchemaVersion ? "" : changed_rows(copy);
         !changed.empty()) {
       return damaged(store, changed);
     }
     upgrade(copy, migrations());
-    forget_secret(copy);  // copies are given away while the campaign goes on
+    forget_secret(copy);  // copies may be given to others while the campaign still runs
     if (const auto faults = faults_of(copy); !faults.empty()) return damaged(store, faults.front());
     const ReadTransaction of_copy(copy);
     made.digest = digest_of_store(copy);
@@ -106,7 +106,7 @@ Expected<Backup> back_up(const fs::path& store, const fs::path& copy, const OnCo
   if (!file) return Unexpected(file.error());
   auto made = copy_store(store, file->path(), on_copied);
   if (!made) {
-    // Its own name says nothing to a person.
+    // The temporary name means nothing to users.
     if (made.error().where == file->path().string()) made.error().where = copy.string();
     return made;
   }

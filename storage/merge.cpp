@@ -23,15 +23,15 @@ using sqlite::Connection;
 using sqlite::SqliteError;
 using sqlite::Statement;
 
-/// How far ids move, and with them the numbers of campaigns.
+/// What is added to the ids, and to the numbers of campaigns and real runs.
 struct Move : Shift {
   std::int64_t campaigns = 0;
   std::int64_t real_runs = 0;
 };
 
-/// Tables whose rows are copied column by column. Candidates go through their rows, `source` by its
-/// names, calibrations once for all stores, and of `meta` the profiles alone: the rest is each
-/// file's own.
+/// Tables whose rows are copied column by column. Candidates are read and written as rows, sources
+/// are matched by name, and calibrations are copied once for all stores. Only the profiles of
+/// `meta` are copied: its other rows are about the file itself.
 constexpr std::array kCopied{
     "campaign",   "design",         "pair",        "iteration",   "candidate_totals",
     "evaluation", "race_step",      "elimination", "elite",       "worker",
@@ -40,8 +40,8 @@ constexpr std::array kCopied{
     "real_patch", "real_cycle",     "real_issue",  "real_score",  "real_override",
     "real_log",   "real_log_cycle", "real_check"};
 
-/// What an event's text becomes: {"evaluation":"c80 on pair 6","worker":1} and {"design":"d3"} name
-/// the same things as before.
+/// The SQL expression for an event's text in the new store: the ids in {"evaluation":"c80 on pair
+/// 6","worker":1} and {"design":"d3"} are shifted, so that they name the same things as before.
 std::string moved_event(const Move& move) {
   return fmt::format(
       "iif(json_valid(text), json_replace(text, "
@@ -52,7 +52,7 @@ std::string moved_event(const Move& move) {
       move.designs, move.designs * kCandidatesPerDesign, move.workers);
 }
 
-/// What becomes of a column: an expression over the source's row.
+/// The SQL expression for a column in the new store, from the source's row.
 std::string moved(std::string_view table, const std::string& column, const Move& move) {
   const auto plus = [&](std::int64_t by) { return fmt::format("{} + {}", column, by); };
   const auto worker = [&] {
@@ -99,7 +99,7 @@ std::int64_t largest(const Connection& connection, const char* column, const cha
                             fmt::format("SELECT coalesce(max({}), 0) FROM {}", column, table));
 }
 
-/// A real run that was there before cannot come again: its score would count twice.
+/// A real run that an earlier store has is refused: its score would count twice.
 Expected<void> check_new_runs(const Connection& connection, const fs::path& store) {
   Statement twice(connection,
                   "SELECT o.id, m.id FROM other.real_run AS o JOIN main.real_run AS m USING (key)");
@@ -112,7 +112,7 @@ Expected<void> check_new_runs(const Connection& connection, const fs::path& stor
       store.string());
 }
 
-/// A profile of a name that is another in the stores before it.
+/// Copies the profiles. Warns when an earlier store has another profile of the same name.
 void take_profiles(Connection& connection, const Connection& other, const fs::path& store,
                    std::vector<std::string>& warnings) {
   for (const auto& [name, text] : read_kept_profiles(other)) {
@@ -125,7 +125,7 @@ void take_profiles(Connection& connection, const Connection& other, const fs::pa
   }
 }
 
-/// One store into the new one; `copy` is its copy, of the newest schema.
+/// Copies one store into the new one; `copy` is its copy, of the newest schema.
 Expected<void> take(Connection& connection, const fs::path& store, const fs::path& copy,
                     std::vector<std::string>& warnings) {
   const Move move{{.designs = largest(connection, "id", "design"),
@@ -155,7 +155,7 @@ Expected<void> take(Connection& connection, const fs::path& store, const fs::pat
   return {};
 }
 
-/// A campaign that was there before cannot come again: its designs would be two.
+/// A campaign that an earlier store has is refused: its designs would be there twice.
 Expected<void> check_new(const std::vector<StoredCampaign>& coming, const fs::path& store,
                          std::map<std::string, fs::path>& known) {
   for (const StoredCampaign& campaign : coming) {

@@ -32,6 +32,7 @@ Unexpected no_such_run(RealRunId id, const std::vector<RealRunHead>& known) {
                   known.size(), to_string(known.front().id), to_string(known.back().id)));
 }
 
+/// The changed rows of a file that is not as its last writer closed it; empty if there are none.
 /// Within a ReadTransaction.
 std::string changes_since_closed(const Connection& connection) {
   return is_as_closed(connection) ? "" : changed_rows(connection);
@@ -70,17 +71,17 @@ class SqliteReader final : public StoreReader {
                            const std::function<void(const std::vector<Cell>&)>& on_row) override;
 
  private:
-  /// The designs that are looked at.
+  /// The designs that this reader reads.
   Part part();
-  /// Ours; of a store of an early schema those that it has.
+  /// Shows this program's views, or, for a store of an early schema, the views in the file.
   void show_views() {
     lend_views(*connection_);
     connection_->allow_views(!has_our_views(*connection_));
   }
 
   std::shared_ptr<Connection> connection_;
-  std::optional<std::int64_t> only_;  ///< the campaign that is looked at; none: all
-  std::shared_ptr<bool> is_whole_;    ///< the store's rows were found to be those of a commit
+  std::optional<std::int64_t> only_;  ///< the campaign to read; none: all
+  std::shared_ptr<bool> is_whole_;    ///< the store's rows were found to be in a committed state
 };
 
 std::vector<StoredCampaign> SqliteReader::campaigns() {
@@ -236,7 +237,7 @@ Expected<void> check_rows(const fs::path& store) {
 }
 
 fs::path real_store(const fs::path& named) {
-  constexpr int kMostLinks = 40;  // as the kernel has it
+  constexpr int kMostLinks = 40;  // the kernel's limit
   fs::path path = named;
   std::error_code trouble;
   for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, trouble)); ++i) {

@@ -29,7 +29,8 @@ using sqlite::Connection;
 using sqlite::SqliteError;
 using sqlite::Statement;
 
-/// Ids that only damage can have made, and what no column's type forbids.
+/// Statements that remove rows with values that only damage can have caused, but that the types of
+/// the columns allow.
 std::vector<std::string> nonsense() {
   const std::string other_purpose = "purpose NOT IN " + numbers_in_sql(is_any);
   const std::string other_verdict = "verdict NOT IN " + verdicts_in_sql();
@@ -48,8 +49,8 @@ std::vector<std::string> nonsense() {
   };
 }
 
-/// What names something that is lost. Each may make others so: they are repeated until nothing
-/// more goes.
+/// Statements that remove rows that refer to a lost row. Each statement may make other rows such
+/// orphans, so all are repeated until they remove nothing more.
 constexpr std::array kOrphans{
     "DELETE FROM candidate WHERE (id - 1) / 1000000 + 1 NOT IN (SELECT id FROM design)",
     "DELETE FROM candidate WHERE parent IS NOT NULL AND parent NOT IN (SELECT id FROM candidate)",
@@ -66,7 +67,7 @@ constexpr std::array kOrphans{
     "DELETE FROM command WHERE design IS NOT NULL AND design NOT IN (SELECT id FROM design)",
 };
 
-/// By the tables' words for whose rows they are.
+/// The ranges of ids of one campaign, with the names that the tables use.
 struct Bounds {
   std::int64_t first_design, last_design, first_candidate, last_candidate;
 
@@ -77,11 +78,11 @@ struct Bounds {
         last_candidate(last_design * kCandidatesPerDesign) {}
 };
 
-/// A table that does not follow from scores, and what mends other values in it.
+/// A table that does not follow from scores alone, and whether a replay can repair its values.
 struct Changed {
   RowSums::Table table;
   const char* name;
-  bool is_derived_by_races = false;  ///< of campaigns whose races can be replayed
+  bool is_derived_by_races = false;  ///< in campaigns whose races can be replayed
 };
 constexpr std::array kNotDerived{
     Changed{RowSums::Table::Candidate, "candidate", true},
@@ -120,8 +121,8 @@ class SqliteRecovery final : public Recovery {
     found_.changed_evaluations = remove_changed_evaluations(connection_);
     for (const std::string& statement : nonsense())
       remove(statement);
-    // Before anything is written: new phrases may get the numbers of lost ones, and candidates
-    // that are derived anew do not replace those that are there.
+    // This must come before any row is written: new phrases may get the numbers of lost ones, and
+    // derived candidates do not replace existing rows.
     for (const CandidateId lost : candidates_without_phrases(connection_))
       remove(fmt::format("DELETE FROM candidate WHERE id = {}", lost.value));
   }
@@ -172,8 +173,8 @@ class SqliteRecovery final : public Recovery {
   Connection connection_;
   Salvaged found_;
   std::int64_t orphans_ = 0;
-  bool is_trusted_again_ = false;  ///< what made the store unreliable is out of it
-  std::vector<Changed> changed_;   ///< tables with other values than were committed
+  bool is_trusted_again_ = false;  ///< the reason not to trust the store has been removed
+  std::vector<Changed> changed_;   ///< tables with other values than the committed ones
   std::set<std::int64_t> derived_campaigns_;
 };
 
@@ -205,21 +206,21 @@ Expected<Recovery::Without> SqliteRecovery::drop_words_of(const std::string& key
         key);
   }
   sqlite::Transaction transaction(connection_);
-  // A word of a later worker on the same evaluation is one of its own: what was said of the dropped
-  // one says nothing of it.
+  // Attempts, failures and conflicts belong to the removed evaluations. When another worker repeats
+  // the evaluation, that is a new one, and these rows are not about it.
   for (const char* table : {"attempt", "failure", "conflict"}) {
     run(fmt::format(
         "DELETE FROM {} WHERE (candidate, purpose, pair) IN (SELECT candidate, purpose,"
         " pair FROM evaluation WHERE worker IN {}) OR {} IN {}",
         table, theirs, std::string_view(table) == "conflict" ? "other_worker" : "worker", theirs));
   }
-  // Nor can rows without a worker be believed now.
+  // Evaluations whose worker has no row cannot be trusted either.
   without.evaluations = run("DELETE FROM evaluation WHERE worker IN " + theirs +
                             " OR worker <> 0 AND worker NOT IN (SELECT id FROM worker)");
   const std::string reason =
       fmt::format("`recover --without-key` took away the {} evaluations that its {} workers gave",
                   without.evaluations, without.workers);
-  // The principal of a key alone is that key at every address.
+  // If the principal is only a key, it means the key at every address.
   run("UPDATE worker SET principal = ?1, state = 'quarantined' WHERE id IN " + theirs);
   const EventRow event =
       event_row("error", "workers in quarantine", {{"who", key}, {"reason", reason}});
@@ -250,10 +251,11 @@ Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
   return {};
 }
 
-/// What is derived is right: candidates and pairs of other values give way to it. Where candidates
-/// themselves cannot be relied on, those that the races do not reach go, with their scores: the
-/// races make them again. After a lie, whatever was scored under the number of another machine
-/// goes, too: a lie may have turned the race.
+/// The derived rows are right: they replace candidates and pairs with other values. If the stored
+/// candidates cannot be trusted, those that the races do not reach are removed with their scores;
+/// the races make them again. After false results, the scores of every candidate whose row differs
+/// from the derived one are removed, too: the false results may have changed the race, so that
+/// another machine had this number.
 std::int64_t SqliteRecovery::remove_others(const StoredCampaign& campaign,
                                            const DerivedRows& derived, const Shift& shift) {
   const Bounds bounds(campaign);
@@ -294,7 +296,8 @@ std::int64_t SqliteRecovery::remove_others(const StoredCampaign& campaign,
   const std::string reached = "(SELECT id FROM derived_candidate)";
   std::int64_t taken = 0;
   if (only_derived) {
-    // Of a pair of other values the scores were of the right one, but after a lie.
+    // Where only the row of a candidate is wrong, its scores are still those of the right machine;
+    // after false results this is not certain.
     taken = run(
         fmt::format("DELETE FROM evaluation WHERE candidate BETWEEN ? AND ? AND (candidate NOT IN"
                     " {} OR {} AND ((candidate - 1) / {} + 1, purpose, pair) NOT IN (SELECT design,"
@@ -358,14 +361,14 @@ std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign,
     const EvaluationKey stored = shifted(key, shift);
     gone.run(stored.candidate.value, static_cast<std::int64_t>(stored.purpose), stored.pair);
   }
-  // What is not reliable does not become so by being copied.
+  // A distrusted campaign stays distrusted in the copy.
   Statement(connection_,
             fmt::format("UPDATE campaign SET state = 'running' WHERE id = ?1"
                         " AND (?2 OR state <> 'distrusted' AND EXISTS (SELECT 1 FROM design"
                         " WHERE campaign = ?1 AND state <> {}))",
                         static_cast<int>(DesignState::Finished)))
       .run(campaign.id, is_trusted_again_);
-  // A number that stands without a name was the campaign's own source. There is one of these.
+  // A number of a source without a name is that of the campaign's own source; there is only one.
   if (!source.empty()) {
     const std::string nameless = " WHERE source NOT IN (SELECT id FROM source) AND purpose IN " +
                                  numbers_in_sql(has_own_source) +
@@ -383,7 +386,7 @@ std::int64_t SqliteRecovery::replace_derived(const StoredCampaign& campaign,
   return taken;
 }
 
-/// Names the tables that another program changed and that no race derives anew.
+/// Names the tables that another program changed and that no race derives again.
 std::string SqliteRecovery::doubt() {
   const bool all_derived = std::ranges::all_of(campaigns(), [&](const StoredCampaign& campaign) {
     return derived_campaigns_.contains(campaign.id);
@@ -413,7 +416,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
   try {
     if (campaigns().empty() &&
         sqlite::integer_of(connection_, "SELECT count(*) FROM design") == 0) {
-      // A store of real runs alone: its campaign says nothing that is not known.
+      // A store with only real runs: the row of its campaign can be made again.
       const std::string key = sqlite::text_of(
           connection_, "SELECT coalesce((SELECT key FROM real_run ORDER BY id), '')");
       if (!key.empty()) write_campaign_of_real_runs(connection_, key);

@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// By the enum's number.
+/// In the order of the enum.
 constexpr std::array<std::string_view, 6> kCommands = {"unknown", "pause",  "resume",
                                                        "cancel",  "extend", "forgive"};
 

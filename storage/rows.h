@@ -13,14 +13,14 @@
 
 namespace swarmsmith {
 
-/// The rows of a store as plain values, in the words of docs/storage.md. Everything but the fields
-/// marked "not part of the answer" is a pure function of campaign and scores, equal for any number
-/// of workers and any history of crashes, and covered by the store's digest.
+/// The rows of a store as plain values, with the names of docs/storage.md. All fields except those
+/// marked "not part of the answer" are a pure function of the campaign and the scores. They are
+/// equal for any number of workers and any history of crashes, and the store's digest covers them.
 
-/// Why an evaluation was made. The numbers are stored. Evaluator: a call of a targetEvaluator,
-/// whose pair is numbered by the design's tasks (irace facts, 18.4). Transfer: a test under a
-/// further profile of the campaign; its pairs are those of the tests, again for each profile, and
-/// numbered on from them.
+/// Why an evaluation was made. The numbers are stored. Evaluator: a call of a targetEvaluator; the
+/// number of its pair is that of the design's task (irace facts, 18.4). Transfer: a test under a
+/// further profile of the campaign; each profile has the pairs of the tests again, and their
+/// numbers continue those of the tests.
 enum class Purpose : std::int8_t {
   Race = 0,
   LookAhead = 1,
@@ -31,12 +31,12 @@ enum class Purpose : std::int8_t {
   Transfer = 6
 };
 
-/// After the race, outside of its budget.
+/// Whether evaluations of this purpose come after the race and do not count in its budget.
 constexpr bool is_of_tests(Purpose purpose) {
   return purpose == Purpose::Test || purpose == Purpose::Transfer;
 }
 
-/// How an evaluation ended. The numbers are stored. A rejected one has no score.
+/// How an evaluation ended. The numbers are stored. A rejected evaluation has no score.
 enum class EvaluationStatus : std::int8_t { Ok = 0, Rejected = 1 };
 
 enum class DesignState : std::int8_t {
@@ -47,7 +47,7 @@ enum class DesignState : std::int8_t {
   Stopped = 4
 };
 
-/// Nothing more comes of the design by itself.
+/// Whether the design is over: it makes no progress unless a user extends it.
 constexpr bool is_over(DesignState state) {
   return state == DesignState::Finished || state == DesignState::Stopped;
 }
@@ -55,26 +55,29 @@ constexpr bool is_over(DesignState state) {
 std::string_view word_of(DesignState state);
 std::optional<DesignState> design_state_of(std::string_view word);
 
-/// What a person can ask of a campaign. Stores, messages and files keep the word. Unknown: of a
-/// version that this one does not know; nothing comes of it.
-/// Forgive is about workers, and no row of the table of commands.
+/// The commands that a user can give a campaign. Stores, messages and files use the word. Unknown:
+/// a command of another version, which this version ignores. Forgive is about workers; the table of
+/// commands has no row for it.
 enum class CommandKind : std::int8_t { Unknown, Pause, Resume, Cancel, Extend, Forgive };
 
 /// "pause", "resume", "cancel", "extend", "forgive"; "unknown".
 std::string_view word_of(CommandKind kind);
 /// Unknown for any other word.
 CommandKind command_kind_of(std::string_view word);
-/// Whether a design's race obeys it, so that it is part of the answer once it acts.
+/// Whether the command changes the race of a design. It is then part of the answer from the moment
+/// it takes effect.
 constexpr bool is_of_race(CommandKind kind) {
   return kind == CommandKind::Cancel || kind == CommandKind::Extend;
 }
-/// Whether it only says what is leased: it acts at once, and changes nothing of the answer.
+/// Whether the command only changes which evaluations are leased. It takes effect at once, and does
+/// not change the answer.
 constexpr bool is_of_leases(CommandKind kind) {
   return kind == CommandKind::Pause || kind == CommandKind::Resume;
 }
 
-/// Names an evaluation within a store: a candidate (its design follows from it), what for, and the
-/// pair (instance, seed) by its number in the design's list of that purpose, from 1.
+/// Identifies an evaluation within a store: its candidate (which determines the design), its
+/// purpose, and the number of its pair (instance, seed) in the design's list of pairs for that
+/// purpose, from 1.
 struct EvaluationKey {
   CandidateId candidate;
   Purpose purpose = Purpose::Race;
@@ -83,9 +86,9 @@ struct EvaluationKey {
   friend auto operator<=>(const EvaluationKey&, const EvaluationKey&) = default;
 };
 
-/// Ids are made in canonical order, so that two stores of one campaign agree row by row: candidate
+/// Ids follow from the campaign, so that two stores of one campaign agree row by row: candidate
 /// `number` of a design (irace's id, from 1) has the id (design - 1) * 1,000,000 + number, and its
-/// evaluation on a race's pair is e<candidate * 100,000 + pair>.
+/// evaluation on a pair of the race has the id e<candidate * 100,000 + pair>.
 inline constexpr std::int64_t kCandidatesPerDesign = 1'000'000;
 inline constexpr std::int64_t kPairsPerCandidate = 100'000;
 
@@ -99,13 +102,13 @@ constexpr std::int64_t number_of(CandidateId id) {
   return (id.value - 1) % kCandidatesPerDesign + 1;
 }
 
-/// Characters of a name in a store: of campaigns, missions, methods, designs, sources.
+/// Largest number of characters of a name in a store (campaign, mission, method, design, source).
 inline constexpr std::int64_t kLongestName = 1000;
 
 struct CampaignRow {
   std::string name;
-  std::string digest;    ///< of what decides the answer
-  std::string deciding;  ///< JSON object: the keys and values that the digest covers, in order
+  std::string digest;    ///< of the settings that determine the answer
+  std::string deciding;  ///< JSON object: the keys and values under the digest, in order
   std::string file;      ///< the normalised campaign file; reading it gives the campaign again
   std::int64_t seed = 0;
 };
@@ -114,20 +117,20 @@ struct DesignRow {
   DesignId id;
   std::string mission;
   std::string method;
-  /// Of the machines' texts; empty for the space of a parameter file.
+  /// Of the machines; empty when the space comes from a parameter file.
   std::string flavour;
   std::int64_t repetition = 0;  ///< from 1
   std::int64_t seed = 0;        ///< of the race
   std::int64_t budget = 0;      ///< experiments
 };
 
-/// A point of the parameter space that a design tried.
+/// A configuration that a design tried.
 struct CandidateRow {
   CandidateId id;
   std::int64_t iteration = 0;
-  CandidateId parent;      ///< whose model it was sampled from; none for initial ones
+  CandidateId parent;      ///< the elite whose model sampled it; none for initial candidates
   std::string parameters;  ///< JSON object of the active parameters
-  std::string machine;     ///< text of the grammar
+  std::string machine;     ///< as text of the grammar
   std::string modules;     ///< JSON object, module name -> occurrences
   std::int64_t states = 0;
   std::int64_t transitions = 0;
@@ -135,7 +138,7 @@ struct CandidateRow {
   friend bool operator==(const CandidateRow&, const CandidateRow&) = default;
 };
 
-/// An (instance, seed) that all candidates of a design are tried on.
+/// An (instance, seed) pair on which the candidates of a design are evaluated.
 struct PairRow {
   DesignId design;
   Purpose purpose = Purpose::Race;
@@ -146,17 +149,17 @@ struct PairRow {
 
 struct EvaluationRow {
   EvaluationKey key;
-  std::int64_t iteration = 0;  ///< whose race asked for it; 0 outside races
+  std::int64_t iteration = 0;  ///< of the race that requested it; 0 outside races
   EvaluationStatus status = EvaluationStatus::Ok;
   Measured measured{};       ///< finite
-  double bound = 0;          ///< on its time; 0 for none
-  std::string source;        ///< the simulator profile
+  double bound = 0;          ///< of its run time (capping); 0 for none
+  std::string source;        ///< name of the simulator profile
   std::int64_t worker = 0;   ///< not part of the answer; 0 when unknown
   std::int64_t attempt = 1;  ///< not part of the answer
 };
 
-/// The race no longer wants this evaluation (its candidate was rejected on an earlier pair): it
-/// stays in the store, and counts nowhere.
+/// An evaluation that the race no longer needs, because its candidate was rejected on an earlier
+/// pair. It stays in the store, but does not count in any result.
 struct UnusedRow {
   EvaluationKey key;
 };
@@ -164,7 +167,7 @@ struct UnusedRow {
 struct IterationRow {
   DesignId design;
   std::int64_t number = 0;
-  std::int64_t of = 0;  ///< iterations planned when this one began
+  std::int64_t of = 0;  ///< number of iterations planned when this one began
   std::int64_t budget = 0;
   std::int64_t configurations = 0;  ///< elites included
   std::int64_t elites = 0;
@@ -173,15 +176,15 @@ struct IterationRow {
   std::uint64_t model_digest = 0;
 };
 
-/// One task of a race: all alive candidates on one pair, and the test after it.
+/// One step of a race: all alive candidates are evaluated on one pair, and then tested.
 struct RaceStepRow {
   DesignId design;
   std::int64_t step = 0;  ///< from 1, through all iterations
   std::int64_t iteration = 0;
   std::int64_t pair = 0;
-  char marker = 'x';  ///< irace's: x no test, = nothing dropped, - dropped, ! only protected ones,
-                      ///< . nothing to run
-  std::int64_t evaluated = 0;  ///< experiments of this step
+  char marker = 'x';  ///< as irace prints: x no test, = none eliminated, - some eliminated,
+                      ///< ! only protected candidates left to eliminate, . nothing to run
+  std::int64_t evaluated = 0;  ///< number of experiments in this step
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;
   CandidateId best;
@@ -192,8 +195,8 @@ struct RaceStepRow {
   std::optional<double> kendall_w;
   std::optional<double> spearman_rho;
   std::optional<double> qvar;
-  std::optional<double> bound;  ///< of the times on this pair, when capping
-  std::uint64_t digest = 0;     ///< alive set, ranks, statistic, generator
+  std::optional<double> bound;  ///< of run times on this pair, if the race caps them
+  std::uint64_t digest = 0;     ///< of alive set, ranks, statistic, generator
 };
 
 struct EliminationRow {
@@ -201,7 +204,7 @@ struct EliminationRow {
   std::int64_t iteration = 0;
   std::int64_t step = 0;
   double rank_sum = 0;
-  std::string reason;  ///< "test", "rejected", "not kept" (survived the race, no elite)
+  std::string reason;  ///< "test", "rejected", "not kept" (survived, but did not become an elite)
 };
 
 struct EliteRow {
@@ -209,12 +212,12 @@ struct EliteRow {
   std::int64_t iteration = 0;
   std::int64_t rank = 0;  ///< from 1
   CandidateId candidate;
-  double mean = 0;  ///< score over the pairs seen so far
+  double mean = 0;  ///< of its scores on the pairs so far
   std::int64_t runs = 0;
 };
 
-/// Sums over a candidate's race evaluations in the order of the race: absolute values, so that
-/// writing them twice does no harm.
+/// Sums over a candidate's evaluations in the race, in the order of the race. The row holds the
+/// whole sums, not increments, so writing it twice does no harm.
 struct CandidateTotalsRow {
   CandidateId candidate;
   std::int64_t runs = 0;
@@ -237,10 +240,10 @@ struct CampaignStateRow {
   std::string state;
 };
 
-/// One in quarantine is quarantined whether it is there or not.
+/// A worker in quarantine stays Quarantined whether or not it is connected.
 enum class WorkerState : std::int8_t { Connected, Lost, Left, Refused, Quarantined };
 
-/// As in stores, logs and JSON.
+/// The word in stores, logs and JSON.
 constexpr std::string_view word_of(WorkerState state) {
   constexpr std::string_view kWords[] = {"connected", "lost", "left", "refused", "quarantined"};
   return kWords[static_cast<std::size_t>(state)];
@@ -248,7 +251,7 @@ constexpr std::string_view word_of(WorkerState state) {
 
 /// Not part of the answer.
 struct WorkerRow {
-  std::int64_t id = 0;   ///< by order of arrival in this store
+  std::int64_t id = 0;   ///< in the order in which workers first connected
   std::string identity;  ///< 128 random bits in hexadecimal
   std::string host;
   std::int64_t pid = 0;
@@ -257,28 +260,28 @@ struct WorkerRow {
   WorkerState state = WorkerState::Connected;
   std::int64_t done = 0;
   std::int64_t failed = 0;
-  std::string job;     ///< of the batch system; empty outside of one
-  std::string cpu;     ///< model of its processor
+  std::string job;     ///< id in the batch system; empty outside one
+  std::string cpu;     ///< model of the processor
   std::string client;  ///< name of its key in the allow-list; empty without keys
   std::int64_t connections = 1;
-  std::string principal{};  ///< key's name and address, by which it is trusted or not
+  std::string principal{};  ///< name of the key and address; trust depends on it
 };
 
-/// Workers that get nothing, as a store remembers them.
+/// Workers that get no tasks, as recorded in the store.
 struct Quarantine {
-  std::string principal;  ///< as in WorkerRow; the name of a key alone: at every address
+  std::string principal;  ///< as in WorkerRow; only a key's name: the key at every address
   std::string identity;   ///< of one process; empty: all workers of the principal
-  std::string since;      ///< as stores have times; empty: not known
+  std::string since;      ///< time in the format of stores; empty: unknown
   std::string reason;
 };
 
-/// Whether a principal has neither a key nor this host's secret, so that one lie is blamed on a
-/// process of it and not on all (docs/decisions/0023-forgiveness.md).
+/// Whether a principal has neither a key nor this host's secret. A wrong result is then blamed on
+/// one process of the principal, not on all of them (docs/decisions/0023-forgiveness.md).
 bool is_blamed_by_process(std::string_view principal);
-/// What a worker's row says of it, if it is in quarantine; without cause.
+/// The quarantine of the worker in this row, if it is in one; `reason` is empty.
 std::optional<Quarantine> quarantine_of(const WorkerRow& row);
 
-/// The principal's workers are in quarantine no longer. Not part of the answer.
+/// Ends the quarantine of the principal's workers. Not part of the answer.
 struct ForgivenRow {
   std::string principal;
 };
@@ -293,15 +296,15 @@ enum class AttemptOutcome : std::int8_t {
   Audited,
 };
 
-/// As in stores and logs.
+/// The word in stores and logs.
 constexpr std::string_view word_of(AttemptOutcome outcome) {
   constexpr std::string_view kWords[] = {"lost",      "expired",     "returned", "failed",
                                          "timed out", "second copy", "audited"};
   return kWords[static_cast<std::size_t>(outcome)];
 }
 
-/// A lease that did not simply end with the evaluation's result, or that was not the only one. Not
-/// part of the answer.
+/// A lease that ended in another way than with the evaluation's result, or that was not the only
+/// lease of the evaluation. Not part of the answer.
 struct AttemptRow {
   EvaluationKey key;
   std::int64_t attempt = 1;
@@ -310,21 +313,21 @@ struct AttemptRow {
   AttemptOutcome outcome = AttemptOutcome::Lost;
 };
 
-/// A person's command to the campaign. "cancel" and "extend" are part of the answer once they act:
-/// a replayed campaign does the same at the same step.
+/// A user's command to the campaign. "cancel" and "extend" are part of the answer once they have
+/// taken effect: a replayed campaign does the same at the same step.
 struct CommandRow {
   std::int64_t number = 0;  ///< in the store, from 1
   CommandKind kind = CommandKind::Unknown;
-  DesignId design;  ///< none: every design
-  /// Step of the race after which it acts (0: before the first); nothing until it does.
+  DesignId design;  ///< none: all designs
+  /// The step of the race after which it took effect (0: before the first); empty until then.
   std::optional<std::int64_t> step;
-  std::int64_t budget = 0;  ///< experiments more, of "extend"
+  std::int64_t budget = 0;  ///< of "extend": how many experiments more
   std::string who;          ///< user@host; not part of the answer
-  std::string whom{};       ///< of "forgive": a key or a host
+  std::string whom{};       ///< of "forgive": the key or the host
 };
 
-/// Two results of one evaluation with different bits: the campaign is not deterministic. Both are
-/// kept; the first one counts.
+/// Two results of one evaluation with different bits, so the campaign is not deterministic. The
+/// store keeps both; the first one counts.
 struct ConflictRow {
   EvaluationKey key;
   double kept_score = 0;
@@ -333,7 +336,8 @@ struct ConflictRow {
   std::int64_t other_worker = 0;
 };
 
-/// An attempt without a score: the command that was run, and its output. Not part of the answer.
+/// An attempt that gave no score, with the command that was run and its output. Not part of the
+/// answer.
 struct FailureRow {
   EvaluationKey key;
   std::int64_t attempt = 1;
@@ -344,19 +348,19 @@ struct FailureRow {
   std::string errors;
 };
 
-/// What an event says of one thing.
+/// Name and value of one field of an event.
 using EventField = std::pair<std::string, std::variant<std::int64_t, double, std::string>>;
 
-/// Something that a person may want to know afterwards. Not part of the answer.
+/// Something that happened and that a user may want to know later. Not part of the answer.
 struct EventRow {
   std::string severity;  ///< "info", "warning", "error"
   std::string kind;      ///< "worker lost", "lease expired", "disk full", ...
   std::string text;      ///< JSON object, as stores keep it
-  /// What the text was made of, see `event_row`, for who shows it; stores do not keep it.
+  /// The fields of the text (see `event_row`), for code that displays the event; not stored.
   std::vector<EventField> fields{};
 };
 
-/// An event with these fields, whose text is a JSON object of them in their order.
+/// An event with these fields. Its text is a JSON object with the fields in this order.
 EventRow event_row(std::string severity, std::string kind, std::vector<EventField> fields);
 
 using Row =
@@ -364,17 +368,17 @@ using Row =
                  EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow, CampaignStateRow,
                  WorkerRow, ConflictRow, FailureRow, EventRow, AttemptRow, CommandRow, ForgivenRow>;
 
-/// The part of an evaluation that a resumed campaign needs.
+/// The fields of an evaluation that a resumed campaign needs.
 struct StoredScore {
   EvaluationKey key;
   EvaluationStatus status = EvaluationStatus::Ok;
   Measured measured{};
   double bound = 0;
-  std::int64_t iteration = 0;  ///< that used it last; 0: none (EvaluationRow)
+  std::int64_t iteration = 0;  ///< the last one that used it; 0: none (EvaluationRow)
   std::int64_t worker = 0;
 };
 
-/// The part of an evaluation that a replay compares.
+/// The fields of a race step that a replay compares.
 struct StoredStep {
   DesignId design;
   std::int64_t step = 0;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::Statement;
 
-/// The leaves of two JSON objects that differ, in the order of the second.
+/// The leaves in which two JSON objects differ, in the order of the second.
 constexpr char kDifferingKeys[] = R"(
 WITH here AS (SELECT id, fullkey, coalesce(atom, value) AS text FROM json_tree(?1)
               WHERE id > 0 AND (type NOT IN ('object', 'array') OR value IN ('{}', '[]'))),
@@ -58,7 +58,7 @@ std::string differing_keys(const Connection& connection, const std::string& here
 Expected<void> check_campaign(const Connection& connection, const fs::path& path,
                               const CampaignRow& wanted) {
   const std::vector<StoredCampaign> all = read_campaigns(connection);
-  // Imported designs stand beside those of a campaign, and hinder none.
+  // Imported designs may be beside those of a campaign, and do not matter here.
   const auto run_here = std::ranges::count_if(
       all, [](const StoredCampaign& each) { return each.state != "imported"; });
   if (run_here > 1) {
@@ -89,7 +89,7 @@ void write_birth(Connection& connection, const CampaignRow& campaign,
   transaction.commit();
 }
 
-/// Changes nothing until it is sure that the store is the campaign's.
+/// Changes the store only after it has found that it belongs to the campaign.
 Expected<void> prepare(Connection& connection, const fs::path& path, const CampaignRow& campaign,
                        const std::vector<DesignRow>& designs) {
   if (is_blank(connection)) {

@@ -39,7 +39,7 @@ class SqliteAtRest final : public StoreAtRest {
   ~SqliteAtRest() override {
     if (!is_new_) {
       give_up(writer_);
-    } else if (writer_.file.fate().empty()) {  // while the right to write it is held
+    } else if (writer_.file.fate().empty()) {  // while this process has the right to write it
       std::error_code ignored;
       for (const char* ending : {"", "-wal", "-shm"})
         fs::remove(path_.string() + ending, ignored);
@@ -53,7 +53,7 @@ class SqliteAtRest final : public StoreAtRest {
   Expected<void> add_override(const RealOverrideRow& row) override;
 
  private:
-  /// All that `change` does, or nothing.
+  /// Commits everything that `change` does, or nothing.
   Expected<void> in_one_go(const std::function<Expected<void>()>& change);
   Expected<void> check_candidate(CandidateId candidate) const;
   Expected<RealRunRows> stored_run(RealRunId id) const;

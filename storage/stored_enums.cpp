@@ -8,7 +8,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Larger than any stored number of an enumerator: keys on the wire have three bits for a purpose.
+/// Larger than any stored number of an enumerator: keys in messages have three bits for a purpose.
 constexpr std::int64_t kNumbers = 8;
 
 template <class Value, class IsOne>

@@ -11,28 +11,31 @@
 
 namespace swarmsmith {
 
-/// What the values mean that stores keep as numbers or words: the one table of each. Code that
-/// distinguishes purposes takes it from here, and an enumerator without a line does not compile.
+/// The meanings of the values that stores keep as numbers or words, in one table for each
+/// enumeration. Code that distinguishes purposes uses this table. An enumerator without a line in
+/// it does not compile.
 
 struct PurposeFacts {
-  /// Which scores of a design's replay hold it; only what a replay asks for is part of the answer.
+  /// How a replay of the design uses the score. Only scores that a replay asks for are part of the
+  /// answer.
   enum class Replay : std::uint8_t {
-    None,       ///< later, or ahead: stays as it is
+    None,       ///< not used: made after the race, or ahead of it
     Race,       ///< counts if a race has used it
     Tests,      ///< always counts
     Evaluator,  ///< always counts
   };
 
-  std::string_view word;    ///< as in views
-  std::string_view letter;  ///< behind the number of its evaluations' ids; empty of races
+  std::string_view word;    ///< as in the views
+  std::string_view letter;  ///< suffix of the ids of its evaluations; empty for races
   Replay replay = Replay::None;
-  bool own_source = false;     ///< made under the campaign's own profile, or by its program
-  bool simulated = false;      ///< by workers of the campaign: `replay` and `verify` make it again
-  std::string_view counts_as;  ///< its word among the winners' scores; empty: it is none
-  std::string_view why;        ///< as people read why it was made; empty: they need more words
+  bool own_source = false;  ///< made with the campaign's own profile, or by its program
+  bool simulated = false;  ///< made by workers of the campaign; `replay` and `verify` can repeat it
+  std::string_view
+      counts_as;         ///< its name among the scores of winners; empty: it is not one of them
+  std::string_view why;  ///< why it was made, as shown to users; empty: this needs a longer text
 };
 
-/// Nothing for a number that is not a purpose.
+/// Empty for a number that is not a purpose.
 constexpr std::optional<PurposeFacts> facts_of(Purpose purpose) {
   using Replay = PurposeFacts::Replay;
   switch (purpose) {
@@ -63,39 +66,39 @@ constexpr std::optional<PurposeFacts> facts_of(Purpose purpose) {
   return std::nullopt;
 }
 
-/// Every value, by number.
+/// All values, by number.
 std::vector<Purpose> all_purposes();
 std::vector<EvaluationStatus> all_statuses();
 std::vector<DesignState> all_design_states();
 
-/// Of a stored number; nothing of one that no version knows yet.
+/// The value of a stored number; empty for a number that this version does not know.
 std::optional<Purpose> purpose_of(std::int64_t number);
 std::optional<EvaluationStatus> status_of(std::int64_t number);
 std::optional<DesignState> state_of(std::int64_t number);
-/// Of an evaluation's letter, or none for an empty text.
+/// The purpose of this letter in an evaluation's id; an empty text has none.
 std::optional<Purpose> purpose_of_letter(std::string_view letter);
-/// Of the word in views.
+/// The purpose of this word in the views.
 std::optional<Purpose> purpose_of_word(std::string_view word);
 
-/// "ok", "rejected": as in views.
+/// "ok", "rejected", as in the views.
 std::string_view word_of(EvaluationStatus status);
 
-/// For SQL: "(2, 6)", the numbers of the values that are meant. Never empty: "(NULL)".
+/// For SQL: "(2, 6)", the numbers of the selected values. Never an empty list, but "(NULL)".
 std::string numbers_in_sql(bool (*is_meant)(const PurposeFacts&));
 std::string numbers_in_sql(const std::vector<EvaluationStatus>& statuses);
 std::string numbers_in_sql(const std::vector<DesignState>& states);
-/// The same of the words in views: "('test', 'transfer')".
+/// The same with the words of the views: "('test', 'transfer')".
 std::string words_in_sql(bool (*is_meant)(const PurposeFacts&));
 
 constexpr bool is_any(const PurposeFacts&) {
   return true;
 }
-/// Counts in the answer whether a race used it or not.
+/// Whether an evaluation counts in the answer even if no race used it.
 constexpr bool always_counts(const PurposeFacts& facts) {
   return facts.replay == PurposeFacts::Replay::Tests ||
          facts.replay == PurposeFacts::Replay::Evaluator;
 }
-/// A replay asks for it.
+/// Whether a replay asks for the evaluation.
 constexpr bool is_of_replay(const PurposeFacts& facts) {
   return facts.replay != PurposeFacts::Replay::None;
 }
@@ -108,7 +111,7 @@ constexpr bool is_simulated(const PurposeFacts& facts) {
 constexpr bool is_test(const PurposeFacts& facts) {
   return facts.replay == PurposeFacts::Replay::Tests;
 }
-/// A test that counts as a score among the winners'.
+/// Whether it is a test that also counts among the scores of winners.
 constexpr bool is_transfer(const PurposeFacts& facts) {
   return is_test(facts) && facts.counts_as == "score";
 }
@@ -116,7 +119,7 @@ constexpr bool is_score_of_winner(const PurposeFacts& facts) {
   return !facts.counts_as.empty();
 }
 
-/// What a person or a program says of a real run (tracking/rig/issue.h has the same).
+/// The verdicts of users and programs on a real run (the same as in tracking/rig/issue.h).
 inline constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 /// "('VALID', 'DEGRADED', 'INVALID')".
 std::string verdicts_in_sql();

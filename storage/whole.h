@@ -6,10 +6,10 @@
 
 namespace swarmsmith {
 
-/// Corrupt when the rows of a store are not those of one commit: another program changed them, or
-/// the store is a copy, and some of its parts are older than others. Corrupt, too, when codes of
-/// candidates make more text than a store's. Reads all rows, unless the file is as its last writer
-/// closed it. StoreReader::open has the other errors.
+/// Corrupt when the rows of a store are not in the state that its last commit left: another program
+/// changed them, or the store is a copy with some parts older than others. Also Corrupt when the
+/// codes of candidates expand to more text than a store can have. Reads all rows, unless the file
+/// is unchanged since its last writer closed it. Other errors: those of StoreReader::open.
 Expected<void> check_rows(const std::filesystem::path& store);
 
 }  // namespace swarmsmith

@@ -21,7 +21,7 @@ constexpr std::string_view kBusy =
 
 thread_local int asked_by = -1;
 
-/// While a request is answered.
+/// Sets the socket of the request while it is answered.
 class Asked {
  public:
   explicit Asked(int socket) { asked_by = socket; }
@@ -30,7 +30,7 @@ class Asked {
   Asked& operator=(const Asked&) = delete;
 };
 
-/// Of this thread alone.
+/// Lowers the priority of this thread only.
 void stand_back(int nice) {
   thread_local bool done = false;
   if (done || nice == 0) return;
@@ -38,7 +38,7 @@ void stand_back(int nice) {
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), nice);
 }
 
-/// A request's head that is there already; what is written is kept.
+/// A stream with a request's complete head; the output is kept.
 class HeadStream : public httplib::Stream {
  public:
   HeadStream(int socket, std::string head) : socket_(socket), head_(std::move(head)) {}
@@ -54,7 +54,7 @@ class HeadStream : public httplib::Stream {
     written_.append(data, size);
     return static_cast<ssize_t>(size);
   }
-  // No program asks for these: see PageServer::socket_of_request.
+  // No program needs these addresses: see PageServer::socket_of_request.
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
   socket_t socket() const override { return socket_; }
@@ -68,8 +68,8 @@ class HeadStream : public httplib::Stream {
   std::string written_;
 };
 
-/// What is written goes out, until the deadline: a peer that reads a byte a second would hold a
-/// thread for hours under a time-out for each write.
+/// A stream that sends the output until the deadline. With a time-out for each write, a peer that
+/// reads one byte per second would hold a thread for hours.
 class DeadlineStream final : public HeadStream {
  public:
   DeadlineStream(int socket, std::string head, std::optional<Clock::time_point> deadline)
@@ -91,18 +91,18 @@ class DeadlineStream final : public HeadStream {
   }
 
  private:
-  /// Of a reader of a stream without an end, who must take something in this time.
+  /// For a reader of an endless stream, who must take some data in this time.
   static constexpr int kLongestPause = 5000;
 
   std::optional<Clock::time_point> deadline_;
 };
 
-/// It is short, so that the system takes all of it, whether it is read or not.
+/// The text is short, so the system takes all of it, whether or not it is read.
 void send_at_once(int socket, std::string_view text) {
   (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
-/// What came after the head is taken first: else the system would throw the answer away.
+/// Data after the head is read first: otherwise the system would discard the answer.
 void close_connection(int socket) {
   constexpr int kMostReads = 16;
   std::array<char, 4096> rest{};
@@ -113,7 +113,7 @@ void close_connection(int socket) {
   ::close(socket);
 }
 
-/// Whether the line is the header of this name, which has small letters and a colon.
+/// Whether the line is the header with this name, given in lower case and with its colon.
 bool has_name(std::string_view line, std::string_view name) {
   return line.size() >= name.size() &&
          std::equal(name.begin(), name.end(), line.begin(), [](char expected, char letter) {
@@ -128,8 +128,8 @@ bool is_read_by_pages(std::string_view line) {
   return std::ranges::any_of(kNames, [&](std::string_view name) { return has_name(line, name); });
 }
 
-/// Whether a request has one meaning for all who read it: a proxy may take the second of two
-/// headers, where this program takes the first.
+/// Whether a request has only one meaning for all programs that read it: of two equal headers, a
+/// proxy may use the second, while this program uses the first.
 bool is_clear(std::string_view head) {
   constexpr std::array<std::string_view, 7> kOnce = {
       "host:",           "authorization:",  "origin:",           "referer:",
@@ -141,7 +141,7 @@ bool is_clear(std::string_view head) {
     const std::string_view line = head.substr(0, end);
     head.remove_prefix(end == std::string_view::npos ? head.size() : end + 1);
     if (line.empty() || line == "\r") continue;
-    // A line that goes on, or a name that does not end at its colon.
+    // A continuation line, or a name that does not end at its colon.
     const std::size_t name = line.find_first_of(" \t:");
     if (name == 0 || name == std::string_view::npos || line[name] != ':') return false;
     for (std::size_t i = 0; i < kOnce.size(); ++i) {
@@ -169,7 +169,7 @@ std::string bare(std::string_view head) {
   return kept + "\r\n";
 }
 
-/// The path that a request line asks for; empty when there is none.
+/// The path in a request line; empty when there is none.
 std::string_view path_of(std::string_view head) {
   const std::size_t blank = head.find(' ');
   if (blank == std::string_view::npos) return {};
@@ -197,7 +197,7 @@ PageServer::~PageServer() {
 }
 
 void PageServer::serve(ListeningSocket listening) {
-  // The library ends its streams when it has no socket.
+  // The library closes its streams when it has no socket.
   svr_sock_ = listening.descriptor;
   pool_ = std::make_unique<httplib::ThreadPool>(options_.threads);
   door_ = std::make_unique<RequestDoor>(listening, options_.door,
@@ -237,7 +237,7 @@ void PageServer::process(Stream& stream) {
   if constexpr (requires { this->process_request(stream, true, closed, nullptr); }) {
     this->process_request(stream, true, closed, nullptr);
   } else {
-    // From version 0.18 on it takes the addresses of both ends, which pages do not read.
+    // Since version 0.18 the function takes the addresses of both ends, which pages do not use.
     const std::string none;
     this->process_request(stream, none, 0, none, 0, true, closed, nullptr);
   }

@@ -32,7 +32,7 @@ int port_of(int descriptor) {
   return ntohs(port);
 }
 
-/// A listening socket at this address; -1 and errno when there is none.
+/// A listening socket at this address; -1, with errno set, if that fails.
 int listen_at(const addrinfo& address) {
   const int descriptor =
       socket(address.ai_family, address.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -113,12 +113,13 @@ void RequestDoor::work() {
 }
 
 void RequestDoor::accept_all() {
-  // A crowd that comes at once is read in between.
+  // When many clients connect at once, requests are read in between.
   for (std::size_t i = 0; i < limits_.connections / 4; ++i) {
     const int taken =
         accept4(listening_.descriptor, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (taken < 0) {
-      // Without a descriptor the newcomer would stay in the queue, and poll would not wait.
+      // Without a free descriptor the newcomer would stay in the queue, and poll would return
+      // immediately.
       const bool no_room = errno == EMFILE || errno == ENFILE;
       if (!no_room || connections_.empty()) return;
       drop(connections_.begin());
@@ -141,7 +142,7 @@ RequestDoor::Connections::iterator RequestDoor::read(Connections::iterator at) {
     at->head.append(bytes.data(), static_cast<std::size_t>(got));
     const std::size_t end = at->head.find(kEndOfHead, before);
     if (end != std::string::npos) {
-      // What follows would be a body, and no page takes one.
+      // A body would follow, but no page takes one.
       at->head.resize(end + kEndOfHead.size());
       on_request_(at->socket, std::move(at->head));
       return connections_.erase(at);

@@ -14,27 +14,28 @@ namespace swarmsmith {
 /// A socket that listens for TCP connections.
 struct ListeningSocket {
   int descriptor = -1;
-  int port = 0;  ///< the real one
+  int port = 0;  ///< the actual port
 };
 
-/// `port` 0: a free one. The port belongs to this process alone (no SO_REUSEPORT). Errors: Conflict
-/// (another program listens there), BadInput (no address of this host), Unavailable.
+/// `port` 0: a free one. Only this process can use the port (no SO_REUSEPORT). Errors: Conflict
+/// (another program listens at it), BadInput (not an address of this host), Unavailable.
 Expected<ListeningSocket> listen_for_requests(const std::string& host, int port);
 
 struct DoorLimits {
-  /// Most connections without a complete request; when one more comes, the oldest is closed.
+  /// Maximum number of connections without a complete request; when one more arrives, the oldest is
+  /// closed.
   std::size_t connections = 512;
   std::size_t head_bytes = 16U << 10U;
   std::chrono::milliseconds head_time{3000};
 };
 
-/// Takes HTTP connections and collects their requests' heads (request line and headers), all in one
-/// thread. A peer that sends a byte a second costs only a descriptor, and a request that comes in
-/// one piece is handed over at once, however many others are slow.
+/// Accepts HTTP connections and collects the heads of their requests (request line and headers),
+/// all in one thread. A peer that sends one byte per second costs only a descriptor, and a request
+/// that arrives in one piece is passed on immediately, however many others are slow.
 class RequestDoor {
  public:
-  /// Called by the door's thread, with a complete head; owns the socket (non-blocking) from then
-  /// on.
+  /// Called by the door's thread with a complete head. The function owns the socket (non-blocking)
+  /// from then on.
   using OnRequest = std::function<void(int socket, std::string head)>;
 
   /// Owns the listening socket.

@@ -15,7 +15,7 @@
 namespace swarmsmith {
 namespace {
 
-/// All signals that come from outside; the others are faults of this process itself.
+/// All signals from outside; the others are faults of this process itself.
 sigset_t signals_to_pass_on() {
   sigset_t signals;
   sigfillset(&signals);
@@ -46,8 +46,8 @@ void reap(pid_t child) {
   }
 }
 
-/// In a group of its own, which has the terminal, if there is one: else Ctrl-C would reach the
-/// program twice.
+/// Moves this process into its own group, which gets the terminal, if there is one: otherwise
+/// Ctrl-C would reach the program twice.
 void take_foreground() {
   setpgid(0, 0);
   signal(SIGTTOU, SIG_IGN);
@@ -66,7 +66,8 @@ void leave_first_place() {
   if (child < 0)
     std::fprintf(stderr, "process 1 cannot start its program: %s\n", std::strerror(errno));
   sigprocmask(SIG_SETMASK, &before, nullptr);
-  // Without a child it goes on as before: orphans stay zombies, all else works.
+  // If no child can be started, this process goes on as the program: orphans stay zombies, but
+  // everything else works.
 }
 
 void on_processor_limit(int) {
@@ -76,8 +77,8 @@ void on_processor_limit(int) {
   _exit(128 + SIGXCPU);
 }
 
-/// At the hard limit the kernel kills without a signal that could be handled, and `ulimit -t` sets
-/// both to the same.
+/// Lowers the soft limit: at the hard limit the kernel kills without a signal that could be
+/// handled, and `ulimit -t` sets both limits to the same value.
 void part_processor_limits() {
   rlimit limit = {};
   if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_max == RLIM_INFINITY) return;
@@ -87,7 +88,7 @@ void part_processor_limits() {
   setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// In an archive (packaging/bundle) the kernel takes the loader's name.
+/// Sets the process's name: in an archive (packaging/bundle) the kernel uses the loader's name.
 void take_name() {
   const auto* const called = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   if (called == nullptr) return;

@@ -23,7 +23,7 @@ void close_one(int& descriptor) {
   descriptor = -1;
 }
 
-/// Two ends that no other child inherits.
+/// A pipe whose ends no other child inherits.
 struct Pipe {
   int read = -1;
   int write = -1;
@@ -138,8 +138,8 @@ void ChildProcess::end_input() {
 }
 
 const std::string& ChildProcess::last_line() {
-  // Who writes without an end is not read for ever. More than a pipe holds, so that of a process
-  // that has ended nothing is left.
+  // The limit stops reading from a process that writes without end. It is more than a pipe holds,
+  // so that nothing is left of a process that has ended.
   constexpr int kPiecesAtOnce = 64;
   std::array<char, 4096> buffer{};
   for (int piece = 0; piece < kPiecesAtOnce && errors_ >= 0; ++piece) {
@@ -166,13 +166,13 @@ std::vector<std::string> ChildProcess::take_lines() {
 void ChildProcess::finish_by(TimePoint until) {
   while (runs() && !ended()) {
     if (SystemClock().now() >= until) {
-      kill(-pid_, SIGKILL);  // a shell's programs, too
+      kill(-pid_, SIGKILL);  // also the programs of a shell
       int status = 0;
       waitpid(pid_, &status, 0);
       pid_ = 0;
       break;
     }
-    last_line();  // a full pipe would keep it from ending
+    last_line();  // reads the output, since a full pipe would keep the process from ending
     poll(nullptr, 0, 5);
   }
   close_streams();

@@ -12,14 +12,15 @@
 namespace swarmsmith {
 
 /// A child process in its own group: Ctrl-C at the terminal reaches only the coordinator, which
-/// then drains. Killed and reaped with the object.
+/// then drains. It is killed and reaped when this object is destroyed.
 class ChildProcess {
  public:
   enum class Streams {
     Inherited,
-    /// Its input ends when this object or this process ends; this object reads its errors.
+    /// Its input ends when this object or this process ends; this object reads its error output.
     Held,
-    /// Its input ends as with Held; the owner of this object reads its output. Both block.
+    /// Its input ends as with Held; the owner of this object reads its output. Both descriptors
+    /// block.
     Spoken,
   };
 
@@ -28,25 +29,25 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Starts `words[0]`, looked for in PATH when its name has no slash, with further variables
-  /// ("NAME=value") in its environment. None may run yet.
+  /// Starts `words[0]`, which is looked up in PATH if it has no slash, with further variables
+  /// ("NAME=value") in its environment. No process of this object may be running.
   Expected<void> start(const std::vector<std::string>& words, Streams streams,
                        const std::vector<std::string>& variables = {});
 
   bool runs() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }
-  /// Its status from waitpid, returned once, after its end.
+  /// Its status from waitpid, which is returned once after its end.
   std::optional<int> ended();
   void signal(int number) const;
   void end_input();
-  /// Descriptors of a Spoken process; -1 after its end.
+  /// Descriptors of a process with Spoken streams; -1 after its end.
   int input() const { return input_; }
   int output() const { return output_; }
   /// The last line of its error output so far; empty for none.
   const std::string& last_line();
-  /// The lines of it since the last call, of many at once the first ones.
+  /// The lines of its error output since the last call; if there are many, only the first ones.
   std::vector<std::string> take_lines();
-  /// Waits for its end until then; after that kills it with SIGKILL.
+  /// Waits for its end until `until`; after that, kills it with SIGKILL.
   void finish_by(TimePoint until);
 
  private:
@@ -56,8 +57,8 @@ class ChildProcess {
   int input_ = -1;
   int output_ = -1;
   int errors_ = -1;
-  std::string line_;       ///< the one that is being written
-  std::string last_line_;  ///< not blank
+  std::string line_;       ///< the line that is not complete yet
+  std::string last_line_;  ///< the last one that is not blank
   std::vector<std::string> lines_;
 };
 

@@ -18,7 +18,7 @@ constexpr int kTermGraceMs = 500;
 
 std::atomic<int> g_to_guard{-1};
 
-/// Whole words travel: a pipe does not tear what is shorter than PIPE_BUF.
+/// Writes a whole word: a pipe does not split writes shorter than PIPE_BUF.
 void tell(pid_t word) {
   const int descriptor = g_to_guard.load(std::memory_order_relaxed);
   if (descriptor < 0) return;
@@ -26,14 +26,15 @@ void tell(pid_t word) {
   }
 }
 
-/// Until the last writer, the guarded process, is gone.
+/// Runs until the last writer, the guarded process, is gone.
 [[noreturn]] void watch(int descriptor) {
-  // Ctrl-C and the batch system's signals go to whole groups; this one has something to do yet.
+  // Ctrl-C and the batch system's signals go to whole groups, but this process must outlive them.
   setpgid(0, 0);
   for (const int ignored : {SIGINT, SIGTERM, SIGHUP, SIGPIPE})
     std::signal(ignored, SIG_IGN);
   prctl(PR_SET_NAME, "swarmsmith-grd");
-  // A program that waits for the end of the guarded process's output shall not wait for this one.
+  // A program that waits for the end of the guarded process's output must not wait for this
+  // process.
   const auto own = static_cast<unsigned>(descriptor);
   if (own > 0) close_range(0, own - 1, 0);
   close_range(own + 1, ~0U, 0);

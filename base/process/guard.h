@@ -6,16 +6,16 @@
 
 namespace swarmsmith {
 
-/// A small process beside this one that outlives it, however it ends (kill -9 too), and then ends
-/// the groups of programs that ran: the kernel tells a program of its parent's death, but not what
-/// the program started. Call it early, before there are threads. Without a guard `guard` and
-/// `unguard` do nothing.
+/// Starts a small process that outlives this one, however it ends (also by kill -9), and then ends
+/// the process groups of the programs that were running. The kernel can end a program when its
+/// parent dies, but not the processes that the program has started. To be called early, before
+/// there are threads. Without a guard, `guard` and `unguard` do nothing.
 Expected<void> start_guard();
 
-/// A process group that is to end with this process. Any thread, and a child of vfork: it only
-/// writes to a pipe.
+/// Registers a process group that must end with this process. Can be called from any thread, and in
+/// a child of vfork: it only writes to a pipe.
 void guard(pid_t group);
-/// It has ended.
+/// Reports that the group has ended.
 void unguard(pid_t group);
 /// Whether there is a guard.
 bool is_guarded();

@@ -18,7 +18,8 @@ Interrupt::~Interrupt() {
 
 void Interrupt::trigger() {
   triggered_ = true;
-  eventfd_write(descriptor_, 1);  // cannot fail: it is never read, and once is enough
+  eventfd_write(descriptor_,
+                1);  // cannot fail: the counter is never read, and one trigger is enough
 }
 
 bool Interrupt::wait_ms(int milliseconds) const {

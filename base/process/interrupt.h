@@ -4,7 +4,7 @@
 
 namespace swarmsmith {
 
-/// Ends the programs that run under it, from any thread: once triggered, always triggered.
+/// A flag that ends running programs, from any thread. Once triggered, it stays triggered.
 class Interrupt {
  public:
   /// Throws std::system_error when there is no descriptor left.
@@ -15,9 +15,9 @@ class Interrupt {
 
   void trigger();
   bool triggered() const { return triggered_.load(); }
-  /// Becomes readable with the trigger, and stays so.
+  /// Becomes readable when triggered, and stays readable.
   int descriptor() const { return descriptor_; }
-  /// Waits as long, or until it is triggered; whether it was.
+  /// Waits for this time, or until it is triggered; returns whether it was.
   bool wait_ms(int milliseconds) const;
 
  private:

@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// Where the kernel does not tell when a process ends, one looks this often.
+/// How often to check for the end of a process when the kernel does not report it.
 constexpr milliseconds kLookAgain{10};
 constexpr int kChunksAtOnce = 16;  // more than a pipe holds
 
@@ -33,7 +33,7 @@ class Running {
     if (call_.limit.count() > 0) next_signal_ = Clock::now() + call_.limit;
   }
 
-  /// Whatever happens, nothing of the group stays.
+  /// Nothing of the group may remain, whatever happens.
   ~Running() {
     kill(-child_.pid, SIGKILL);
     kill(child_.pid, SIGKILL);
@@ -84,7 +84,7 @@ class Running {
   void take(Descriptor& from, Captured& to) const {
     if (from.get() < 0) return;
     std::array<char, 16384> chunk;
-    // Not for ever: who prints without end has a deadline all the same.
+    // There is a limit, since a program that prints without end must still meet its deadline.
     for (int i = 0; i < kChunksAtOnce; ++i) {
       const ssize_t got = read(from.get(), chunk.data(), chunk.size());
       if (got < 0 && errno == EINTR) continue;
@@ -92,13 +92,13 @@ class Running {
       if (got <= 0) return from.reset();
       to.size += static_cast<std::uint64_t>(got);
       to.text.append(chunk.data(), static_cast<std::size_t>(got));
-      // In big steps, so that a flood costs little.
+      // Cut in large steps, so that a lot of output costs little.
       if (to.text.size() > 2 * call_.keep) to.text.erase(0, to.text.size() - call_.keep);
       if (static_cast<std::size_t>(got) < chunk.size()) return;
     }
   }
 
-  /// Without reaping: as long as the process is a zombie, no other one can have its group's number.
+  /// Does not reap: as long as the process is a zombie, its group's number cannot be used again.
   void look_for_end() {
     if (ended_) return;
     siginfo_t info{};
@@ -111,10 +111,10 @@ class Running {
     } else {
       end_.signal = info.si_status;
     }
-    // It wrote before it ended.
+    // Its last output, from before its end.
     take(child_.output, end_.output);
     take(child_.errors, end_.errors);
-    // Who was ended has no right to more time for what it left behind.
+    // A program that was ended gets no more time for the processes that it left behind.
     if (end_.why != ProcessEnd::Why::Itself) pipes_until_ = Clock::now();
   }
 

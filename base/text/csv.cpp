@@ -29,7 +29,7 @@ bool is_switches(std::string_view text) {
   });
 }
 
-/// What a spreadsheet would calculate, were it not for the apostrophes before it.
+/// The text after leading apostrophes, which a spreadsheet would evaluate without them.
 std::string_view behind_apostrophes(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of('\''), text.size()));
 }
@@ -50,7 +50,7 @@ bool is_blank(const std::vector<std::string>& fields) {
 }  // namespace
 
 std::string csv_field(std::string_view text) {
-  // A text that begins with apostrophes of its own gets one more, so that it comes back.
+  // A text that begins with apostrophes gets one more, so that reading removes only that one.
   const bool guarded = begins_as_formula(behind_apostrophes(text)) &&
                        (text.front() == '\'' || (!is_number(text) && !is_switches(text)));
   std::string field = guarded ? "'" : "";
@@ -99,7 +99,7 @@ std::string CsvReader::plain() {
   return std::string(field);
 }
 
-/// What follows the closing quote belongs to the field, too: "a"b is ab.
+/// Text after the closing quote also belongs to the field: "a"b is ab.
 std::optional<std::string> CsvReader::quoted() {
   std::string field;
   rest_.remove_prefix(1);

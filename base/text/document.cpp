@@ -45,8 +45,8 @@ Node converted(const toml::node& node) {
   return {DateOrTime{}, place};
 }
 
-/// Where the string that begins at `at` ends: behind its closing quotes, else at the end of the
-/// line, where a text of one line breaks off, or of the file.
+/// The end of the string that begins at `at`: after its closing quotes; else at the end of the
+/// line, for a string of one line, or at the end of the file.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string_view three = text.substr(at, 3);
@@ -58,7 +58,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
       return i + 1;
     } else if (is_long && text.substr(i, 3) == three) {
       i += 3;
-      // Up to two more quotes belong to the text.
+      // Up to two more quotes belong to the string.
       while (i < text.size() && text[i] == quote)
         ++i;
       return i;
@@ -67,16 +67,17 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// Levels of tables, lists and parts of keys, far more than any file of ours has. The parser and
-/// functions that walk its tree call themselves for each.
+/// Maximum number of levels of tables, lists and parts of keys, far more than any of the project's
+/// files has. The parser, and the functions that walk its tree, recurse once for each level.
 constexpr std::size_t kDeepest = 64;
 
-/// Values of a text, far more than any file of ours has: the trees of parser and reader take some
-/// hundred bytes for each, and a text from elsewhere may have one value in two letters.
+/// Maximum number of values in a text, far more than any of the project's files has. The trees of
+/// parser and reader take some hundred bytes for each value, and a text from outside may have one
+/// value in two characters.
 constexpr std::size_t kMostValues = 1'000'000;
 
-/// How deep the tree is at each letter of a file, counted from the letters outside of strings and
-/// comments without reading the file: never too few.
+/// The depth of the tree at each character of a file, computed from the characters outside of
+/// strings and comments, without parsing. It may be too large, but never too small.
 class Depth {
  public:
   void add(char letter) {
@@ -134,15 +135,15 @@ class Depth {
     parts_ = 0;
   }
 
-  std::vector<std::size_t> open_;  ///< levels of each list and inline table that is open
+  std::vector<std::size_t> open_;  ///< levels of each open list and inline table
   std::size_t inside_ = 0;         ///< their sum
   std::size_t header_ = 0;         ///< parts of the last header: [a.b] has two
-  std::size_t parts_ = 0;          ///< dots of the key that is being read
+  std::size_t parts_ = 0;          ///< number of dots in the key that is being read
   bool in_header_ = false;
   bool begins_line_ = true;
 };
 
-/// Where something is, and why it cannot be read.
+/// A place, and the reason why it cannot be read.
 struct Fault {
   FilePlace place;
   std::string reason;
@@ -157,10 +158,10 @@ Fault fault_at(std::string_view text, std::size_t begin, std::size_t at, std::st
           std::move(reason)};
 }
 
-/// The first thing that the parser must not see. Letters that are none of ASCII outside of strings
-/// and comments: TOML has none there, and the parser relies on it (what it does with them is not
-/// defined: version 3.3 of toml++). Depth that would take more stack than there is, and more values
-/// than memory should be spent on: each is behind a letter that is counted.
+/// The first thing that the parser must not see. First, non-ASCII characters outside of strings and
+/// comments: TOML has none there, and what the parser does with them is undefined (toml++ 3.3).
+/// Second, a depth that would need more stack than there is. Third, more values than memory should
+/// be used for. Each value and level comes after a character that is counted.
 std::optional<Fault> fault_of(std::string_view text) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";
   const std::size_t begin = text.starts_with(kMark) ? kMark.size() : 0;

@@ -13,9 +13,9 @@
 
 namespace swarmsmith {
 
-/// A TOML text as plain values with places, so that one file includes the parser's headers.
+/// A TOML text as plain values with their places. The parser's headers are needed in only one file.
 
-/// Line and column in the text, both from 1; 0 for what is not in it.
+/// Line and column in the text, both from 1; 0 for a value that is not in the text.
 struct FilePlace {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
@@ -33,7 +33,7 @@ struct Array {
   std::vector<Node> items;
 };
 
-/// A date, or nothing: a time, which no key of ours takes.
+/// A date; empty for a time, which no key of the project takes.
 struct DateOrTime {
   std::optional<std::chrono::year_month_day> date;
 };
@@ -49,10 +49,10 @@ struct Table::Entry {
   Node node;
 };
 
-/// "a text", "an integer", ...: what a person calls the node's type.
+/// The node's type in words: "a text", "an integer", ...
 std::string_view type_name(const Node& node);
 
-/// Where `place` is, as people and editors write it: file:line:column.
+/// A place in the form that users and editors know: file:line:column.
 std::string to_string(std::string_view file, FilePlace place);
 
 /// Parses the text; `file` is its name in errors.

@@ -9,11 +9,11 @@
 namespace swarmsmith {
 namespace {
 
-/// 15 bits of window, and 16 for the header of gzip.
+/// A window of 15 bits, and 16 for the gzip header.
 constexpr int kGzip = 15 + 16;
 
 Bytef* zlib_bytes(std::string_view text) {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): zlib reads it only
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): zlib only reads it
   return const_cast<Bytef*>(reinterpret_cast<const Bytef*>(text.data()));
 }
 

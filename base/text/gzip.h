@@ -11,7 +11,8 @@ namespace swarmsmith {
 /// `level` from 1 (fast) to 9 (small).
 std::string gzip(std::string_view bytes, int level = 6);
 
-/// What was packed. Corrupt when it is not a gzip file, or more than `most` bytes come out of it.
+/// The bytes before packing. Corrupt when it is not a gzip file, or unpacks to more than `most`
+/// bytes.
 Expected<std::string> gunzip(std::string_view packed, std::size_t most);
 
 }  // namespace swarmsmith

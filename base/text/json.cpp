@@ -16,7 +16,7 @@ std::string json_text(std::string_view text) {
     const char letter = text.front();
     const auto code = static_cast<unsigned char>(letter);
     if (size != 1) {
-      // What is not text (names of files may be anything) is replaced: JSON is UTF-8.
+      // Bytes that are not UTF-8 (file names may have any bytes) are replaced, since JSON is UTF-8.
       quoted += size == 0 ? std::string_view("\xef\xbf\xbd") : text.substr(0, size);
       text.remove_prefix(size == 0 ? 1 : size);
       continue;

@@ -9,16 +9,17 @@
 
 namespace swarmsmith {
 
-/// JSON as all programs here write it: on one line, without blanks, keys in the order of writing.
-/// nlohmann's writer is for what others read as any JSON; it puts 1.0 for 1, and the bytes of
-/// `--json` are promised.
+/// JSON in the form that all programs of the project write: on one line, without blanks, keys in
+/// the order in which they are added. nlohmann's writer is only for JSON whose exact text does not
+/// matter: it writes 1.0 for 1, while the bytes of `--json` are guaranteed.
 
-/// A text in quotes. Bytes that are not UTF-8 become U+FFFD, one for each.
+/// A text in quotes. Each byte that is not UTF-8 becomes U+FFFD.
 std::string json_text(std::string_view text);
-/// A number in the shortest form that reads back to the same value; null for what JSON lacks.
+/// A number in the shortest form that reads back to the same value; null for values that JSON
+/// lacks.
 std::string json_number(double value);
 
-/// What is JSON already.
+/// A text that is already JSON.
 struct JsonPiece {
   std::string text;
 };
@@ -26,7 +27,7 @@ struct JsonPiece {
 template <class T>
 std::string json_of(const T& value);
 
-/// An object, put together key by key.
+/// An object that is built key by key.
 class JsonObject {
  public:
   template <class T>
@@ -40,7 +41,7 @@ class JsonObject {
   std::string text_ = "{";
 };
 
-/// An array of what `of` makes of each item.
+/// An array of the results of `of` for each item.
 template <std::ranges::input_range Items, class Of>
 JsonPiece json_list(const Items& items, const Of& of) {
   std::string text = "[";
@@ -49,8 +50,8 @@ JsonPiece json_list(const Items& items, const Of& of) {
   return {text + "]"};
 }
 
-/// Any value: booleans, numbers, texts, what is optional (else null), ids (null for none), maps by
-/// text, and ranges of these.
+/// Any value: booleans, numbers, texts, optional values (null if empty), ids (null for none), maps
+/// with texts as keys, and ranges of these.
 template <class T>
 std::string json_of(const T& value) {
   if constexpr (std::same_as<T, JsonPiece>) {

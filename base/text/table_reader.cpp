@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Readers are only made for tables.
+/// The table of a node; readers exist only for tables.
 const Table& entries_of(const Node& node) {
   return std::get<Table>(node.value);
 }
@@ -24,7 +24,7 @@ struct Unit {
 };
 constexpr std::array<Unit, 4> kUnits = {{{"ms", 0.001}, {"s", 1}, {"min", 60}, {"h", 3600}}};
 
-/// Integers and reals are both numbers to people.
+/// Users write numbers as integers or as reals.
 std::optional<double> as_number(const Node& node) {
   if (const auto* real = std::get_if<double>(&node.value)) return *real;
   if (const auto* whole = std::get_if<std::int64_t>(&node.value)) {
@@ -39,10 +39,10 @@ bool within(Number value, Limits<Number> limits) {
   return value >= limits.least && value <= limits.most;
 }
 
-/// Names stand in tables and figures. Stores refuse longer ones.
+/// Names are in tables and figures, and stores refuse longer ones.
 constexpr std::size_t kLongestName = 1000;
 
-/// A key that the file's author chose, short enough for a sentence.
+/// A key from the file, short enough for a message.
 std::string shown_key(std::string_view key) {
   constexpr std::size_t kLongest = 60;
   std::string shown = as_shown(key.substr(0, kLongest), Layout::Escaped);
@@ -119,12 +119,12 @@ void TableReader::complain(std::string_view key, std::string message) {
 }
 
 void TableReader::complain_foreign(std::string_view key, Error error) {
-  // A file that is not there has no line of its own to show: the name is what is wrong.
+  // A missing file has no line to report: its name is the error.
   if (error.kind == ErrorKind::NotFound) return complain(key, error.where + ": " + error.message);
   complaints_->add_foreign(place_of(key), std::move(error));
 }
 
-/// A value of another type than the key wants.
+/// Complains about a value of another type than the key needs.
 void TableReader::complain_type(const Node& node, std::string_view key, std::string_view wanted) {
   complaints_->add(node.place, "`" + std::string(key) + "` must be " + std::string(wanted) +
                                    ", this is " + std::string(type_name(node)));
@@ -368,7 +368,8 @@ bool names_a_file(const std::string& word) {
 }
 
 void read_format(TableReader& root) {
-  // Of the files that this program reads; raised when an old file would mean something else.
+  // The format of the files that this program reads; it increases when the meaning of old files
+  // changes.
   constexpr std::int64_t kFormat = 1;
   const auto format = root.integer("format", {1, 1'000'000});
   if (!root.has("format")) {

@@ -16,17 +16,17 @@
 
 namespace swarmsmith {
 
-/// Everything that is wrong with a file, in the order of the file.
+/// All errors in a file, in the order of the file.
 class Complaints {
  public:
   explicit Complaints(std::string file) : file_(std::move(file)) {}
 
   void add(FilePlace place, std::string message);
-  /// Something wrong in another file, which `place` names.
+  /// Adds an error in another file, which this file names at `place`.
   void add_foreign(FilePlace place, Error error);
   bool empty() const { return complaints_.empty(); }
   std::size_t count() const { return complaints_.size(); }
-  /// Sorted by place; those without one come last.
+  /// Sorted by place; errors without a place come last.
   std::vector<Error> take();
 
  private:
@@ -37,41 +37,41 @@ class Complaints {
 /// "2 min" or "2min" as 120; units are ms, s, min and h.
 std::optional<double> parse_seconds(std::string_view text);
 
-/// Ends of a range, both included.
+/// Both ends of a range, which belong to it.
 template <class Number>
 struct Limits {
   Number least;
   Number most;
 };
 
-/// Takes a table apart by key and remembers what was asked for, so that `finish` can complain about
-/// the rest. A getter gives nothing when the key is missing, and also, after a complaint, when its
-/// value is none of what it should be; `has` tells the two apart.
+/// Reads a table key by key and remembers which keys were read, so that `finish` can complain about
+/// the others. A getter returns empty when the key is missing, and also, after a complaint, when
+/// its value is not valid; `has` distinguishes the two cases.
 class TableReader {
  public:
-  /// `path` is the table's place in the file, such as `mission.arena`; empty for the whole file.
+  /// `path` is the table's path in the file, such as `mission.arena`; empty for the whole file.
   /// `table` must outlive the reader.
   TableReader(const Node& table, std::string path, Complaints& complaints, bool in_list = false);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  /// What sentences call the table: [campaign], [[mission]], or "the file".
+  /// The table's name in messages: [campaign], [[mission]], or "the file".
   std::string name() const;
   FilePlace place() const { return table_->place; }
-  /// Where the key's value is, else where the table is.
+  /// The place of the key's value, or of the table if the key is missing.
   FilePlace place_of(std::string_view key) const;
   void complain(std::string_view key, std::string message);
-  /// How much was wrong so far, in all tables of the file.
+  /// Number of errors so far, in all tables of the file.
   std::size_t complaints() const { return complaints_->count(); }
-  /// Something wrong in another file, which the key names; when that is not there, the key's value
-  /// is what is wrong.
+  /// Adds an error in another file, which the key names. If that file does not exist, the error is
+  /// in the key's value.
   void complain_foreign(std::string_view key, Error error);
 
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::int64_t> integer(std::string_view key, Limits<std::int64_t> limits);
-  /// Integers are numbers, too.
+  /// Integers are accepted, too.
   std::optional<double> number(std::string_view key, Limits<double> limits);
   std::optional<std::string> text(std::string_view key);
-  /// A text out of `choices`; those in `not_yet` are refused with a sentence of their own.
+  /// One of the texts in `choices`; those in `not_yet` are refused with another message.
   std::optional<std::string> choice(std::string_view key, std::span<const std::string> choices,
                                     std::span<const std::string> not_yet = {});
   /// "30 s", "2 min", "500 ms", "1 h" as seconds.
@@ -90,13 +90,14 @@ class TableReader {
   std::optional<TableReader> table(std::string_view key);
   std::vector<TableReader> tables(std::string_view key);
 
-  /// The key, whatever is in it, as asked for.
+  /// Returns the key's value, whatever it is, and counts it as read.
   const Node* take(std::string_view key);
-  /// Keys that were not asked for, now as readers of tables (for tables with names as keys).
+  /// The keys that were not read, as for tables whose keys are names; they count as read from now
+  /// on.
   std::vector<std::pair<std::string, const Node*>> take_all();
 
-  /// Complains about keys that were not asked for. `not_yet` names keys that exist elsewhere and
-  /// that this version lacks.
+  /// Complains about keys that were not read. `not_yet` names keys that exist elsewhere but not in
+  /// this version.
   void finish(std::span<const std::string> not_yet = {});
 
  private:
@@ -111,18 +112,18 @@ class TableReader {
   std::set<std::string, std::less<>> asked_;
 };
 
-/// Whether a word that could be a name is meant as a file: it ends in .toml or has a slash.
+/// Whether a word that could be a name means a file: it ends in .toml or has a slash.
 bool names_a_file(const std::string& word);
 
-/// Whether a name is good for stores, command lines and files: letters, digits, `_`, `-`, `.`.
+/// Whether a name is valid in stores, command lines and files: letters, digits, `_`, `-`, `.`.
 bool is_name(std::string_view name);
 
-/// Complains under `name` and says so when it is none, or when it is in `taken`.
+/// Returns whether the name is valid and not in `taken`, and complains under `name` if not.
 bool check_name(TableReader& reader, const std::string& name,
                 const std::vector<std::string>& taken);
 
-/// Files begin with `format = 1`; one of a later format is refused before its unknown keys confuse
-/// anybody.
+/// Files begin with `format = 1`. A file of a later format is refused before its unknown keys cause
+/// confusing messages.
 void read_format(TableReader& root);
 
 }  // namespace swarmsmith

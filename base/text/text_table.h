@@ -8,26 +8,27 @@
 
 namespace swarmsmith {
 
-/// Columns of a terminal that the text takes: its characters, none of them a wide one.
+/// Number of terminal columns that the text needs: its characters, assuming that none of them is
+/// wide.
 std::size_t width_of(std::string_view text);
 
 enum class Align { Left, Right };
 
-/// The text on this side of `width` columns; a longer one stays as it is.
+/// The text, filled up with blanks to `width` columns; a longer text is not changed.
 std::string padded(std::string_view text, std::size_t width, Align align);
 
-/// Rows of as many texts as the first one has, two blanks between columns.
+/// Rows with the same number of texts, with two blanks between columns.
 struct TextTable {
-  std::vector<Align> aligns;  ///< where a column's texts stand; what is missing is Right
+  std::vector<Align> aligns;  ///< alignment of each column; Right for missing ones
   std::vector<std::vector<std::string>> rows;
-  std::size_t widest = 200;  ///< columns of texts are aligned up to here: one long text would widen
-                             ///< each row
+  std::size_t widest = 200;  ///< texts are aligned only up to this column, so that one long text
+                             ///< does not widen every row
 };
 
-/// A line a row, without blanks at its end. Texts are shown with all but letters escaped
-/// (base/shown_text.h).
+/// One line for each row, without trailing blanks. Control characters are escaped, including line
+/// ends and tabs (base/shown_text.h).
 std::string aligned(TextTable table);
-/// The same to a stream. Each row is freed once it is written.
+/// Writes the same to a stream. Each row is freed after it has been written.
 void write_aligned(std::ostream& out, TextTable table);
 
 }  // namespace swarmsmith

@@ -43,7 +43,7 @@ std::string number_text(double value) {
   const auto end = whole ? std::to_chars(buffer.data(), last, static_cast<std::int64_t>(value)).ptr
                          : std::to_chars(buffer.data(), last, value).ptr;
   std::string text(buffer.data(), end);
-  // TOML wants a point or an exponent in a real; -0 would come back as the integer 0.
+  // A real number in TOML needs a point or an exponent; -0 would be read back as the integer 0.
   return text == "-0" ? "-0.0" : text;
 }
 

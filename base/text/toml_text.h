@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// Values as TOML and the lines of a file, from which normalised texts and lists of what decides an
-/// answer are made: they cannot disagree.
+/// Values as TOML, and the lines of a file. Normalised texts and the lists of deciding values are
+/// both made from them, so that they cannot disagree.
 
 struct SectionLine {
   std::string key;
@@ -17,14 +17,14 @@ struct SectionLine {
 
 struct Section {
   std::string header;  ///< "[campaign]", "[[mission]]", "[mission.arena]"; empty for the top
-  std::string prefix;  ///< of keys in the deciding list: "mission.aggregation.arena."
+  std::string prefix;  ///< of the keys in the deciding list: "mission.aggregation.arena."
   std::vector<SectionLine> lines;
 };
 
 /// The sections as a file, each header with an empty line before it.
 std::string text_of(const std::vector<Section>& sections);
 
-/// In double quotes, with what TOML and JSON both want escaped.
+/// The text in double quotes, with the escapes that TOML and JSON both need.
 std::string quoted_text(std::string_view text);
 
 /// The shortest number that reads back to the same bits: 5, 0.25, 1.5e+20.

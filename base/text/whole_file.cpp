@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// At most one byte more than `most`. Piece by piece: a pipe or a device has no length, and perhaps
-/// no end, and the whole of `most` would cost more than the rest of a short command.
+/// Reads at most one byte more than `most`. It reads piece by piece: a pipe or a device has no
+/// length and perhaps no end, and allocating all of `most` would cost more than the rest of a short
+/// command.
 std::string bytes_of(std::ifstream& stream, std::size_t most) {
   constexpr std::size_t kPiece = 64U << 10U;
   std::string bytes;
@@ -29,7 +30,7 @@ std::string bytes_of(std::ifstream& stream, std::size_t most) {
   return bytes;
 }
 
-/// 0, or the system's number of what failed.
+/// 0, or the system's number of the error.
 int write_bytes(const fs::path& file, std::string_view bytes) {
   errno = 0;
   std::ofstream stream(file, std::ios::binary);

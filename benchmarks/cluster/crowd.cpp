@@ -19,7 +19,7 @@
 namespace swarmsmith::bench {
 namespace {
 
-/// The loop looks after all workers so often, and results wait as long at most.
+/// Time between two rounds over all workers, and the longest delay of a result.
 constexpr std::chrono::milliseconds kRound{2};
 
 class Member {
@@ -37,7 +37,7 @@ class Member {
     carry_out(now);
   }
 
-  /// False when it has left.
+  /// False when the worker has left.
   bool step(TimePoint now) {
     if (left_) return false;
     while (!running_.empty() && running_.top().until <= now)
@@ -153,7 +153,7 @@ void run_crowd(const std::string& endpoint, const WorkerShape& shape,
                const std::optional<ClientKeys>& keys) {
   const SystemClock clock;
   zmq::context_t context(1);
-  // Who connects again has two for a moment.
+  // A worker that connects again has two sockets for a moment.
   context.set(zmq::ctxopt::max_sockets, 2 * shape.workers + 16);
   std::deque<Member> members;
   for (int i = 0; i < shape.workers; ++i) {

@@ -7,10 +7,10 @@
 
 namespace swarmsmith::bench {
 
-/// Many workers in one thread: each has its own connection and the real protocol, but they share
-/// one ZeroMQ context, and their slots are timers instead of threads. So a thousand of them cost
-/// little beside the coordinator that is measured. Sleeping work only; returns when all were sent
-/// home.
+/// Many workers in one thread. Each has its own connection and uses the real protocol, but all
+/// share one ZeroMQ context, and their slots are timers instead of threads. So a thousand of them
+/// cost little compared with the measured coordinator. Only for work that sleeps. Returns after the
+/// coordinator has dismissed all of them.
 void run_crowd(const std::string& endpoint, const WorkerShape& shape,
                const std::optional<ClientKeys>& keys);
 

@@ -6,7 +6,7 @@ namespace swarmsmith::bench {
 namespace {
 
 constexpr std::int64_t kPerCandidate = 100;
-/// A machine's text of the usual length.
+/// The usual length of a machine's text.
 constexpr std::size_t kMachineBytes = 160;
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 namespace swarmsmith::bench {
 
-/// Independent tasks without a barrier, some ten thousand wanted at a time: the rest is the
-/// price of leases, messages and rows. A hundred evaluations a candidate, 100,000 a design; designs
-/// end one after the other.
+/// Independent tasks without a barrier, with some ten thousand requested at a time, so that only
+/// leases, messages and rows cost time. There are a hundred evaluations for each candidate and
+/// 100,000 for each design; designs end one after the other.
 class FlatCampaign final : public WorkSource {
  public:
   static constexpr std::int64_t kPerDesign = 100'000;
@@ -26,7 +26,7 @@ class FlatCampaign final : public WorkSource {
   bool finished() const override { return told_ == total_; }
 
   std::int64_t told() const { return told_; }
-  /// How many designs the store must know.
+  /// Number of designs that the store must know.
   int designs() const { return static_cast<int>((total_ + kPerDesign - 1) / kPerDesign); }
 
  private:

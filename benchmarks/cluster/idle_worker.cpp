@@ -41,8 +41,8 @@ Expected<Evaluator> make_evaluator(const std::string& scenario) {
   const Expected<Work> work = work_of(scenario);
   if (!work) return Unexpected(work.error());
   return Evaluator([work = *work](const LeasedTask& item) -> Result {
-    // Sleeps end on time, and not when it suits the kernel to end several together. The wish is
-    // the thread's; it costs a tenth of a microsecond.
+    // Makes sleeps end on time, not when the kernel finds it convenient to end several together.
+    // The setting is for this thread, and costs a tenth of a microsecond.
     if (work.kind == Work::Kind::Sleep) prctl(PR_SET_TIMERSLACK, 1000UL);
     spend(work, item.seed);
     return Result{.measured = {.score = synthetic_score(item.machine, item.seed),

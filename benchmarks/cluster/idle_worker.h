@@ -10,35 +10,35 @@
 
 namespace swarmsmith::bench {
 
-/// What the workers of a benchmark do in place of a simulation. The text of it is the scenario.
+/// The work of a benchmark's workers instead of a simulation. Its text is the scenario.
 struct Work {
   enum class Kind { Spin, Sleep } kind = Kind::Spin;
   std::int64_t us = 0;  ///< mean time of an evaluation
-  /// Times are even within `us` +- this part of it, by the task's seed.
+  /// Times are uniform within `us` +- this fraction of it; the task's seed selects them.
   double spread = 0;
 };
 std::string to_text(const Work& work);
 Expected<Work> work_of(const std::string& text);
-/// How long the evaluation with that seed takes.
+/// The time that the evaluation with this seed takes.
 Duration time_of(const Work& work, std::int64_t seed);
 
-/// How a benchmark's worker processes look. One worker is the service of swarmsmith-worker, with
-/// its threads; more of them in one process are a crowd (crowd.h).
+/// The form of a benchmark's worker processes. A single worker is the service of swarmsmith-worker,
+/// with its threads; several in one process are a crowd (crowd.h).
 struct WorkerShape {
   int workers = 1;
-  int slots = 1;  ///< of each
+  int slots = 1;  ///< of each worker
 };
 
-/// Makes this program's later children workers of that shape, which connect to `endpoint`, with
-/// keys if there are any. The environment tells them.
+/// Makes later children of this program workers of this shape, which connect to `endpoint`, with
+/// keys if there are any. The settings are passed in the environment.
 void announce(const std::string& endpoint, const WorkerShape& shape,
               const std::optional<ClientKeys>& keys);
-/// Whether this process is such a child. To be asked first of all in main.
+/// Whether this process is such a child. Must be called first in main.
 bool is_worker();
-/// Until the campaign is over. Scores are made of machine and seed.
+/// Works until the campaign is over. Scores follow from machine and seed.
 [[noreturn]] void be_worker();
 
-/// The score of an evaluation: half of it is the machine's own, half the seed's.
+/// The score of an evaluation: one half depends on the machine, the other on the seed.
 double synthetic_score(const std::string& machine, std::int64_t seed);
 
 }  // namespace swarmsmith::bench

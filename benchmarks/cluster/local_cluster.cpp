@@ -90,7 +90,7 @@ Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
   std::optional<Clock::time_point> begin;
   const ServiceHooks hooks{.on_rows =
                                [&](std::optional<std::size_t>, std::span<const Row> rows) {
-                                 // The first connection is a row.
+                                 // The first connection adds a row.
                                  if (!begin && std::ranges::any_of(rows, is_worker_row))
                                    begin = Clock::now();
                                  if (on_rows) on_rows(rows);

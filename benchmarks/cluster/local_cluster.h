@@ -13,27 +13,27 @@
 
 namespace swarmsmith::bench {
 
-/// A real coordinator with a real store in a temporary folder, and worker processes of this host.
+/// A real coordinator with a real store in a temporary folder, and worker processes on this host.
 struct ClusterShape {
   int processes = 1;
   WorkerShape each;
   Work work;
-  bool curve = false;  ///< connections encrypted, keys listed
-  /// Designs that the store knows, from 1; the source's candidates are theirs.
+  bool curve = false;  ///< whether connections are encrypted, with listed keys
+  /// Number of designs in the store, with ids from 1; the source's candidates belong to them.
   int designs = 1;
 };
 
 struct ClusterRun {
   double wall_s = 0;     ///< from the first connection to the last row on disk
-  double connect_s = 0;  ///< from the start to the moment when every worker was there
+  double connect_s = 0;  ///< from the start until all workers were connected
   CpuByThread coordinator;
   double workers_cpu_s = 0;
   double resident_mb = 0;  ///< of the coordinator, at the end
   double store_mb = 0;
 };
 
-/// Runs the source to its end. `on_status`, ten times a second, may be empty; `on_rows` sees each
-/// unit of rows.
+/// Runs the source to its end. `on_status`, which is called ten times a second, may be empty;
+/// `on_rows` gets each unit of rows.
 Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
                                  const std::function<void(const LiveStatus&)>& on_status = {},
                                  const std::function<void(std::span<const Row>)>& on_rows = {});

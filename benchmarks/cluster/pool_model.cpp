@@ -15,7 +15,7 @@
 namespace swarmsmith::bench {
 namespace {
 
-// The worker's protocol: what it holds, and when it reports (worker/protocol.h).
+// The worker's protocol: how much work it holds, and when it reports (worker/protocol.h).
 constexpr double kWorkAheadUs = 20'000;
 constexpr double kFlushAfterUs = 5'000;
 constexpr std::size_t kResultsPerMessage = 64;
@@ -63,7 +63,7 @@ class Model {
   };
   struct Worker {
     std::int64_t slots = 0;
-    std::int64_t leased = 0;  ///< as the coordinator sees it
+    std::int64_t leased = 0;  ///< as the coordinator knows it
     std::int64_t running = 0;
     std::deque<Item> waiting{};
     std::vector<Item> unsent{};
@@ -88,7 +88,8 @@ class Model {
         if (is_due(worker)) flush(event.worker, event.at);
         return;
       case Kind::Flush:
-        // A timer of results that have gone is early for those after them, by 5 ms at most.
+        // If its results have already gone, the timer is too early for the later ones, by 5 ms at
+        // most.
         if (!worker.unsent.empty()) flush(event.worker, event.at);
         return;
       case Kind::Results:
@@ -147,14 +148,14 @@ class Model {
   void take_wanted() {
     for (const Task& task : source_->take_tasks()) {
       const Item item = item_of(task);
-      if (given_ahead_.erase(task.key) > 0) continue;  // it is on its way
+      if (given_ahead_.erase(task.key) > 0) continue;  // it has already been given to a worker
       ahead_.erase(task.key);
       wanted_[design_of(task.key.candidate).value].push_back(item);
       ++queued_;
     }
   }
 
-  /// The queue of the design that has the fewest evaluations to wait for.
+  /// The queue of the design that waits for the fewest evaluations.
   std::deque<Item>& most_urgent() {
     auto best = wanted_.begin();
     for (auto at = wanted_.begin(); at != wanted_.end(); ++at) {
@@ -195,7 +196,7 @@ class Model {
     if (!items.empty()) at(now + shape_.latency_us, Kind::Tasks, number, std::move(items));
   }
 
-  /// For slots that idle, and no more: what waits behind it would be late.
+  /// Gives evaluations ahead only to idle slots: more of them would delay the needed ones.
   void look_ahead(double now) {
     std::int64_t idle = 0;
     for (const Worker& worker : workers_)
@@ -227,9 +228,9 @@ class Model {
   std::vector<Worker> workers_;
   std::size_t turn_ = 0;
   std::map<std::int64_t, std::deque<Item>> wanted_;  ///< by design
-  std::int64_t queued_ = 0;                          ///< in them
+  std::int64_t queued_ = 0;                          ///< total number in the queues
   std::int64_t leased_ = 0;
-  std::map<EvaluationKey, double> ahead_;  ///< asked for ahead, not given to a worker
+  std::map<EvaluationKey, double> ahead_;  ///< requested ahead, and not given to a worker yet
   std::set<EvaluationKey> given_ahead_;
   std::int64_t started_ = 0;
   double free_ = 0;

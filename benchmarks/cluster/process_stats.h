@@ -4,21 +4,21 @@
 
 namespace swarmsmith::bench {
 
-/// CPU of this process's threads so far, by their task, in seconds.
+/// CPU time of this process's threads so far, by their task, in seconds.
 struct CpuByThread {
   double main = 0;
   double io = 0;      ///< ZeroMQ's
-  double writer = 0;  ///< all others: the store's
+  double writer = 0;  ///< all other threads, which belong to the store
   double all() const { return main + io + writer; }
 };
 
-/// Of the threads that live; take it before they end.
+/// Covers the threads that exist; to be called before they end.
 CpuByThread cpu_by_thread();
-/// CPU of children that ended and were waited for, in seconds.
+/// CPU time of the children that have ended and were waited for, in seconds.
 double cpu_of_children();
 /// Resident memory of this process in MB.
 double resident_mb();
-/// As many open files as the system allows; how many that is.
+/// Raises the limit of open files as far as the system allows; returns the limit.
 std::int64_t raise_descriptor_limit();
 
 }  // namespace swarmsmith::bench

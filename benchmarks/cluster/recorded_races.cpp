@@ -22,7 +22,7 @@ Expected<std::vector<RecordedRace>> read_races(const std::filesystem::path& file
   std::ifstream lines(file);
   std::string line;
   std::vector<RecordedRace> races;
-  std::getline(lines, line);  // the head
+  std::getline(lines, line);  // the header line
   while (std::getline(lines, line)) {
     std::istringstream cells(line);
     std::string cell;
@@ -92,7 +92,8 @@ void RecordedRaces::begin_iteration(std::size_t number, const RecordedTest& test
   }
 }
 
-/// On as many pairs as the evaluations need; elites, who live longest, have been on older ones.
+/// The tasks for a test: the evaluations are on as many pairs as they need. Elites, which stay
+/// alive longest, have already been evaluated on older pairs.
 std::vector<Task> RecordedRaces::tasks_of(std::size_t number, std::size_t test,
                                           std::int64_t alive) const {
   constexpr std::size_t kMachineBytes = 160;
@@ -130,7 +131,7 @@ void RecordedRaces::want(std::size_t number, std::size_t test) {
   }
 }
 
-/// What was asked for ahead of candidates that the test drops.
+/// Drops the evaluations that were requested ahead for candidates that the test eliminates.
 void RecordedRaces::drop(Design& design, const RecordedTest& test) {
   for (std::int64_t rank = test.kept; rank < test.alive; ++rank) {
     const DesignId id{&design - designs_.data() + 1};

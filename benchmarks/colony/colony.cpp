@@ -9,10 +9,10 @@
 namespace swarmsmith::colony {
 namespace {
 
-/// Positions of the parameters in the space.
+/// Indexes of the parameters in the space.
 enum Index : std::size_t { kAlgo, kLs, kAlpha, kBeta, kRho, kAnts, kQ0, kRank, kNn, kDlb };
 
-/// Positions of the values of `algo`.
+/// Indexes of values of `algo`.
 constexpr std::size_t kC = 2;
 constexpr std::size_t kD = 3;
 
@@ -23,7 +23,7 @@ double square(double x) {
   return x * x;
 }
 
-/// What tells one instance from another.
+/// The numbers a and b of an instance.
 struct Traits {
   explicit Traits(std::int64_t instance)
       : a(fraction(static_cast<double>(instance) * 0.6180339887498949)),
@@ -55,7 +55,8 @@ class Noise {
   std::uint64_t state_ = 12345;
 };
 
-/// Choices by their position from 1, reals in ten-thousandths, integers plus one; 0 for inactive.
+/// The key of a parameter's value: choices by their position from 1, reals in ten-thousandths,
+/// integers plus one; 0 for inactive.
 std::int64_t key_of(const Configuration& configuration, std::size_t index) {
   if (!configuration.is_active(index)) return 0;
   const double value = configuration[index];

@@ -7,9 +7,9 @@
 
 namespace swarmsmith::colony {
 
-/// A tuning benchmark with a closed formula, shaped like an ant colony algorithm: ten parameters of
-/// all types, two levels of conditions, 50 instances of very different scale, noise that is a hash
-/// of all inputs. R's irace was run on it (benchmarks/data/irace_colony_r.csv).
+/// A tuning benchmark with a closed formula, similar to an ant colony algorithm: ten parameters of
+/// all types, two levels of conditions, 50 instances of very different scale, and noise that is a
+/// hash of all inputs. R's irace was run on it (benchmarks/data/irace_colony_r.csv).
 ///
 /// With a and b the fractional parts of multiples of two irrational numbers (the instance), A the
 /// position of `algo` and L the number of `ls`, the relative loss is
@@ -25,16 +25,17 @@ namespace swarmsmith::colony {
 
 inline constexpr std::int64_t kInstances = 50;
 
-/// The ten parameters, four decimals.
+/// The ten parameters, with four decimals.
 ParameterSpace space();
 
 /// The loss without noise on instance 1, 2, ...
 double loss(const Configuration& configuration, std::int64_t instance);
 
-/// What a target would print: 10^(1 + 2 a) (1 + g) (1 + 0.05 z), z of mean 0 and variance 1.
+/// The cost that a target would print: 10^(1 + 2 a) (1 + g) (1 + 0.05 z), where z has mean 0 and
+/// variance 1.
 double cost(const Configuration& configuration, std::int64_t instance, std::int64_t seed);
 
-/// What a configuration is worth: the mean loss over instances 1 to 1000.
+/// The true cost of a configuration: the mean loss over instances 1 to 1000.
 double true_cost(const Configuration& configuration);
 
 }  // namespace swarmsmith::colony

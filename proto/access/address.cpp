@@ -7,12 +7,12 @@
 namespace swarmsmith {
 namespace {
 
-/// Of those who can reach a socket that listens there.
+/// The address family of the clients that can reach a socket with this wildcard.
 Family family_of(const std::string& wildcard) {
   return wildcard == "0.0.0.0" ? Family::Four : Family::Any;
 }
 
-/// Debian gives a host's own name the number 127.0.1.1 where it has no other.
+/// Debian gives a host's own name the address 127.0.1.1 if it has no other.
 bool is_known_to_others(const std::string& name, Family family) {
   const auto numbers = numbers_of(name, family);
   return numbers && std::ranges::any_of(
@@ -67,7 +67,7 @@ std::vector<std::string> advertised_numbers(const std::string& endpoint,
 std::string local_endpoint(const std::string& endpoint) {
   auto address = address_of(endpoint);
   if (!address || !is_wildcard(address->host)) return endpoint;
-  // A socket of all interfaces takes both families, and not every host has ::1.
+  // A socket on all interfaces accepts both families, and not every host has ::1.
   address->host = "127.0.0.1";
   return tcp_endpoint(*address);
 }

@@ -50,7 +50,7 @@ AllowListOrErrors parse_allow_list(std::string_view text, const std::string& fil
   read_format(root);
   AllowList list;
   std::set<std::string> names;
-  std::map<std::string, std::string> keys;  // to names
+  std::map<std::string, std::string> keys;  // the name for each key
   for (TableReader& table : root.tables("client")) {
     AllowedClient client = read_client(table);
     if (!names.insert(client.name).second && !client.name.empty()) {

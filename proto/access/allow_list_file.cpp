@@ -32,7 +32,7 @@ tl::expected<AllowListFile, std::vector<Error>> AllowListFile::open(
     const std::filesystem::path& file, std::chrono::sys_seconds now) {
   AllowListFile opened;
   opened.file_ = file;
-  // Before it is read: what changes in between is seen the next time.
+  // Taken before reading: a change in between is seen the next time.
   opened.stamp_ = stamp_of(file);
   AllowListOrErrors list = read_allow_list(file);
   if (!list) return tl::unexpected(std::move(list.error()));
@@ -53,7 +53,7 @@ AllowListFile::Look AllowListFile::look(std::chrono::sys_seconds now, bool anywa
       look.faults = std::move(list.error());
     }
   }
-  // Days pass without the file.
+  // Keys expire even if the file does not change.
   std::vector<ListedClient> clients = clients_at(list_, now);
   look.changed = clients != clients_;
   clients_ = std::move(clients);

@@ -10,20 +10,19 @@
 
 namespace swarmsmith {
 
-/// clients.toml while a coordinator runs: looked at again and again, read when it changed. A list
-/// with a mistake is refused, and the last good one stays.
+/// clients.toml while a coordinator runs: checked again and again, and read when it has changed. A
+/// list with an error is refused, and the last good one stays in use.
 class AllowListFile {
  public:
-  /// `now` is wall-clock time, here and below, for the days on which keys expire.
+  /// `now`, here and below, is wall-clock time, which decides on which days keys have expired.
   static tl::expected<AllowListFile, std::vector<Error>> open(const std::filesystem::path& file,
                                                               std::chrono::sys_seconds now);
 
   struct Look {
-    bool changed = false;       ///< `clients` are others than before
-    std::vector<Error> faults;  ///< of a new file that is not taken
+    bool changed = false;       ///< `clients` differ from those before
+    std::vector<Error> faults;  ///< errors in a new list that is refused
   };
-  /// `anyway`: reads it even when time stamp, number and size of the file are those of the last
-  /// time.
+  /// With `anyway`, reads the file even if its time stamp, inode and size have not changed.
   Look look(std::chrono::sys_seconds now, bool anyway = false);
 
   const std::vector<ListedClient>& clients() const { return clients_; }

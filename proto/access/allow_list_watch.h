@@ -13,22 +13,22 @@
 
 namespace swarmsmith {
 
-/// Looks at an AllowListFile once a second, in a thread of its own: folders of keys lie on network
-/// file systems, which may hang, and the coordinator does not wait for them.
+/// Checks an AllowListFile once a second in its own thread: folders with keys may be on network
+/// file systems that hang, and the coordinator must not wait for them.
 class AllowListWatch {
  public:
-  /// Wall-clock time; another one in tests.
+  /// Wall-clock time; tests use another clock.
   using WallClock = std::function<std::chrono::sys_seconds()>;
-  /// Called from the thread with what is wrong with a new list.
+  /// Called from the thread with the errors in a new list.
   using OnFaults = std::function<void(const std::vector<Error>&)>;
 
   AllowListWatch(AllowListFile file, OnFaults on_faults, WallClock clock = system_time,
                  std::chrono::milliseconds pause = std::chrono::seconds(1));
   ~AllowListWatch();
 
-  /// The new clients, when they are others than the last time; does not wait.
+  /// The new clients, if they have changed since the last call; does not wait.
   std::optional<std::vector<ListedClient>> take();
-  /// Reads the file now, changed or not.
+  /// Reads the file now, whether or not it has changed.
   void look_now();
 
   static std::chrono::sys_seconds system_time();
@@ -36,7 +36,7 @@ class AllowListWatch {
  private:
   void work();
 
-  AllowListFile file_;  ///< the thread's
+  AllowListFile file_;  ///< used by the thread only
   OnFaults on_faults_;
   WallClock clock_;
   std::chrono::milliseconds pause_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned kOpenMode = 0644;
 constexpr unsigned kOwnMode = 0600;
-/// Numbers of a host with many interfaces.
+/// Enough addresses for a host with many interfaces.
 constexpr std::size_t kMostOthers = 64;
 
 std::string line(const char* key, const std::string& value) {
@@ -82,7 +82,7 @@ Expected<CoordinatorFile> parse_coordinator_file(std::string_view text, const st
   coordinator.host = root.text("host").value_or("");
   coordinator.started = root.text("started").value_or("");
   coordinator.http = root.text("http").value_or("");
-  // Keys that this version does not know are those of a newer coordinator.
+  // Unknown keys are allowed: they come from a newer coordinator.
   if (!complaints.empty()) return Unexpected(complaints.take().front());
   return coordinator;
 }

@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// `server_key`: the coordinator's as its file has it; empty: not known.
+/// `server_key`: the coordinator's key in its file; empty: not known.
 Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::string& endpoint,
                                     const std::string& server_key) {
   const bool own = !search.key.empty();

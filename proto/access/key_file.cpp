@@ -21,7 +21,7 @@ std::string key_line(const char* name, const std::string& value) {
   return std::string(name) + " = " + quoted_text(value) + "\n";
 }
 
-/// All that key files have.
+/// All fields of both kinds of key files.
 struct Fields {
   std::string name;
   std::string role;
@@ -40,8 +40,8 @@ std::string read_key(TableReader& table, const char* name) {
   return "";
 }
 
-/// The first complaint. The parser's own words about what is not TOML are left out: they may quote
-/// from the line.
+/// Returns the first error. The parser's messages about text that is not TOML are left out, since
+/// they may quote from the line.
 Expected<Fields> parse_fields(std::string_view text, const std::string& file) {
   const auto document = parse_document(text, file);
   if (!document) {
@@ -62,7 +62,7 @@ Expected<Fields> parse_fields(std::string_view text, const std::string& file) {
     fields.name = root.text("name").value_or("");
     fields.server_key = read_key(root, "server");
   }
-  // What stands here in place of a key may be a secret: it is not quoted.
+  // An unknown key's text may be a secret, so it is not quoted.
   if (complaints.empty()) {
     Complaints unknown(file);
     TableReader rest(*document, "", unknown);

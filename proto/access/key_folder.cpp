@@ -79,7 +79,7 @@ Expected<void> make_folder(const std::filesystem::path& folder) {
 KeyFolder default_key_folder() {
   if (const std::string named = variable("SWARMSMITH_KEYS"); !named.empty()) return {named};
   std::filesystem::path base = variable("XDG_CONFIG_HOME");
-  // Relative ones are to be ignored, as its specification says.
+  // Its specification says that relative paths must be ignored.
   if (!base.is_absolute()) base = home() / ".config";
   return {base / "swarmsmith" / "keys"};
 }

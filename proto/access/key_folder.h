@@ -11,7 +11,7 @@
 
 namespace swarmsmith {
 
-/// Where the keys of a coordinator and of its clients lie:
+/// The folder with the keys of a coordinator and of its clients:
 ///
 ///     server.key                             the coordinator's
 ///     worker.key operator.key reader.key     one for each role, and further clients' NAME.key
@@ -27,8 +27,8 @@ struct KeyFolder {
 /// SWARMSMITH_KEYS, else swarmsmith/keys in XDG_CONFIG_HOME, else in ~/.config.
 KeyFolder default_key_folder();
 
-/// Makes the folder (0700) with all of the above (0600), or nothing: Conflict when one of the files
-/// is there. The files, in the order above.
+/// Makes the folder (0700) with all of these files (0600), or nothing: Conflict when one of the
+/// files exists. Returns the files in the order above.
 Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& folder);
 
 struct NewClient {
@@ -36,8 +36,8 @@ struct NewClient {
   Role role = Role::Worker;
   std::optional<std::chrono::year_month_day> expires;
 };
-/// Makes NAME.key and adds the client to the list; nothing is changed when its name is there. The
-/// key's file.
+/// Makes NAME.key and adds the client to the list, or changes nothing if the name exists already.
+/// Returns the key file.
 Expected<std::filesystem::path> add_client(const KeyFolder& folder, const NewClient& client);
 
 }  // namespace swarmsmith

@@ -9,12 +9,12 @@
 
 namespace swarmsmith {
 
-/// Roles that keys have, as files and commands write them.
+/// The roles of keys, as files and commands write them.
 inline const std::array<std::string, 3> kRoleNames = {"worker", "operator", "reader"};
 
-/// Nothing for other words.
+/// Empty for any other name.
 std::optional<Role> role_of(std::string_view name);
-/// "anyone" for a peer without a key.
+/// The role's name; "anyone" for a peer without a key.
 std::string name_of(Role role);
 
 /// Names of clients are also names of files: letters, digits, ".", "_" and "-", at most 64, not

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 1U << 20U;
 
-/// A descriptor that is closed at the end.
+/// A descriptor that the destructor closes.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
@@ -30,7 +30,7 @@ std::string reason() {
   return std::strerror(errno);
 }
 
-/// Why others could use the file, if so.
+/// Why other users could use the file; empty if they cannot.
 std::string objection_to(const struct stat& status, const std::filesystem::path& file,
                          Privacy privacy) {
   if (!S_ISREG(status.st_mode)) return "this is not a file";
@@ -44,7 +44,7 @@ std::string objection_to(const struct stat& status, const std::filesystem::path&
     }
     return "";
   }
-  // A file of root is as good as a file of this user.
+  // A file of root is as safe as a file of this user.
   if (status.st_uid != geteuid() && status.st_uid != 0) {
     return "the file belongs to another user (id " + std::to_string(status.st_uid) +
            "), who could admit anybody; take it over: chown " + std::to_string(geteuid()) + " " +
@@ -56,7 +56,7 @@ std::string objection_to(const struct stat& status, const std::filesystem::path&
   return "";
 }
 
-/// All of it; false with errno when the system refuses.
+/// Writes the whole text; false, with errno set, when the system refuses.
 bool write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
@@ -71,7 +71,7 @@ bool write_all(int descriptor, std::string_view text) {
 
 Expected<std::string> read_private_file(const std::filesystem::path& file, const std::string& what,
                                         Privacy privacy) {
-  // Not to wait for the other end of a pipe.
+  // O_NONBLOCK: do not wait for the other end of a pipe.
   const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (opened.number() < 0) {
     const bool missing = errno == ENOENT || errno == ENOTDIR;

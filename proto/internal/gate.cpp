@@ -15,33 +15,33 @@
 namespace swarmsmith {
 namespace {
 
-/// Where libzmq asks; fixed by the ZAP specification.
+/// Where libzmq sends its questions; fixed by the ZAP specification.
 constexpr const char* kHandler = "inproc://zeromq.zap.01";
 constexpr std::string_view kVersion = "1.0";
 constexpr std::size_t kKeyBytes = 32;
 constexpr std::size_t kKeyCharacters = 40;
 constexpr int kEvents = ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
                         ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_DISCONNECTED;
-/// What libzmq may need to end a handshake that took too long.
+/// Extra time that libzmq may need to end a handshake that took too long.
 constexpr Duration kSlack = std::chrono::milliseconds(500);
-/// So often memory is looked at: a peer of this host can send some ten megabytes meanwhile.
+/// Time between two checks of memory: a peer of this host can send some ten megabytes meanwhile.
 constexpr std::chrono::milliseconds kLookAgain{10};
-/// Connections are weighed when memory has grown by this, and else once in a while: a cluster's are
-/// thousands of questions to the system.
+/// Connections are weighed when memory has grown by this much, and otherwise at longer intervals:
+/// for a cluster this takes thousands of system calls.
 constexpr std::size_t kGrowth = 8U << 20U;
 constexpr Duration kWeighAgain = std::chrono::seconds(1);
-/// So little waits in all when nothing is wrong.
+/// At most this many bytes wait in total when nothing is wrong.
 constexpr std::uint64_t kNextToNothing = 256U << 10U;
-/// Who has less waiting is not cut off for the memory that the process takes.
+/// A connection with fewer bytes waiting is not closed because of the process's memory.
 constexpr std::uint64_t kLittle = 64U << 10U;
 
 constexpr const char* kSilent = "no handshake";
-/// Reasons that end connections which had come in.
+/// Reasons for closing connections that had been admitted.
 constexpr const char* kRevoked = "revoked key";
 constexpr const char* kTooMuch = "too much at once";
 constexpr const char* kTooSlow = "reads too slowly";
 
-/// Parts of a request, in their order.
+/// Parts of a request, in this order.
 enum Part : std::size_t { Version, RequestId, Domain, From, Identity, Mechanism, Credentials };
 constexpr std::size_t kParts = 7;
 
@@ -51,7 +51,7 @@ std::string z85_of(const std::string& bytes) {
   return text.data();
 }
 
-/// What a failed handshake most likely was.
+/// The most likely reason of a failed handshake.
 std::string reason_of_protocol_error(int error) {
   switch (error) {
     case ZMQ_PROTOCOL_ERROR_ZMTP_MECHANISM_MISMATCH:
@@ -63,7 +63,7 @@ std::string reason_of_protocol_error(int error) {
   }
 }
 
-/// A number; empty when the connection is gone.
+/// The numeric address of a peer; empty when the connection is gone.
 std::string address_of(int descriptor) {
   sockaddr_storage peer = {};
   socklen_t size = sizeof peer;
@@ -76,7 +76,7 @@ std::string address_of(int descriptor) {
   return plain_number(text.data());
 }
 
-/// Bytes of memory that this process has.
+/// Bytes of memory that this process uses.
 std::size_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::size_t pages = 0;
@@ -163,9 +163,9 @@ std::string Gate::objection_to(const std::string& public_key) const {
   return at->second.expired ? "expired key" : "";
 }
 
-/// Request and reply as ZAP has them. The user id that goes with each message of the connection is
-/// the client's public key: what it may do is looked up when it speaks, so that a list that changed
-/// meanwhile counts.
+/// Request and reply follow ZAP. The user id in each message of the connection is the client's
+/// public key. Its permissions are looked up with each message, so that changes of the list take
+/// effect.
 void Gate::answer_request() {
   std::vector<std::string> parts;
   zmq::message_t message;
@@ -212,7 +212,7 @@ void Gate::hear_event(TimePoint now) {
 
 void Gate::let_in(int descriptor, TimePoint now) {
   ++accepted_;
-  // Whose end was not heard of.
+  // An earlier connection with this descriptor, whose end was not reported.
   forget(descriptor);
   std::string address = address_of(descriptor);
   const std::string network = network_of(address);
@@ -223,7 +223,7 @@ void Gate::let_in(int descriptor, TimePoint now) {
     refusal = "too many connections of one host";
   } else if (asks_.user) {
     const auto user = user_of_peer(descriptor);
-    // One that has gone says nothing more.
+    // A peer that has already gone (and has no user) sends nothing more.
     if (user && !is_same_user(*user)) {
       refusal = "another user";
       address = "user " + name_of_user(*user);
@@ -269,9 +269,9 @@ void Gate::weigh(TimePoint now) {
   weighed_ = now;
 }
 
-/// What came and was not taken lies in queues of libzmq, which bounds the number of whole messages
-/// there, but neither their bytes nor the parts of one that has no end. A part of two bytes takes
-/// 64 there: so what waits has a budget in bytes, and one in memory.
+/// Data that was received and not taken is in libzmq's queues. libzmq limits the number of whole
+/// messages there, but neither their bytes nor the parts of a message without an end. A part of two
+/// bytes takes 64 bytes there, so there is one limit for the waiting bytes, and one for memory.
 void Gate::weigh_all(std::size_t resident) {
   std::vector<std::pair<std::uint64_t, Open*>> waiting;
   std::unordered_map<std::string, std::uint64_t> of_host;
@@ -281,7 +281,7 @@ void Gate::weigh_all(std::size_t resident) {
     if (!bytes) continue;
     const Taken meter = meter_of(open.connection);
     std::uint64_t taken = meter->load();
-    // What comes with frames is a guess.
+    // The overhead of frames is only estimated.
     if (taken > bytes->received) meter->compare_exchange_strong(taken, bytes->received);
     if (taken >= bytes->received) continue;
     const std::uint64_t held = bytes->received - taken;
@@ -291,10 +291,10 @@ void Gate::weigh_all(std::size_t resident) {
   }
   if (of_all <= kNextToNothing || calm_ == 0) calm_ = resident;
   const bool takes_too_much = resident > calm_ + options_.most_waiting_memory;
-  // Until it has grown as much once more: what is freed may stay with the process.
+  // Growth counts from here again, since the process may keep memory that was freed.
   if (takes_too_much) calm_ = resident;
   const std::uint64_t half = of_all / 2;
-  // Those with most go first.
+  // The connections with the most waiting bytes are closed first.
   std::ranges::sort(waiting, std::greater<>(), &std::pair<std::uint64_t, Open*>::first);
   for (const auto& [held, open] : waiting) {
     std::uint64_t& host = of_host[open->network];
@@ -323,9 +323,10 @@ void Gate::grow_old(TimePoint now) {
   count_silent();
 }
 
-/// libzmq does not say which connection's handshake succeeded, nor that one ended by rubbish. But
-/// each that was accepted has succeeded, has failed, or is young: so at least accepted - succeeded
-/// - young have failed, and those without another reason sent rubbish, or nothing.
+/// libzmq does not report which connection's handshake succeeded, nor that one ended because of
+/// invalid data. But each accepted connection has succeeded, has failed, or is young. So at least
+/// accepted - succeeded - young have failed, and those without another reason sent invalid data, or
+/// nothing.
 void Gate::count_silent() {
   const std::scoped_lock lock(mutex_);
   std::int64_t failed = accepted_ - succeeded_ - young_;

@@ -24,33 +24,36 @@
 
 namespace swarmsmith {
 
-/// Stands at a server's door: answers libzmq's question whether a key may come in (ZAP,
-/// rfc.zeromq.org/spec/27), counts who was kept out, and keeps connections within their limits, in
-/// number and in bytes that wait to be taken, of each, of a host and of all. It has a thread of its
-/// own, so that handshakes do not wait for a step of a race, nor a step for a crowd of strangers.
+/// Controls the access to a server. It answers libzmq's question whether to admit a key (ZAP,
+/// rfc.zeromq.org/spec/27), counts refused peers, and keeps connections within their limits: their
+/// number, and the bytes that wait to be received, for each connection, each host and in total. It
+/// has its own thread, so that handshakes do not wait for a step of a race, nor a step for a crowd
+/// of unknown peers.
 class Gate {
  public:
-  /// Bytes of a connection that were taken: its frames, and about what comes with them.
+  /// Bytes received from a connection: its frames, and their approximate overhead.
   using Taken = std::shared_ptr<std::atomic<std::uint64_t>>;
 
-  /// Who comes in: whose key is listed; who is of the same user of this host; else all.
+  /// What a newcomer must prove: that its key is listed, or that its process belongs to the same
+  /// user of this host. Without either, all are admitted.
   struct Asks {
     bool key = false;
     bool user = false;
   };
 
-  /// Before the server's socket is bound; both must outlive the object.
+  /// To be made before the server's socket is bound; both arguments must outlive the object.
   Gate(zmq::context_t& context, zmq::socket_t& server, Asks asks, const SocketOptions& options);
   ~Gate();
   Gate(const Gate&) = delete;
   Gate& operator=(const Gate&) = delete;
 
   void admit(std::vector<ListedClient> clients);
-  /// Who has this key, unless the time of the key is over.
+  /// The client with this key, unless the key has expired.
   std::optional<ListedClient> find(const std::string& public_key) const;
   void count_refusal(const std::string& reason, const std::string& from);
   Refusals refusals() const;
-  /// Of an open connection, to be counted up by who takes its frames; else null.
+  /// The byte count of an open connection, to be increased by the code that receives its frames;
+  /// null for a closed one.
   Taken meter_of(const Connection& connection);
 
  private:
@@ -58,7 +61,7 @@ class Gate {
     TimePoint since;
     Connection connection;
     std::string network;
-    bool young = true;  ///< its handshake may still go on
+    bool young = true;  ///< its handshake may not have ended yet
     bool cut = false;
   };
 
@@ -80,20 +83,20 @@ class Gate {
 
   zmq::socket_t* server_;
   Wakeup stop_;
-  zmq::socket_t requests_;  ///< the thread's; empty when all clients come in
-  zmq::socket_t monitor_;   ///< the thread's
+  zmq::socket_t requests_;  ///< used by the thread; empty when all clients are admitted
+  zmq::socket_t monitor_;   ///< used by the thread
 
-  // Connections; the thread's. Their descriptors name them.
+  // Connections, used by the thread only, identified by their descriptors.
   Asks asks_;
   SocketOptions options_;
   Duration young_for_;
   std::unordered_map<int, Open> open_;
-  std::unordered_map<std::string, int> open_of_;  ///< how many, by network
+  std::unordered_map<std::string, int> open_of_;  ///< number of connections by network
   TimePoint weighed_;
-  std::size_t resident_ = 0;  ///< bytes of this process when it was weighed
-  std::size_t calm_ = 0;      ///< the same, when next to nothing waited
+  std::size_t resident_ = 0;  ///< memory of this process at the last weighing, bytes
+  std::size_t calm_ = 0;      ///< the same when almost nothing waited
   std::deque<std::pair<TimePoint, int>>
-      handshakes_;  ///< of young ones and of closed ones, oldest first
+      handshakes_;  ///< of young and of closed connections, oldest first
   std::int64_t young_ = 0;
   std::int64_t accepted_ = 0;
   std::int64_t succeeded_ = 0;

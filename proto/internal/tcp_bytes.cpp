@@ -1,6 +1,6 @@
 #include "proto/internal/tcp_bytes.h"
 
-// The C library's own netinet/tcp.h does not have the counters.
+// The C library's netinet/tcp.h does not have the counters.
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

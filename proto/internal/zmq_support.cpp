@@ -56,7 +56,7 @@ bool receive_event(zmq::socket_t& monitor, MonitorEvent& event) {
     std::memcpy(&value, part.data<char>() + sizeof number, sizeof value);
   }
   event = {number, value};
-  // The second part is the address of our own end.
+  // The second part is the address of this end.
   while (part.more())
     (void)monitor.recv(part, zmq::recv_flags::dontwait);
   return true;

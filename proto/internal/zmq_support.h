@@ -10,31 +10,31 @@
 
 namespace swarmsmith {
 
-/// What both ends of a connection do with ZeroMQ.
+/// Functions on ZeroMQ sockets that both ends of a connection use.
 
 inline int milliseconds(std::chrono::milliseconds duration) {
   return static_cast<int>(duration.count());
 }
 
-/// `most`: bytes of a frame that may come in; a longer one ends its connection.
+/// `most` is the largest size of an incoming frame in bytes; a longer one closes its connection.
 void apply(const SocketOptions& options, std::size_t most, zmq::socket_t& socket);
 
-/// Interrupted by a signal is as good as woken.
+/// An interruption by a signal counts as being woken.
 void poll(zmq_pollitem_t* items, std::size_t count, std::chrono::milliseconds timeout);
 
 SendStatus send_on(zmq::socket_t& socket, std::string_view frame, zmq::send_flags flags);
 
-/// What a socket's monitor tells: the event and its number (a descriptor, an error, a status).
+/// An event of a socket's monitor, and its number (a descriptor, an error, a status).
 struct MonitorEvent {
   int event = 0;
   int value = 0;
 };
 
-/// Begins to watch; the events come out of the returned socket, which must be read while it is
-/// watched, since libzmq's I/O thread waits when too many queue up.
+/// Starts to watch a socket. The returned socket delivers the events. It must be read as long as it
+/// exists, since libzmq's I/O thread waits when too many events are queued.
 zmq::socket_t watch(zmq::context_t& context, zmq::socket_t& socket, std::string_view name,
                     int events);
-/// Before the socket that `watch` returned is closed.
+/// To be called before the socket that `watch` returned is closed.
 void stop_watching(zmq::socket_t& socket);
 /// Takes an event if there is one; false if not.
 bool receive_event(zmq::socket_t& monitor, MonitorEvent& event);

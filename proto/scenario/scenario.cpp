@@ -36,8 +36,8 @@ Expected<WorkerMethod> read(const pb::Method& message) {
   return method;
 }
 
-/// Missions and profile as a campaign file has them, every field said: another version may have
-/// other presets.
+/// Missions and profile as in a campaign file, with every field, since another version may have
+/// other defaults.
 std::string simulation_text(const WorkerScenario& scenario) {
   std::vector<Section> sections;
   for (const Mission& mission : scenario.missions) {
@@ -54,7 +54,7 @@ std::string simulation_text(const WorkerScenario& scenario) {
 }
 
 Expected<void> read_simulation(const std::string& text, WorkerScenario& scenario) {
-  constexpr const char* kName = "simulation";  // the field, for complaints
+  constexpr const char* kName = "simulation";  // name of the field in error messages
   const auto document = parse_document(text, kName);
   if (!document) return Unexpected(document.error());
   Complaints complaints(kName);
@@ -136,7 +136,7 @@ Expected<PoolScenario> scenarios_from_bytes(std::string_view bytes) {
   for (int i = 0; i < count; ++i) {
     Expected<WorkerScenario> scenario = read(message.campaigns(i));
     if (!scenario) {
-      // The first one's parts go without its number: mostly there is only one.
+      // The path for the first scenario has no index, since there is usually only one.
       const std::string path = i == 0 ? "" : "campaigns[" + std::to_string(i) + "].";
       return bad_input(scenario.error().message, path + scenario.error().where);
     }

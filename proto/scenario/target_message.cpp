@@ -9,10 +9,11 @@
 namespace swarmsmith {
 namespace {
 
-/// Of one word of a command line: Linux's own limit.
+/// Linux's limit for one word of a command line.
 constexpr std::size_t kLongestText = 128U << 10U;
 constexpr std::int64_t kMostRetries = 1'000'000;
-constexpr std::int64_t kLongestTimeout = std::int64_t{10} * 365 * 86'400;  // s; ten years are none
+constexpr std::int64_t kLongestTimeout =
+    std::int64_t{10} * 365 * 86'400;  // s; ten years, which is as good as no limit
 
 static_assert(static_cast<int>(BatchMode::None) == pb::Target::BATCH_MODE_NONE &&
                   static_cast<int>(BatchMode::Sge) == pb::Target::BATCH_MODE_SGE &&

@@ -13,7 +13,7 @@ namespace swarmsmith {
 void to_message(const Target& target, pb::Target& out);
 void to_message(const InstanceTexts& instances, pb::InstanceTexts& out);
 
-/// Errors, with the field in `where`: paths that are not absolute, numbers out of their limits, a
+/// Errors, with the field in `where`: paths that are not absolute, numbers outside their limits, a
 /// batch system that this program does not know, texts with NUL bytes or longer than a command line
 /// may be.
 Expected<Target> from_message(const pb::Target& message);

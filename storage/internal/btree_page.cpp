@@ -10,7 +10,7 @@ namespace {
 
 using Bytes = PageImage::Bytes;
 
-/// Bytes that are read from the left, until there are no more.
+/// Reads bytes from the left, until there are no more.
 class Cursor {
  public:
   explicit Cursor(Bytes bytes) : bytes_(bytes) {}
@@ -22,7 +22,7 @@ class Cursor {
     at_ += bytes;
     return big_endian(bytes_, at_ - bytes, bytes);
   }
-  /// Seven bits a byte, eight in the ninth.
+  /// A number with seven bits in each byte, and eight in the ninth.
   std::optional<std::uint64_t> varint() {
     std::uint64_t value = 0;
     for (int i = 0; i < 9; ++i) {
@@ -70,7 +70,8 @@ StoredValue value_of(std::uint64_t serial_type, Bytes bytes) {
   return value;
 }
 
-/// The header must lead to the last byte exactly: half of what is not a record fails there.
+/// The values that the header announces must end exactly at the last byte. Half of the payloads
+/// that are not records fail this check.
 std::optional<std::vector<StoredValue>> values_of(Bytes payload) {
   Cursor header(payload);
   const auto header_size = header.varint();
@@ -89,7 +90,7 @@ std::optional<std::vector<StoredValue>> values_of(Bytes payload) {
   return values;
 }
 
-/// A payload with what of it is on overflow pages.
+/// A payload, including the part of it that is on overflow pages.
 std::optional<std::vector<std::uint8_t>> payload_of(const PageImage& image, Bytes cell,
                                                     std::uint64_t size, bool has_rowids,
                                                     std::uint64_t& chained) {
@@ -115,7 +116,7 @@ std::optional<std::vector<std::uint8_t>> payload_of(const PageImage& image, Byte
                    page.begin() + 4 + static_cast<std::ptrdiff_t>(part));
     next = static_cast<std::uint32_t>(big_endian(page, 0, 4));
   }
-  // A chain that goes on is another record's.
+  // A chain with more pages belongs to another record.
   if (next != 0) return {};
   return payload;
 }

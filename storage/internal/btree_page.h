@@ -17,24 +17,26 @@ struct StoredValue {
   std::string bytes;
 };
 
-/// What one cell holds.
+/// The content of one cell.
 struct StoredRecord {
   std::optional<std::int64_t> rowid;  ///< none in the trees of tables WITHOUT ROWID and of indices
   std::vector<StoredValue> values;
 };
 
-/// A page of a b-tree, read without trust: cells without a whole record are left out.
+/// A page of a b-tree from a file that may be damaged: cells without a complete record are left
+/// out.
 /// https://www.sqlite.org/fileformat2.html, sections 1.6 and 2.1
 struct BtreePage {
   bool is_leaf = false;
   bool has_rowids = false;  ///< of a table with rowids
   std::vector<std::uint32_t> children;
   std::vector<StoredRecord> records;
-  std::int64_t broken = 0;  ///< cells without a whole record
+  std::int64_t broken = 0;  ///< number of cells without a complete record
 };
 
-/// None when the page is not one of a b-tree. `chained` is how many bytes of overflow pages may
-/// still be read, and becomes less: in a damaged file every cell may lead to the same long chain.
+/// Empty when the page is not a page of a b-tree. `chained` is how many bytes of overflow pages may
+/// still be read; the function subtracts what it has read. In a damaged file every cell may lead to
+/// the same long chain.
 std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number,
                                          std::uint64_t& chained);
 

@@ -7,14 +7,16 @@
 namespace swarmsmith {
 namespace {
 
-/// So many phrases at most: texts that never repeat would else fill the table, and the memory.
+/// Maximum number of phrases. Texts that never repeat would otherwise fill the table and the
+/// memory.
 constexpr std::size_t kMostPhrases = 50'000;
-/// So many parameters in a phrase, whose choices multiply. Measured on a real design of 100,000
-/// evaluations: with 3 the store has 0.1 MB more, with 6 as much in phrases as it saves in codes.
+/// Maximum number of parameters in a phrase: each one multiplies the number of phrases by its
+/// choices. Measured on a real design of 100,000 evaluations: with 3 the store is 0.1 MB larger;
+/// with 6 the phrases take as much space as the codes save.
 constexpr std::size_t kMostParameters = 4;
 constexpr std::size_t kModulesInPhrase = 2;
 
-/// A member of a flat JSON object, as its own characters.
+/// A member of a flat JSON object, as text.
 struct Member {
   std::string_view name;   ///< without quotes
   std::string_view text;   ///< `"name":value`
@@ -25,7 +27,7 @@ bool is_number(std::string_view value) {
   return !value.empty() && (value.front() == '-' || (value.front() >= '0' && value.front() <= '9'));
 }
 
-/// The end of the string that begins at `at` with its quote, one past the closing quote.
+/// The end of the string whose opening quote is at `at`: one past the closing quote.
 std::optional<std::size_t> end_of_string(std::string_view text, std::size_t at) {
   for (std::size_t i = at + 1; i < text.size(); ++i) {
     if (text[i] == '"') return i + 1;
@@ -34,7 +36,7 @@ std::optional<std::size_t> end_of_string(std::string_view text, std::size_t at) 
   return std::nullopt;
 }
 
-/// The end of a number or a word, which has none of the characters that a code needs.
+/// The end of a number or a word that has no character with a meaning in a code.
 std::optional<std::size_t> end_of_word(std::string_view text, std::size_t at) {
   const auto is_part = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || c == '-' || c == '+' || c == '.' ||
@@ -46,7 +48,7 @@ std::optional<std::size_t> end_of_word(std::string_view text, std::size_t at) {
   return end == at ? std::nullopt : std::optional(end);
 }
 
-/// The members of an object without blanks, arrays or inner objects; none when it is not so.
+/// The members of an object without blanks, arrays or inner objects; empty for any other text.
 std::optional<std::vector<Member>> members_of(std::string_view text) {
   if (text.size() < 2 || text.front() != '{' || text.find('\0') != std::string_view::npos)
     return std::nullopt;
@@ -68,7 +70,7 @@ std::optional<std::vector<Member>> members_of(std::string_view text) {
   return std::nullopt;
 }
 
-/// A machine's text cut before each switch: a blank, a dash, and no digit.
+/// The text of a machine, cut before each switch (a blank, a dash, and no digit).
 std::vector<std::string_view> switches_of(std::string_view machine) {
   std::vector<std::string_view> parts;
   std::size_t begin = 0;
@@ -83,7 +85,8 @@ std::vector<std::string_view> switches_of(std::string_view machine) {
   return parts;
 }
 
-/// Whether each parameter has a switch, which ends with the parameter's number where it has one.
+/// Whether there is a switch for each parameter, which ends with the parameter's number if it has
+/// one.
 bool run_along(const std::vector<Member>& members, const std::vector<std::string_view>& switches) {
   if (members.size() != switches.size()) return false;
   for (std::size_t i = 0; i < members.size(); ++i)
@@ -100,8 +103,8 @@ void join(std::optional<std::string>& text, std::string_view more, char between)
   }
 }
 
-/// All that tells a phrase from others. No text of a row can hold the separator by accident and
-/// make two phrases one: whether a text is there at all is said first.
+/// A text that is different for different phrases. Each part is preceded by its length, or is "-"
+/// if the phrase lacks it, so that no content of the parts can make the keys of two phrases equal.
 std::string key_of(const Phrase& phrase) {
   std::string key;
   for (const auto* text : {&phrase.machine, &phrase.parameters, &phrase.modules})
@@ -123,8 +126,8 @@ bool take(std::string_view& from, std::int64_t& number) {
   return true;
 }
 
-/// Calls `on_piece` with each phrase of {"1":"56","2":"0.5"} and the number after it; false when it
-/// says so, or the code is none.
+/// Calls `on_piece` with each phrase of {"1":"56","2":"0.5"} and the number after it. False when
+/// `on_piece` returns false, or the text is not a code.
 template <class OnPiece>
 bool each_piece(std::string_view code, OnPiece on_piece) {
   if (!take(code, "{")) return false;
@@ -173,7 +176,7 @@ void PhraseBook::load(const sqlite::Connection& connection) {
 }
 
 void PhraseBook::add(std::int64_t number, Phrase phrase) {
-  // A phrase that a number ends says which parameter is open: nothing else need be stored of it.
+  // A phrase before a number ends with the parameter's name, so `open_` need not be stored.
   if (phrase.parameters && phrase.parameters->ends_with("\":")) {
     const std::string before = phrase.parameters->substr(0, phrase.parameters->size() - 2);
     open_.emplace(before.substr(before.rfind('"') + 1));
@@ -188,7 +191,7 @@ std::optional<std::vector<PhraseBook::Piece>> PhraseBook::cut_parameters(
   const auto members = members_of(parameters);
   if (!members) return std::nullopt;
   const auto switches = switches_of(machine);
-  // SQLite's operators end a text at a zero byte.
+  // SQLite's operators treat a zero byte as the end of a text.
   const bool with_machine =
       run_along(*members, switches) && machine.find('\0') == std::string::npos;
   std::vector<Piece> pieces(1);

@@ -14,8 +14,8 @@
 
 namespace swarmsmith {
 
-/// How the texts of candidates are stored. The candidates of a campaign say nearly the same, and
-/// a text is cut into phrases, each told once in the table `phrase`:
+/// How the texts of candidates are stored. The texts of a campaign's candidates are very similar,
+/// so a text is cut into phrases, and each phrase is stored once in the table `phrase`:
 ///
 ///   parameters  {"S0":"exploration","RWM0":56,"NumConnections0":1,"N0x0":0,"P0x0":0.5}
 ///   machine     --s0 0 --rwm0 56 --n0 1 --n0x0 0 --p0x0 0.5
@@ -23,12 +23,12 @@ namespace swarmsmith {
 ///               2: "NumConnections0":1,"N0x0":0,"P0x0":        --n0 1 --n0x0 0 --p0x0
 ///   code        {"1":"56","2":"0.5"}
 ///
-/// A code is phrases in order, each with the number that ends it in both texts (nothing after
-/// choices alone). Parameters are the phrases joined by commas and set in braces, the machine is
-/// the phrases joined by blanks; the views do the same in SQL. `modules` has a code of its own, an
-/// array of phrases.
+/// A code is a list of phrases in order, each with the number that follows it in both texts (no
+/// number after a phrase of choices alone). The parameters are the phrases joined by commas and put
+/// in braces; the machine is the phrases joined by blanks. The views do the same in SQL. `modules`
+/// has its own code, an array of phrases.
 
-/// The part of a text that candidates share; what belongs to another text is none.
+/// A part of a text that candidates share; a field is empty if the phrase is not part of that text.
 struct Phrase {
   std::optional<std::string> machine;
   std::optional<std::string> parameters;
@@ -37,37 +37,40 @@ struct Phrase {
   friend bool operator==(const Phrase&, const Phrase&) = default;
 };
 
-/// The texts of a candidate as they stand in its row. Without a code, a text is what it says; with
-/// one, an empty text is to be made from the code.
+/// The texts of a candidate as they are in its row. Without a code, a text is stored as it is; with
+/// a code, an empty text has to be made from the code.
 struct StoredTexts {
   std::string machine;
   std::string parameters;
   std::string modules;
-  std::optional<std::string> code;         ///< of parameters, and of the machine if that is empty
+  std::optional<std::string> code;  ///< of the parameters, and of the machine if that is empty
   std::optional<std::string> module_code;  ///< of modules
 };
 
-/// The phrases of a store. A dictionary that grows with the rows; no text is ever refused, since
-/// what cannot be told in phrases is stored as it is. One thread at a time.
+/// The phrases of a store, a dictionary that grows with the rows. Every text can be stored: a text
+/// that cannot be cut into phrases is stored as it is. Not thread-safe.
 class PhraseBook {
  public:
   using OnNew = std::function<void(std::int64_t number, const Phrase& phrase)>;
 
-  /// Every phrase of the table. Throws SqliteError.
+  /// Reads every phrase of the table. Throws SqliteError.
   void load(const sqlite::Connection& connection);
   void clear();
 
-  /// How the row is to be stored; calls `on_new` for each phrase that the table does not have yet.
+  /// The form in which the row is stored. Calls `on_new` for each phrase that the table does not
+  /// have yet.
   StoredTexts encode(const CandidateRow& row, const OnNew& on_new);
 
-  /// Fills in the three texts of `row`. False when a code does not fit the phrases, or makes more
-  /// than is allowed, of one text or of all: the store is damaged, or was made to fill memory.
+  /// Fills in the three texts of `row`. False when a code does not fit the phrases, or when it
+  /// would make a text, or all texts together, longer than allowed: the store is damaged, or was
+  /// made to fill memory.
   bool decode(const StoredTexts& stored, CandidateRow& row);
 
  private:
-  /// Of a text that a code makes. Ours have a few kB.
+  /// For one text that a code makes. Texts of real candidates have a few kB.
   static constexpr std::size_t kMostTextBytes = 8 << 20;
-  /// All texts of a store, beside its file: real ones make twice its bytes.
+  /// For all texts of a store, as a multiple of its file size: those of real candidates have twice
+  /// the size of the file.
   static constexpr std::int64_t kMostTimesFile = 64;
   static constexpr std::int64_t kAlwaysAllowed = 64 << 20;
 
@@ -84,11 +87,11 @@ class PhraseBook {
   void encode_modules(const OnNew& on_new, StoredTexts& stored);
 
   std::unordered_map<std::int64_t, Phrase> phrases_;
-  std::unordered_map<std::string, std::int64_t> numbers_;  ///< by all texts of the phrase
+  std::unordered_map<std::string, std::int64_t> numbers_;  ///< the key is all texts of the phrase
   std::int64_t last_ = 0;
-  /// Bytes that codes may still make.
+  /// How many bytes codes may still make.
   std::int64_t left_ = kAlwaysAllowed;
-  /// Parameters whose numbers end a phrase, since they have too many values to be part of one.
+  /// Parameters whose numbers follow a phrase, since they have too many values to be part of one.
   std::unordered_set<std::string> open_;
 };
 

@@ -20,13 +20,13 @@ std::string text_of(const struct statx& file, const struct timespec& changed) {
                      changed.tv_sec, changed.tv_nsec);
 }
 
-/// SQLite's own descriptor is asked (decision 18).
+/// Uses SQLite's own descriptor (decision 18).
 bool look_at(const sqlite::Connection& connection, struct statx& file) {
   return connection.descriptor() >= 0 && ::statx(connection.descriptor(), "", AT_EMPTY_PATH,
                                                  STATX_BASIC_STATS | STATX_BTIME, &file) == 0;
 }
 
-/// What the file will say of itself; false when it cannot be written.
+/// Stores the file's identity in the file; false when it cannot be written.
 bool remember(sqlite::Connection& connection, const struct timespec& now) {
   struct statx file {};
   if (!look_at(connection, file)) return false;
@@ -47,7 +47,7 @@ void close_file(sqlite::Connection& connection) {
   const int folded = sqlite3_wal_checkpoint_v2(connection.handle(), nullptr,
                                                SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
   if (!known || folded != SQLITE_OK) return;
-  // The time that the file says was chosen before it was written: a later writer changes it.
+  // The stored time was chosen before the file was written; a later writer changes the file's time.
   struct timespec times[2] = {{.tv_sec = 0, .tv_nsec = UTIME_OMIT}, now};
   (void)::futimens(connection.descriptor(), times);
 }

@@ -4,15 +4,16 @@
 
 namespace swarmsmith {
 
-/// How a store recognises its own file. What its last writer closed it remembers by inode, birth
-/// and time of change; a copy, a file that another program has written since, and one whose writer
-/// was killed, are others, and are checked as a whole before they are written on.
+/// How a store recognises its own file. When the last writer closes the file, it stores the file's
+/// inode, birth time and modification time in it. A copy, a file that another program has changed
+/// since then, and a file whose writer was killed do not match, and are checked completely before
+/// they are written again.
 
-/// Folds the log into the file and remembers the file, as the last thing that is done with it.
-/// Where that fails, the next writer checks. Before, all is on disk already.
+/// Moves the log into the file and stores the file's identity, as the last step of a writer. If
+/// that fails, the next writer checks the file. All rows are on disk before the call.
 void close_file(sqlite::Connection& connection);
 
-/// Whether the file is the one that was closed, as it was closed, without a log beside it. Throws
+/// Whether the file is unchanged since its writer closed it, without a log beside it. Throws
 /// SqliteError.
 bool is_as_closed(const sqlite::Connection& connection);
 

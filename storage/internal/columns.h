@@ -11,14 +11,15 @@
 
 namespace swarmsmith {
 
-/// The columns of the tables of the answer, one list a table: rows are written, read, summed and
-/// checked by these. tests/storage/columns_test.cpp compares them with the tables of each schema.
+/// The columns of the tables of the answer, one list for each table, which the code that writes,
+/// reads, sums and checks rows uses. tests/storage/columns_test.cpp compares them with the tables
+/// of each schema.
 
 struct StoredColumn {
   std::string_view name;
-  std::int64_t since = 1;  ///< the schema that brought it: NULL in stores of earlier ones
-  /// Of an evaluation: what was scored, with which result (`row_check`); not the numbers that
-  /// merging changes.
+  std::int64_t since = 1;  ///< the schema that added it: NULL in stores of earlier ones
+  /// Part of an evaluation's `row_check`, which covers the experiment and its result, but not the
+  /// numbers that merging changes.
   bool is_checked = false;
 };
 
@@ -29,14 +30,14 @@ struct TableColumns {
 
   static constexpr std::size_t size() { return N; }
 
-  /// The place of a column among these; a name that is not there does not compile.
+  /// The index of a column in the list; an unknown name does not compile.
   consteval int at(std::string_view name) const {
     for (std::size_t i = 0; i < N; ++i)
       if (columns[i].name == name) return static_cast<int>(i);
     throw "no such column";
   }
 
-  /// "candidate, purpose, NULL": for a SELECT from a store of the schema.
+  /// "candidate, purpose, NULL": for a SELECT from a store of the given schema.
   std::string names(std::int64_t schema = kSchemaVersion) const {
     std::string text;
     for (const StoredColumn& column : columns) {
@@ -77,7 +78,7 @@ inline constexpr TableColumns kPairColumns{
     "pair",
     std::to_array<StoredColumn>({{"design"}, {"purpose"}, {"number"}, {"instance"}, {"seed"}})};
 
-/// Without `iteration`, which comes and goes, and `row_check`.
+/// Without `iteration`, which may change later, and `row_check`.
 inline constexpr TableColumns kEvaluationColumns{
     "evaluation", std::to_array<StoredColumn>({{.name = "candidate", .is_checked = true},
                                                {.name = "purpose", .is_checked = true},
@@ -135,7 +136,7 @@ inline constexpr TableColumns kTotalsColumns{
     "candidate_totals",
     std::to_array<StoredColumn>({{"candidate"}, {"runs"}, {"score_sum"}, {"score_squares"}})};
 
-/// What a design's search says of it; its other columns are written once.
+/// The columns that the design's search updates; the others are written once.
 inline constexpr TableColumns kDesignStateColumns{
     "design",
     std::to_array<StoredColumn>(

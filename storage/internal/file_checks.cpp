@@ -42,9 +42,9 @@ Unexpected truncated(const std::filesystem::path& path, std::uint64_t has, std::
 
 constexpr std::uint32_t kFuse = 0x65735546;
 
-/// Programs behind FUSE that show a disk or a folder of this host: "fuse.bindfs".
+/// FUSE programs that show a disk or a folder of this host: "fuse.bindfs".
 bool is_local_program(std::string_view type) {
-  // Not those that join several folders (mergerfs, unionfs): their parts can be anywhere.
+  // Not programs that join several folders (mergerfs, unionfs): the folders can be anywhere.
   constexpr std::array<std::string_view, 18> kLocal{
       "apfs",  "bindfs",    "cryfs",          "encfs",    "exfat",     "exfat-fuse",
       "ext2",  "fuse-ext2", "fuse-overlayfs", "fuse2fs",  "fuseext2",  "gocryptfs",
@@ -54,7 +54,8 @@ bool is_local_program(std::string_view type) {
          std::find(kLocal.begin(), kLocal.end(), type.substr(kPrefix.size())) != kLocal.end();
 }
 
-/// By its number, since the device of a file is not that of the mount everywhere.
+/// The mount of a file, found by its number, since the device of a file may differ from that of its
+/// mount.
 std::optional<Mount> mount_of(const std::filesystem::path& path) {
   struct statx about {};
   if (::statx(AT_FDCWD, path.c_str(), 0, STATX_MNT_ID, &about) != 0) return std::nullopt;
@@ -87,8 +88,8 @@ Expected<void> check_database_file(const sqlite::Connection& connection,
   }
   if (header.size() < kHeaderBytes) return truncated(path, size, kHeaderBytes);
   if (has_pending_log(connection.file())) return {};
-  // https://www.sqlite.org/fileformat2.html#the_database_header: 1 stands for 65536, and the page
-  // count holds when both change counters agree.
+  // https://www.sqlite.org/fileformat2.html#the_database_header: 1 means 65536, and the page count
+  // is valid when both change counters agree.
   const std::uint64_t page = number_at(header, 16, 2) == 1 ? 65536 : number_at(header, 16, 2);
   const std::uint64_t pages = number_at(header, 28, 4);
   const bool count_holds = number_at(header, 24, 4) == number_at(header, 92, 4);
@@ -124,8 +125,8 @@ std::string kind_of_shared(long type, std::string_view name) {
 
 std::string shared_file_system(const std::filesystem::path& path) {
   std::filesystem::path place = path;
-  std::string shown;  // by what, when it is another folder's
-  // A folder that is mounted over itself cannot be looked behind.
+  std::string shown;  // by which program, if the file system is another folder's
+  // If a folder is mounted over itself, the folder below cannot be examined.
   constexpr int kMostLayers = 8;
   for (int layer = 0; layer < kMostLayers; ++layer) {
     struct statfs about {};
@@ -137,7 +138,7 @@ std::string shared_file_system(const std::filesystem::path& path) {
                               mount->source.starts_with('/') &&
                               std::filesystem::path(mount->source) != mount->point &&
                               std::filesystem::is_directory(mount->source, none);
-    // bindfs says what it shows, and not its name.
+    // bindfs tells the folder that it shows, but not its own name.
     const bool says_no_more = shows_folder && type == "fuse";
     const std::string kind = says_no_more ? "" : kind_of_shared(about.f_type, type);
     if (!kind.empty()) return kind + shown;

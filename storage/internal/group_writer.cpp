@@ -13,14 +13,14 @@
 namespace swarmsmith {
 namespace {
 
-/// So many batches are committed without waiting for more.
+/// A group of this many batches is committed without waiting for more.
 constexpr std::size_t kLargeGroup = 1024;
 
-/// Without work, the file is looked at this often: whether it is still the store's.
+/// How often the writer checks, while it has no work, whether the file is still the store's.
 constexpr std::chrono::seconds kLookAtFile{1};
 
-/// A constraint or a type: the same rows would fail again and for ever, since they do not fit those
-/// that are there. All else is the disk's trouble, and passes.
+/// Errors of constraints and types: the same rows would fail every time, since they conflict with
+/// existing rows. All other errors come from the disk and may pass.
 bool is_for_ever(const sqlite::SqliteError& error) {
   const int code = error.primary_code();
   return code == SQLITE_CONSTRAINT || code == SQLITE_MISMATCH || code == SQLITE_ERROR;
@@ -166,7 +166,7 @@ void GroupWriter::lose(const std::string& fate, std::uint64_t ticket) {
   const Lost lost = save_lost(writer_, fate);
   {
     const std::lock_guard guard(mutex_);
-    // What is in no file any more was never stored.
+    // Rows that are in no file any more count as never stored.
     if (lost.saved) committed_ = ticket;
     lost_ = lost.error;
     committed_changed_.notify_all();
@@ -193,7 +193,7 @@ std::string GroupWriter::changes_of_others() {
   const std::int64_t version = data_version_.integer(0);
   data_version_.reset();
   if (version == writer_.data_version) return {};
-  // Another client may only have folded the log in.
+  // Another client may only have moved the log into the file.
   constexpr const char* kChanged = "was changed by another program while the campaign ran";
   const auto objects = foreign_objects(writer_.connection, schema_of(writer_.connection));
   if (!objects.empty())
@@ -210,7 +210,8 @@ void GroupWriter::look_for_changes() {
   const std::lock_guard guard(connection_mutex_);
   try {
     changed_ = changes_of_others();
-  } catch (const sqlite::SqliteError&) {  // busy for a moment: looked at again
+  } catch (
+      const sqlite::SqliteError&) {  // the store is busy for a moment: the next call tries again
     data_version_.reset();
   }
 }

@@ -16,9 +16,9 @@
 
 namespace swarmsmith {
 
-/// The store behind Store::open: a queue of batches, and a thread that commits whatever has queued
-/// up as one transaction. The busier it is, the larger its groups, so that the price of an fsync is
-/// shared by more rows.
+/// The Store that Store::open returns: a queue of batches, and a thread that commits everything in
+/// the queue as one transaction. The busier it is, the larger its transactions, so that more rows
+/// share the cost of an fsync.
 class GroupWriter final : public Store {
  public:
   GroupWriter(Writer writer, const StoreOptions& options);
@@ -44,30 +44,33 @@ class GroupWriter final : public Store {
   };
 
   void run(const std::stop_token& stop);
-  /// Fills an empty `group` from the queue, waiting for work for a while; false when there will be
-  /// none.
+  /// Fills an empty `group` from the queue; waits some time for batches. False when there will be
+  /// no more.
   bool take_group(const std::stop_token& stop, std::vector<Batch>& group);
-  /// Why the group could not be committed; empty when it is on disk. Nothing is written when others
-  /// have changed the store, see `changed_`.
+  /// The reason why the group could not be committed; empty when it is on disk. Writes nothing when
+  /// other programs have changed the store, see `changed_`.
   std::string commit(const std::vector<Batch>& group);
-  /// What another connection has changed of what the campaign relies on, since the last look.
+  /// The changes that another connection has made, since the last call, to rows that the campaign
+  /// relies on.
   std::string changes_of_others();
-  /// The same, while there is nothing to be written.
+  /// Calls changes_of_others while there is nothing to write.
   void look_for_changes();
-  /// The file is not the store's any more; batches up to `ticket` are in it.
+  /// The store has lost its file; batches up to `ticket` are in it.
   void lose(const std::string& fate, std::uint64_t ticket);
-  /// Others have changed it: it stays where it is, and is written no more.
+  /// Other programs have changed the store: the file stays where it is, and is not written any
+  /// more.
   void leave(std::uint64_t ticket);
   void tell(const WriterNews& news);
 
-  std::mutex connection_mutex_;  ///< the writer's thread, and callers that read
+  std::mutex connection_mutex_;  ///< held by the writer's thread, and by callers that read
   Writer writer_;
   RowWriter rows_;
   std::chrono::milliseconds retry_;
   std::chrono::milliseconds gather_;
-  std::chrono::steady_clock::time_point next_commit_{};  ///< of the writer's thread
+  std::chrono::steady_clock::time_point next_commit_{};  ///< used by the writer's thread only
   sqlite::Statement data_version_;
-  std::string changed_;  ///< why the store is written no more; of the writer's thread
+  std::string
+      changed_;  ///< why the store is not written any more; used by the writer's thread only
 
   std::mutex mutex_;  ///< guards the next seven
   std::condition_variable_any work_;
@@ -76,7 +79,7 @@ class GroupWriter final : public Store {
   std::uint64_t last_ticket_ = 0;
   std::uint64_t committed_ = 0;
   std::uint64_t awaited_ = 0;  ///< a thread waits in flush() for this ticket
-  std::optional<Error> lost_;  ///< the file; nothing is written any more
+  std::optional<Error> lost_;  ///< set when the file is lost; nothing is written any more
 
   std::mutex listener_mutex_;
   std::function<void(const WriterNews&)> listener_;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array kBeside{"-wal", "-shm"};
 
-/// Who has an flock on the file, as the kernel lists them.
+/// The process that has an flock on the file, from the kernel's list.
 std::string holder_of(const struct stat& file) {
   const std::string place =
       fmt::format("{:02x}:{:02x}:{}", major(file.st_dev), minor(file.st_dev), file.st_ino);
@@ -40,7 +40,7 @@ bool is_on_shared_file_system(int descriptor) {
   return !shared_file_system(fmt::format("/proc/self/fd/{}", descriptor)).empty();
 }
 
-/// "s.db.saved", "s.db.saved-2", ...: the first that nothing has.
+/// The first of the names "s.db.saved", "s.db.saved-2", ... that no file has.
 fs::path free_name(const fs::path& folder, const fs::path& store) {
   const fs::path wanted = folder / (store.filename().string() + ".saved");
   fs::path name = wanted;
@@ -61,7 +61,8 @@ Expected<void> copy_into(sqlite::Connection& connection, const fs::path& name) {
   return copy->publish();
 }
 
-/// In the first of these folders that takes it: the store's own may be gone, or full.
+/// Copies into the first of these folders where that works: the store's own folder may be gone, or
+/// full.
 Expected<fs::path> copy_beside(sqlite::Connection& connection, const fs::path& path) {
   std::error_code ignored;
   Expected<void> copied;

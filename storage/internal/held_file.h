@@ -11,16 +11,16 @@
 
 namespace swarmsmith {
 
-/// The file that a writer's connection has open, by what it is and not by what it is called: the
-/// right to write it, and whether it is still where it was. The right is an flock on the descriptor
-/// with which SQLite has the file open. It goes with the file under all its names, and no other
-/// lock has to do with it (decision 18). Not taken on file systems shared between hosts, where an
-/// flock would stand in SQLite's own way.
+/// The file that a writer's connection has open, identified by the file itself and not by its name:
+/// the right to write it, and whether it still has its name. The right is an flock on the
+/// descriptor with which SQLite has the file open. It applies to the file under all its names, and
+/// does not interfere with any other lock (decision 18). It is not taken on file systems shared
+/// between hosts, where an flock would conflict with SQLite's own locks.
 class HeldFile {
  public:
-  /// Of a fresh connection, which must outlive this. Conflict when another process
-  /// has the right (pid and host), or the file has lost its name meanwhile; BadInput when it has a
-  /// second name, which would have another log.
+  /// `connection` must be fresh, and must outlive the result. Conflict when another process has the
+  /// right (its pid and host), or when the file has lost its name meanwhile; BadInput when the file
+  /// has a second name, since that would have another log.
   static Expected<HeldFile> hold(const sqlite::Connection& connection,
                                  const std::filesystem::path& path);
 
@@ -30,15 +30,17 @@ class HeldFile {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Whether file, log and shared memory are still what has their names; what happened, as the
-  /// beginning of a sentence, when not ("the store was deleted"). The first time, log and shared
-  /// memory are taken for SQLite's: right after it has opened them.
+  /// Empty while the names of file, log and shared memory still lead to the same files; otherwise
+  /// what happened, as the beginning of a sentence ("the store was deleted"). The first call must
+  /// come right after SQLite has opened the log and shared memory, since it assumes that they are
+  /// SQLite's.
   std::string fate();
 
-  /// After fate() has spoken: all that was committed, in a new file beside the old name, or where
-  /// there is room, for the next writer to go on from. Takes the log away where it still has its
-  /// name, so that whatever file gets the store's name is not read with it. The sentence that says
-  /// so, or why nothing could be saved.
+  /// Call it after fate() has reported something. Saves everything that was committed in a new file
+  /// beside the old name, or in another folder if there is no room, from which the next writer can
+  /// continue. Removes the log if it still has its name, so that it is not read with another file
+  /// that gets the store's name. Returns a sentence that says where the rows are, or the reason why
+  /// nothing could be saved.
   Expected<std::string> save(sqlite::Connection& connection) const;
 
  private:
@@ -51,19 +53,19 @@ class HeldFile {
   HeldFile(int descriptor, std::filesystem::path path)
       : descriptor_(descriptor), path_(std::move(path)) {}
 
-  /// None when nothing has the name; `known` when the system does not say.
+  /// Empty when no file has the name; `known` when the system cannot tell.
   static std::optional<Identity> identity_of(const std::filesystem::path& path,
                                              std::optional<Identity> known);
   std::string fate_of_store() const;
 
   int descriptor_;  ///< SQLite's
   std::filesystem::path path_;
-  /// Of log and shared memory, once they were there.
+  /// Of log and shared memory, once they exist.
   std::array<std::optional<Identity>, 2> beside_{};
 };
 
-/// BadInput when the file has more than one name: each would have a log of its own, and what is in
-/// the other's would not be seen.
+/// BadInput when the file has more than one name: each name would have its own log, and rows in the
+/// other name's log would not be seen.
 Expected<void> check_only_name(const sqlite::Connection& connection,
                                const std::filesystem::path& path);
 

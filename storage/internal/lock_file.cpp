@@ -50,8 +50,8 @@ std::string in_use_text(const std::string& holder) {
 
 namespace {
 
-/// Who may read the store may know who writes it. Others cannot even open its lock: who can
-/// may hold it.
+/// Users who may read the store may know who is writing it. Other users must not be able to open
+/// the lock file, since anyone who can open it can hold the lock.
 mode_t mode_of(const std::filesystem::path& store) {
   struct stat facts {};
   return ::stat(store.c_str(), &facts) == 0 ? facts.st_mode & 0666U : 0600U;
@@ -96,7 +96,8 @@ Expected<LockFile> LockFile::acquire(const std::filesystem::path& store,
     }
     const bool left_behind = !read_holder(descriptor).empty();
     const std::string holder = holder_text(std::to_string(::getpid())) + "\n";
-    // For people only: a disk so full that this fails must not stop us here.
+    // The text is only for users: if the disk is so full that this fails, the store can still be
+    // opened.
     if (::ftruncate(descriptor, 0) != 0 ||
         ::pwrite(descriptor, holder.data(), holder.size(), 0) < 0) {
       return LockFile(path, descriptor, true);

@@ -8,19 +8,20 @@
 
 namespace swarmsmith {
 
-/// "pid=... host=...", of a process of this host.
+/// "pid=... host=...", for a process of this host.
 std::string holder_text(const std::string& pid);
-/// That another process writes a store: for people.
+/// A message that another process is writing the store.
 std::string in_use_text(const std::string& holder);
 
-/// The right to be the next to write the store of a name: an flock on the file `<store>.lock`,
-/// which holds "pid=... host=..." for people. The right to write the file itself is HeldFile's;
-/// this one is there before the file is, and tells how the last writer ended. The kernel gives the
-/// lock back when the process dies, so that a file left behind is not an obstacle; it only says
-/// that the last writer did not end well. Removed at the end, unless the store is suspect.
+/// The right to be the next writer of the store with this name: an flock on the file
+/// `<store>.lock`, which contains "pid=... host=..." for users. HeldFile has the right to write the
+/// file itself; this lock can be taken before the file exists, and shows how the last writer ended.
+/// The kernel releases the flock when the process dies, so a lock file that is left behind does not
+/// block anyone; it only shows that the last writer did not end cleanly. The file is removed at the
+/// end, unless the store is suspect.
 class LockFile {
  public:
-  /// Conflict when another process (or another store of this one) holds it for as long as that,
+  /// Conflict when another process (or another store of this one) still holds it after `patience`,
   /// with its pid and host; BadInput when the file cannot be made.
   static Expected<LockFile> acquire(const std::filesystem::path& store,
                                     std::chrono::milliseconds patience);
@@ -29,10 +30,11 @@ class LockFile {
   LockFile& operator=(LockFile&&) = delete;
   ~LockFile();
 
-  /// The last holder died without giving the lock back.
+  /// The last holder died without releasing the lock.
   bool left_behind() const { return left_behind_; }
 
-  /// While suspect, the file stays at the end, so that the next program looks at the store, too.
+  /// While suspect, the lock file is kept at the end, so that the next program checks the store,
+  /// too.
   void set_suspect(bool suspect) { suspect_ = suspect; }
 
  private:

@@ -18,14 +18,14 @@ bool is_digit(std::string_view text, std::size_t at) {
   return at < text.size() && text[at] >= '0' && text[at] <= '9';
 }
 
-/// As SQL's 0 + text: what it begins with.
+/// The number at the beginning of the text, like 0 + text in SQL.
 std::int64_t number_at(std::string_view text) {
   std::int64_t number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
   return number;
 }
 
-/// A word of the text, "n0x1 2": what it is of, its own number there, and its value.
+/// A word of the text such as "n0x1 2": its owner (the number after the letter), and its value.
 struct Word {
   std::string_view text;
 
@@ -78,7 +78,7 @@ std::set<std::int64_t> reached_of(std::string_view text) {
   return reached;
 }
 
-/// 's' or 'c' of a word that names a module, else 0.
+/// 's' or 'c' for a word that names a module, else 0.
 char kind_of(const Word& word) {
   if (word.begins('s')) return 's';
   if (word.begins('c') && (word.is_of_transition() || word.is_of_subtree())) return 'c';

@@ -14,10 +14,10 @@ namespace {
 using sqlite::Connection;
 using sqlite::Statement;
 
-/// What of a run is lost.
+/// The lost parts of a run.
 struct Loss {
   std::vector<std::string> what;
-  bool of_score = false;  ///< the score does not follow from what is there
+  bool of_score = false;  ///< the score does not follow from the remaining parts
 };
 
 std::int64_t remove_orphans(Connection& connection) {
@@ -34,7 +34,7 @@ std::int64_t remove_orphans(Connection& connection) {
   return removed;
 }
 
-/// Counts what is there, and tells of what is not.
+/// Finds the runs that lack parts, and corrects the numbers of their parts.
 void find_lost_parts(Connection& connection, std::map<std::int64_t, Loss>& losses) {
   for (const RealRunPart& part : kRealRunParts) {
     const std::string count =

@@ -6,10 +6,10 @@
 
 namespace swarmsmith {
 
-/// Makes whole runs of what a damaged store has left of its real runs: parts whose run is lost go;
-/// a run that lacks parts gets one more scoring, INVALID, that says which (with the score as it was
-/// when all that it follows from is there); a lost candidate is forgotten. Returns how many rows
-/// went. Throws SqliteError.
+/// Makes the real runs in the rest of a damaged store consistent. Parts whose run is lost are
+/// removed. A run that lacks parts gets one more scoring, INVALID, that names them (and that keeps
+/// the score if everything from which it follows is there). A run whose candidate is lost loses its
+/// candidate. Returns the number of removed rows. Throws SqliteError.
 std::int64_t mend_real_runs(sqlite::Connection& connection);
 
 }  // namespace swarmsmith

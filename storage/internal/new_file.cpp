@@ -24,7 +24,7 @@ Unexpected taken(const fs::path& path) {
                    path.string());
 }
 
-/// Makes what was done to the file or folder outlive a power cut, as far as the system can.
+/// Makes changes of the file or folder survive a power cut, as far as the system allows.
 void sync(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -32,16 +32,16 @@ void sync(const fs::path& path) {
   ::close(descriptor);
 }
 
-/// The number of a process that does not live on this host; a part may be another host's only on a
-/// shared file system, which check_folder refuses.
+/// Whether `number` is the id of a process that no longer exists on this host. A part file of
+/// another host can only be on a shared file system, which check_folder refuses.
 bool is_of_the_dead(const std::string& number) {
   if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return false;
   const auto pid = static_cast<pid_t>(std::strtol(number.c_str(), nullptr, 10));
   return pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH;
 }
 
-/// Removes what killed processes have left of files of this name: "NAME.part-PID", and all that
-/// begins so ("-wal", ".store-2.part-PID").
+/// Removes what killed processes have left of files with this name: "NAME.part-PID", and all files
+/// whose names begin in this way ("-wal", ".store-2.part-PID").
 void clear_left_behind(const fs::path& wanted) {
   const std::string beginning = wanted.filename().string() + ".part-";
   std::error_code trouble;
@@ -67,7 +67,7 @@ Expected<NewFile> NewFile::beside(const fs::path& wanted) {
   if (fs::exists(fs::symlink_status(wanted, trouble))) return taken(wanted);
   clear_left_behind(wanted);
   NewFile file(wanted, fmt::format("{}.part-{}", wanted.string(), ::getpid()));
-  file.remove();  // of a process of that number, which was killed
+  file.remove();  // left by a killed process with the same id
   return file;
 }
 
@@ -88,7 +88,7 @@ Expected<void> NewFile::publish() {
   sync(part_);
   if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, wanted_.c_str(), RENAME_NOREPLACE) != 0) {
     if (errno == EEXIST) return taken(wanted_);
-    // Some file systems do not know the flag.
+    // Some file systems do not support the flag.
     const bool knows_not = errno == EINVAL || errno == ENOSYS;
     if (std::error_code none; knows_not && fs::exists(wanted_, none)) return taken(wanted_);
     if (!knows_not || ::rename(part_.c_str(), wanted_.c_str()) != 0) {

@@ -6,22 +6,23 @@
 
 namespace swarmsmith {
 
-/// A database file that is made under a name of its own beside the one that it will have, so that
-/// a file of that name is a whole one. Removed at the end, with the files that
-/// SQLite puts beside it, unless it was published; after a kill, by the next one of that name.
+/// A database file that is made under a temporary name beside its final one, so that a file with
+/// the final name is always complete. It is removed at the end, with the files that SQLite puts
+/// beside it, unless it was published. After a kill, the next NewFile of that name removes it.
 class NewFile {
  public:
-  /// BadInput when there is something of that name, or the folder cannot hold a store.
+  /// BadInput when a file of that name exists, or the folder cannot hold a store.
   static Expected<NewFile> beside(const std::filesystem::path& wanted);
 
   NewFile(NewFile&& other) noexcept;
   NewFile& operator=(NewFile&&) = delete;
   ~NewFile();
 
-  /// Where it is being made. Nothing is there at first.
+  /// The temporary name. The file does not exist at first.
   const std::filesystem::path& path() const { return part_; }
-  /// Gives it its name, on disk; every connection to it must be closed. Never replaces a file that
-  /// has come there meanwhile: BadInput. Unavailable when the system refuses.
+  /// Gives the file its final name, on disk; every connection to it must be closed. BadInput if
+  /// another file has got that name meanwhile: that file is never replaced. Unavailable when the
+  /// system refuses.
   Expected<void> publish();
 
  private:
@@ -31,7 +32,7 @@ class NewFile {
   void remove();
 
   std::filesystem::path wanted_;
-  std::filesystem::path part_;  ///< empty when there is nothing more to remove
+  std::filesystem::path part_;  ///< empty when nothing is left to remove
 };
 
 }  // namespace swarmsmith

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::Statement;
 
-/// Folds in the log that a crash has left, and looks at the whole of the file: every page, what is
-/// said to be in it, and whether its rows are those of a commit.
+/// Moves the log that a crash has left into the file, and checks the whole file: every page, its
+/// keys, and whether its rows are in a committed state.
 Expected<void> check_all(Connection& connection, const fs::path& path, bool unclean) {
   connection.execute("PRAGMA wal_checkpoint(TRUNCATE)");
   if (auto sound = check_database_file(connection, path); !sound) return sound;
@@ -36,7 +36,8 @@ Expected<void> check_all(Connection& connection, const fs::path& path, bool uncl
   return unexpected(ErrorKind::Corrupt, damaged_text(faults.front() + why), path.string());
 }
 
-/// In WAL mode, and nothing of it changed. `unclean`: the last writer did not end well.
+/// Checks the store and sets WAL mode, without changing rows. `unclean`: the last writer did not
+/// end cleanly.
 Expected<void> prepare(Connection& connection, const fs::path& path, bool unclean) {
   if (sqlite3_db_readonly(connection.handle(), "main") != 0) {
     return bad_input("the store may not be written by this user", path.string());
@@ -69,17 +70,18 @@ Expected<Writer> open_writer(const fs::path& path, std::chrono::milliseconds pat
   if (!file) return Unexpected(file.error());
   if (auto sound = check_database_file(connection, path); !sound) return Unexpected(sound.error());
   // A reader may be the first to open a store whose coordinator was killed: it then recovers the
-  // log, and holds the file for that moment.
+  // log, and locks the file for that moment.
   sqlite3_busy_timeout(connection.handle(), 5000);
   const std::int64_t version = sqlite::integer_of(connection, "PRAGMA data_version");
   if (auto ready = prepare(connection, path, unclean); !ready) return Unexpected(ready.error());
-  file->fate();  // from now on
+  file->fate();  // the file is watched from now on
   return Writer{std::move(*lock), std::move(connection), std::move(*file), version};
 }
 
 Lost save_lost(Writer& writer, const std::string& fate) {
   writer.is_lost = true;
-  // Neither folded into a file that is not the store's any more, nor trusted by the next one.
+  // The log must not be moved into a file that is no longer the store's, and the next writer must
+  // not trust that file.
   sqlite3_db_config(writer.connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   writer.lock.set_suspect(true);
   const auto saved = writer.file.save(writer.connection);

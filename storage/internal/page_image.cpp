@@ -18,14 +18,14 @@ constexpr std::size_t kHeader = 100;
 constexpr std::size_t kLogHeader = 32;
 constexpr std::size_t kFrameHeader = 24;
 
-/// Of the database: SQLite opens whatever has the name, and no other program may open it.
+/// The bytes of the database. SQLite opens the file, since no other code may open it.
 std::vector<std::uint8_t> bytes_of_database(const std::filesystem::path& file) {
   const sqlite::Connection connection(file.string(), SQLITE_OPEN_READONLY);
   const std::string bytes = connection.file_bytes(0, connection.file_size());
   return {bytes.begin(), bytes.end()};
 }
 
-/// Of the log, on which SQLite has no locks.
+/// The bytes of the log, on which SQLite has no locks.
 Expected<std::vector<std::uint8_t>> bytes_of_log(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return bad_input("cannot be opened for reading", file.string());
@@ -39,7 +39,7 @@ bool is_page_size(std::uint64_t bytes) {
   return bytes >= 512 && bytes <= 65536 && std::has_single_bit(bytes);
 }
 
-/// The log's running checksum over 32-bit words, of the byte order that its header names.
+/// The running checksum of the log over 32-bit words, in the byte order that its header names.
 class LogSum {
  public:
   explicit LogSum(bool big) : big_(big) {}
@@ -106,8 +106,8 @@ void PageImage::set_page_size(std::size_t bytes) {
   page_size_ = bytes;
 }
 
-/// Frames count up to the last that ends a transaction; what follows, or does not fit the checksum,
-/// was never committed.
+/// Only frames up to the last one that ends a transaction count. Later frames, and frames that do
+/// not fit the checksum, were never committed.
 void PageImage::read_log(const std::vector<std::uint8_t>& log) {
   if (log.size() < kLogHeader) return;
   const std::uint64_t magic = big_endian(log, 0, 4);
@@ -123,7 +123,8 @@ void PageImage::read_log(const std::vector<std::uint8_t>& log) {
        at += kFrameHeader + size) {
     const Bytes header = all.subspan(at, kFrameHeader);
     const Bytes page = all.subspan(at + kFrameHeader, size);
-    if (!std::ranges::equal(header.subspan(8, 8), all.subspan(16, 8))) break;  // of an older log
+    if (!std::ranges::equal(header.subspan(8, 8), all.subspan(16, 8)))
+      break;  // a frame of an older log
     sum.add(header.first(8));
     sum.add(page);
     if (!sum.is(header, 16)) break;

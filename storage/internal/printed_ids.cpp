@@ -14,7 +14,7 @@ namespace {
 
 struct Token {
   enum class Kind { Word, Text, Sign } kind = Kind::Sign;
-  std::string_view text;  ///< with its quotes
+  std::string_view text;  ///< including its quotes
 };
 using Tokens = std::vector<Token>;
 
@@ -23,7 +23,7 @@ bool is_of_word(char letter) {
          (static_cast<unsigned char>(letter) & 0x80U) != 0;
 }
 
-/// How long the token is that begins there: quoted, a comment, a word, or a sign.
+/// Length of the token at the beginning of `rest`: a quoted text, a comment, a word, or a sign.
 std::size_t length_of(std::string_view rest) {
   const auto until = [&](std::string_view end, std::size_t from) {
     const std::size_t at = rest.find(end, from);
@@ -34,7 +34,7 @@ std::size_t length_of(std::string_view rest) {
   if (rest.front() == '[') return until("]", 1);
   if (std::string_view("'\"`").find(rest.front()) != std::string_view::npos) {
     std::size_t end = until(rest.substr(0, 1), 1);
-    while (end < rest.size() && rest[end] == rest.front())  // a doubled quote is one of the text
+    while (end < rest.size() && rest[end] == rest.front())  // a doubled quote is part of the text
       end = until(rest.substr(0, 1), end + 1);
     return end;
   }
@@ -72,7 +72,7 @@ bool compares(const Token& token) {
   return std::ranges::find(kSigns, token.text) != kSigns.end();
 }
 
-/// The letter of ids in a column of that name; 0 for other columns.
+/// The letter of the ids in a column with this name; 0 for other columns.
 char letter_of(const Token& token) {
   constexpr std::array<std::pair<std::string_view, char>, 5> kColumns = {{{"DESIGN", 'd'},
                                                                           {"CANDIDATE", 'c'},
@@ -88,7 +88,8 @@ char letter_of(const Token& token) {
   return found == kColumns.end() ? '\0' : found->second;
 }
 
-/// The letter of the column that the text at `place` is compared with: before it, or after it.
+/// The letter of the column that the text at `place` is compared with; the column may be before or
+/// after it.
 char letter_beside(const Tokens& tokens, std::size_t place) {
   const auto before = [&](std::size_t back) {
     return back <= place ? tokens[place - back] : Token{};
@@ -118,7 +119,7 @@ char letter_beside(const Tokens& tokens, std::size_t place) {
   return letter_of(tokens[next]);
 }
 
-/// The number of 'c812' or 'd3'.
+/// The number in 'c812' or 'd3'.
 std::optional<std::int64_t> number_in(std::string_view quoted) {
   if (quoted.size() < 4) return std::nullopt;
   const std::string_view text = quoted.substr(1, quoted.size() - 2);

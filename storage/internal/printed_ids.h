@@ -5,9 +5,9 @@
 
 namespace swarmsmith {
 
-/// The statement with numbers in place of ids as commands print them, where it compares them with a
-/// column of such ids: `candidate = 'c812'` becomes `candidate = 812`. Such columns hold numbers,
-/// and SQL would find nothing and say nothing. Everything else stays as it is, broken SQL too.
+/// Replaces ids as commands print them by numbers, where the statement compares them with a column
+/// of such ids: `candidate = 'c812'` becomes `candidate = 812`. These columns hold numbers, and SQL
+/// would find no rows and give no error. Everything else stays as it is, also broken SQL.
 std::string with_numbers_of_ids(std::string_view sql);
 
 }  // namespace swarmsmith

@@ -20,7 +20,8 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// Settings that only tell; those that can also be set are refused with an argument.
+/// Whether a statement may use the PRAGMA. Some PRAGMAs only report values; those that can also set
+/// them are refused with an argument.
 bool may_ask(std::string_view pragma, bool has_argument) {
   constexpr std::array<std::string_view, 8> kTell{
       "table_info", "table_xinfo",      "table_list",     "index_list",
@@ -33,7 +34,8 @@ bool may_ask(std::string_view pragma, bool has_argument) {
   return in(kTell) || (in(kAlsoSet) && !has_argument);
 }
 
-/// `views_recurse` is a bool: else a recursion in a view is refused, which need not have an end.
+/// `views_recurse` points to a bool. If it is false, recursion in a view is refused, since it might
+/// not end.
 int only_reading(void* views_recurse, int action, const char* first, const char* second,
                  const char*, const char* view) {
   switch (action) {
@@ -44,7 +46,7 @@ int only_reading(void* views_recurse, int action, const char* first, const char*
     case SQLITE_FUNCTION:
       return SQLITE_OK;
     case SQLITE_UPDATE:
-      // What SQLite asks when it sets up pragma_table_info(); nothing is written, and nothing could
+      // SQLite asks this when it sets up pragma_table_info(). Nothing is written, and nothing could
       // be: the file is open for reading only.
       return std::string_view(first) == "sqlite_master" ? SQLITE_OK : SQLITE_DENY;
     case SQLITE_PRAGMA:
@@ -66,8 +68,9 @@ constexpr std::array<Limit, 4> kLimits{{{SQLITE_LIMIT_SQL_LENGTH, 1 << 20},
                                         {SQLITE_LIMIT_ATTACHED, 0},
                                         {SQLITE_LIMIT_WORKER_THREADS, 0}}};
 
-/// The memory that statements may need beside what SQLite has already. Its limit is the process's:
-/// statements of several threads share the sum of what each may have, until the last one ends.
+/// The memory that statements may use in addition to SQLite's memory so far. SQLite has one limit
+/// for the process, so statements of several threads share the sum of their limits, until the last
+/// one ends.
 class SharedMemory {
  public:
   void add(std::int64_t bytes) {
@@ -103,7 +106,7 @@ SharedMemory& shared_memory() {
   return memory;
 }
 
-/// The rules of a user's statement, on the connection while this lives.
+/// The rules for a user's statement; they apply to the connection as long as this object exists.
 class Rules {
  public:
   Rules(sqlite::Connection& connection, const StoreReader::QueryLimits& limits)
@@ -115,10 +118,10 @@ class Rules {
                       std::chrono::duration<double>(std::clamp(limits.seconds, 0.0, 1e6)))),
         memory_(std::max<std::int64_t>(limits.memory, 1 << 20)) {
     shared_memory().add(memory_);
-    constexpr int kInstructions = 2000;  // some 20 us
+    constexpr int kInstructions = 2000;  // about 20 us
     for (std::size_t i = 0; i < kLimits.size(); ++i)
       limits_before_[i] = sqlite3_limit(handle_, kLimits[i].which, kLimits[i].value);
-    // A store of an early schema is read with the views that it has.
+    // A store of an early schema is read with its own views.
     connection_.allow_views(limits.views_of_file || !has_our_views_);
     sqlite3_set_authorizer(handle_, only_reading, &has_our_views_);
     sqlite3_progress_handler(
@@ -146,7 +149,7 @@ class Rules {
   std::array<int, kLimits.size()> limits_before_{};
 };
 
-/// Of a statement of our own: about the store.
+/// The error for a statement of our own: it is about the store.
 Unexpected not_readable(const sqlite::Connection& connection, int code,
                         const StoreReader::QueryLimits& limits) {
   const std::string file = connection.file();
@@ -169,7 +172,8 @@ Unexpected not_readable(const sqlite::Connection& connection, int code,
   return bad_input(sqlite3_errmsg(connection.handle()), file);
 }
 
-/// Bad input of a statement that SQLite refused with this code, in its words or in better ones.
+/// The error for a statement that SQLite refused with this code, with SQLite's message or a better
+/// one.
 Unexpected refused(const sqlite::Connection& connection, int code, const std::string& sql,
                    const StoreReader::QueryLimits& limits) {
   if (!limits.typed) return not_readable(connection, code, limits);
@@ -235,7 +239,7 @@ StoreReader::Cell cell_at(sqlite3_stmt* row, int column) {
   return {Type::Text, bytes == nullptr ? std::string() : std::string(bytes, size)};
 }
 
-/// Bytes of the row's texts.
+/// Total bytes of the row's texts.
 std::int64_t bytes_of(sqlite3_stmt* row, std::size_t width) {
   std::int64_t bytes = 0;
   for (std::size_t i = 0; i < width; ++i) {
@@ -246,7 +250,7 @@ std::int64_t bytes_of(sqlite3_stmt* row, std::size_t width) {
   return bytes;
 }
 
-/// Gives rows to `on_row` until the end, or a limit.
+/// Passes rows to `on_row` until the end, or a limit.
 Expected<StoreReader::QueryEnd> give_rows(
     sqlite::Connection& connection, sqlite3_stmt* row, const std::string& sql,
     const StoreReader::QueryLimits& limits, const Rules& rules,
@@ -264,7 +268,7 @@ Expected<StoreReader::QueryEnd> give_rows(
       return end;
     }
     if (code != SQLITE_ROW) {
-      // The statement's own fault (a number too large, bad JSON, too much memory), or the file's.
+      // Either the statement is wrong (a number too large, bad JSON, too much memory), or the file.
       constexpr std::array<int, 4> kOwn{SQLITE_ERROR, SQLITE_TOOBIG, SQLITE_MISMATCH, SQLITE_NOMEM};
       if (std::ranges::count(kOwn, code & 0xff) == 0) connection.fail(code);
       return refused(connection, code, sql, limits);
@@ -282,7 +286,7 @@ Expected<StoreReader::QueryEnd> give_rows(
     }
     for (std::size_t i = 0; i < width; ++i)
       cells[i] = cell_at(row, static_cast<int>(i));
-    // A value that was only announced so far (zeroblob) may have found no room.
+    // A value that had no memory so far (zeroblob) may not have got any now.
     if (sqlite3_errcode(connection.handle()) == SQLITE_NOMEM) {
       return refused(connection, SQLITE_NOMEM, sql, limits);
     }
@@ -297,8 +301,8 @@ Expected<StoreReader::QueryEnd> run_query(
     sqlite::Connection& connection, const std::string& text, const StoreReader::QueryLimits& limits,
     const std::function<void(const std::vector<std::string>&)>& on_columns,
     const std::function<void(const std::vector<StoreReader::Cell>&)>& on_row) {
-  // In memory there is a limit, on the disk there would be none. A change makes SQLite forget the
-  // lent views, so that all statements of our own keep the same setting.
+  // Sorts in memory obey the limit; on disk there would be none. Changing this setting makes SQLite
+  // drop the lent views, so all statements of our own use the same setting.
   connection.execute(limits.typed ? "PRAGMA temp_store = MEMORY" : "PRAGMA temp_store = DEFAULT");
   lend_views(connection);
   const std::string sql = with_numbers_of_ids(text);

@@ -5,8 +5,8 @@
 
 namespace swarmsmith {
 
-/// Runs a statement of a user's; see StoreReader::query. While it runs, the connection refuses
-/// everything but reading: writes, ATTACH, transactions, and settings that a PRAGMA would change.
+/// Runs a user's statement; see StoreReader::query. While it runs, the connection allows only
+/// reading: it refuses writes, ATTACH, transactions, and settings that a PRAGMA would change.
 Expected<StoreReader::QueryEnd> run_query(
     sqlite::Connection& connection, const std::string& sql, const StoreReader::QueryLimits& limits,
     const std::function<void(const std::vector<std::string>&)>& on_columns,

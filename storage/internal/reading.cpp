@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::Statement;
 
-/// A file: URI in which every byte that could mean something else is written as %XX.
+/// A file: URI in which every byte that could have another meaning is written as %XX.
 std::string immutable_uri(const fs::path& path) {
   std::string uri = "file:";
   for (const char c : fs::absolute(path).string()) {
@@ -41,8 +41,8 @@ bool cannot_make_files(const fs::path& path) {
   return ::access(folder.c_str(), W_OK) != 0;
 }
 
-/// A store in WAL mode needs a -shm file beside it. Where none can be made and no log waits, no
-/// program can be writing, and the file may be read as it is.
+/// A store in WAL mode needs a -shm file beside it. If none can be made and there is no pending
+/// log, no program can be writing the store, so it is safe to read the file directly.
 Expected<sqlite::Connection> connect_for_reading(const fs::path& path) {
   const bool still = cannot_make_files(path) && !has_pending_log(path);
   Connection connection =

@@ -9,14 +9,14 @@
 
 namespace swarmsmith {
 
-/// A folder in which this user cannot make files.
+/// Whether this user cannot make files in the folder of `path`.
 bool cannot_make_files(const std::filesystem::path& path);
 
-/// A connection that only reads, also where no file can be made beside the store. Corrupt when the
-/// file is not a database or is cut off. Throws SqliteError.
+/// A connection that only reads; it works also where no file can be made beside the store. Corrupt
+/// when the file is not a database or is cut off. Throws SqliteError.
 Expected<sqlite::Connection> connect_for_reading(const std::filesystem::path& path);
 
-/// One state of the store for several statements; a reader's transaction only ever reads.
+/// Shows one state of the store to several statements; a reader's transaction only ever reads.
 class ReadTransaction {
  public:
   explicit ReadTransaction(sqlite::Connection& connection) : connection_(connection) {
@@ -30,13 +30,15 @@ class ReadTransaction {
   sqlite::Connection& connection_;
 };
 
-/// The digest of one campaign, which has the ids of a store of its own. Within a ReadTransaction.
+/// The digest of one campaign, with the ids that it has when it is alone in a store. Within a
+/// ReadTransaction.
 std::string digest_of_campaign(const sqlite::Connection& connection,
                                const StoredCampaign& campaign);
 /// StoreReader::digest of the whole store. Within a ReadTransaction.
 std::string digest_of_store(const sqlite::Connection& connection);
 
-/// Says after two seconds, while it lives, that a store is being checked (set_check_listener).
+/// Reports once, after two seconds, that a store is being checked (set_check_listener), as long as
+/// this object exists.
 class LongCheck {
  public:
   LongCheck(sqlite::Connection& connection, const std::filesystem::path& path);
@@ -54,12 +56,12 @@ class LongCheck {
   bool is_told_ = false;
 };
 
-/// A sentence when texts of candidates cannot be made of their codes, or are more than a store's;
-/// else empty.
+/// A sentence when the texts of candidates cannot be made from their codes, or are longer than a
+/// store's texts can be; else empty.
 std::string lost_texts(const sqlite::Connection& connection);
 
-/// What SQLite's integrity check and foreign keys find, and whether the rows are those that were
-/// committed (RowSums): a sentence a fault.
+/// The faults that SQLite's integrity check and foreign keys find, and rows that are not the
+/// committed ones (RowSums): one sentence per fault.
 std::vector<std::string> faults_of(const sqlite::Connection& connection);
 
 /// "this store has schema 3; `swarmsmith backup old.db new.db` makes a copy with schema 4".

@@ -5,18 +5,18 @@
 
 namespace swarmsmith {
 
-/// A table with parts of real runs, and the column of real_run that says how many of its rows a run
-/// has: what a damaged store has lost can so be told.
+/// A table with parts of real runs, and the column of real_run with the number of its rows that a
+/// run has. This number shows which parts a damaged store has lost.
 struct RealRunPart {
   const char* column;
   const char* table;
-  bool is_scored;           ///< the score follows from it without anything else
-  std::int64_t schema = 5;  ///< that brought it
+  bool is_scored;           ///< the score follows from the parts that have this
+  std::int64_t schema = 5;  ///< the schema that added it
 };
 
-/// Schema that brought the robots' logs.
+/// The schema that added the robots' logs.
 inline constexpr std::int64_t kLogsSchema = 10;
-/// Schema that brought the checks of runs. A run that was scored before has none.
+/// The schema that added the checks of runs. A run that was scored earlier has none.
 inline constexpr std::int64_t kChecksSchema = 13;
 
 inline constexpr std::array kRealRunParts{

@@ -15,7 +15,7 @@ using sqlite::Statement;
 
 constexpr std::int64_t kFirstSchema = 5;
 
-/// "[0,0.04,0.08]".
+/// The numbers of a text such as "[0,0.04,0.08]".
 std::vector<double> numbers_of(std::string_view json) {
   std::vector<double> numbers;
   const char* at = json.data();
@@ -40,7 +40,7 @@ std::array<double, 8> corners_at(const Statement& row, int column) {
   return corners;
 }
 
-/// Runs `sql` for one run and hands each row to `take`.
+/// Runs `sql` for one run and calls `take` for each row.
 template <class Take>
 void each(const Connection& connection, RealRunId id, std::string_view sql, Take take) {
   Statement row(connection, sql);

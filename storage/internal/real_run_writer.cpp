@@ -18,7 +18,7 @@ namespace {
 using sqlite::Connection;
 using sqlite::Statement;
 
-/// Corners are kept to this part of a pixel: 80 times finer than the best detectors are.
+/// Corners are stored in this fraction of a pixel, which is 80 times finer than the best detectors.
 constexpr double kPartsOfPixel = 1000;
 
 std::int64_t stored(double pixels) {
@@ -90,7 +90,7 @@ void require_calibration(const RealRunRows& rows, const std::string& sha256, std
       fmt::format("the {} calibration of {} is not among the rows", kind, subject));
 }
 
-/// "[0,0.04,0.08]", each number so short that it reads back to the same bits.
+/// A text such as "[0,0.04,0.08]", with the shortest numbers that read back to the same bits.
 std::string json_of(const std::vector<double>& numbers) {
   return fmt::format("[{}]", fmt::join(numbers, ","));
 }
@@ -138,7 +138,7 @@ void write_sightings(Connection& connection, RealRunId id, const RealRunRows& ro
   }
 }
 
-/// What samples were taken for.
+/// Writes the robot, pose and use of each sample.
 void write_poses(Connection& connection, RealRunId id, const RealRunRows& rows) {
   Statement robot(connection,
                   "UPDATE real_sample SET robot = ?3, x = ?4, y = ?5, theta = ?6, use = ?7"
@@ -217,7 +217,7 @@ void count_parts(Connection& connection, RealRunId id) {
   }
 }
 
-/// Everything that follows from sightings and inputs.
+/// Writes everything that follows from sightings and inputs.
 void write_derived(Connection& connection, RealRunId id, const RealRunRows& rows) {
   write_calibrations(connection, rows);
   write_robots(connection, id, rows);

@@ -24,7 +24,7 @@ DesignId design_at(const Statement& row, int column) {
   return {row.integer(column)};
 }
 
-/// A value that this version does not know: of a later one, or damage.
+/// Throws for a value that this version does not know: it is from a later version, or damaged.
 template <class Value>
 Value known(std::optional<Value> value, const char* what, std::int64_t number) {
   if (value) return *value;
@@ -42,7 +42,7 @@ EvaluationKey key_at(const Statement& row, int column) {
   return {candidate_at(row, column), purpose_at(row, column + 1), row.integer(column + 2)};
 }
 
-/// Conditions on a column that names a design, or a candidate.
+/// Conditions that select the part by a column with the id of a design, or of a candidate.
 std::string designs_of(const Part& part, const char* column) {
   if (!part.designs) return "1";
   return fmt::format("{} BETWEEN {} AND {}", column, part.designs_before + 1,
@@ -54,12 +54,12 @@ std::string candidates_of(const Part& part, const char* column) {
                      (part.designs_before + *part.designs) * kCandidatesPerDesign);
 }
 
-/// To the ids of a store of its own.
+/// The shift to the ids that the designs have when their campaign is alone in a store.
 Shift shift_of(const Part& part) {
   return {.designs = -part.designs_before};
 }
 
-/// Runs `sql` and hands on what `make` makes of each row.
+/// Runs `sql`, makes a row of each result with `make`, and passes it to `on_row`.
 template <class Make>
 void each(const sqlite::Connection& connection, const Part& part, const std::string& sql,
           const OnRow& on_row, Make make) {
@@ -102,7 +102,8 @@ std::optional<std::string> optional_text(const Statement& row, int column) {
 }
 
 /// Calls `take(candidate, whole)` with every candidate by id; `whole` is false when the store lacks
-/// phrases of its texts. Stores before schema 4 know no phrases: their texts are as they are.
+/// phrases of its texts. Stores before schema 4 have no phrases: their texts are stored as they
+/// are.
 template <class Take>
 void each_candidate(const sqlite::Connection& connection, const Part& part, Take take) {
   PhraseBook phrases;
@@ -150,7 +151,7 @@ Measured measured_at(const Statement& row) {
   return measured;
 }
 
-/// Behind the table's columns: its iteration, and the name of its source.
+/// The statement has the table's columns, then the iteration, then the name of the source.
 EvaluationRow evaluation(const Statement& row) {
   constexpr auto& kAll = kEvaluationColumns;
   static_assert(kAll.size() == 12, "a new column is read here");
@@ -246,7 +247,7 @@ std::vector<StoredCampaign> read_campaigns(const sqlite::Connection& connection)
                          .designs_before = row.integer(7),
                          .designs = row.integer(8)});
   }
-  // Ids of candidates are made of those of designs.
+  // Ids of candidates are computed from ids of designs.
   constexpr std::int64_t kMostDesigns =
       std::numeric_limits<std::int64_t>::max() / kCandidatesPerDesign - 1;
   for (const StoredCampaign& campaign : campaigns) {
@@ -355,7 +356,7 @@ StoredTrust read_trust(const sqlite::Connection& connection) {
   Statement worker(connection,
                    "SELECT id, principal, state, client, identity FROM worker"
                    " WHERE principal <> ''");
-  // The last event about the principal says why, or about its one process.
+  // The reason is in the last event about the principal, or about its one process.
   Statement cause(connection,
                   "SELECT time, text ->> '$.reason' FROM event"
                   " WHERE kind = 'workers in quarantine' AND json_valid(text)"
@@ -397,7 +398,7 @@ std::string keep_secret(sqlite::Connection& connection, const std::string& fresh
 }
 
 void forget_secret(sqlite::Connection& connection) {
-  // Its bytes do not stay behind in the file either.
+  // This also removes the secret's bytes from the file.
   connection.execute(
       "PRAGMA secure_delete = ON; DELETE FROM meta WHERE key = 'lease_secret';"
       "PRAGMA secure_delete = OFF");
@@ -405,7 +406,7 @@ void forget_secret(sqlite::Connection& connection) {
 
 namespace {
 
-/// In the table `meta`, before the name.
+/// Prefix of the names of profiles in the table `meta`.
 constexpr std::string_view kProfileKey = "profile:";
 
 }  // namespace
@@ -467,7 +468,7 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
   read_candidates(connection, part, on_row);
   const std::string always = "purpose IN " + numbers_in_sql(always_counts);
   const std::string race = fmt::format("purpose = {}", static_cast<int>(Purpose::Race));
-  // A pair that only look-ahead has touched so far is not part of the answer.
+  // A pair that only look-ahead evaluations have used so far is not part of the answer.
   each(connection, part,
        "SELECT " + kPairColumns.names() + " FROM pair WHERE " + designs + " AND (" + always +
            " OR " + race +

@@ -14,7 +14,7 @@ namespace {
 using sqlite::Statement;
 
 constexpr std::string_view kKey = "row_sums";
-constexpr std::size_t kAlwaysSummed = 14;  ///< tables, by the first version that had sums
+constexpr std::size_t kAlwaysSummed = 14;  ///< number of tables in the first version with sums
 
 struct Summed {
   std::string_view table;
@@ -27,7 +27,8 @@ Summed all_of(const TableColumns<N>& columns) {
   return {columns.table, columns.names()};
 }
 
-/// In the order of RowSums::Table. The columns of a row that is written once are all of it.
+/// The cells of each table, in the order of RowSums::Table. Rows that are written once count with
+/// all their columns.
 const Summed& summed(std::size_t table) {
   static const std::array<Summed, RowSums::kTables> kSummed{{
       all_of(kCandidateColumns),
@@ -51,7 +52,7 @@ const Summed& summed(std::size_t table) {
   return kSummed[table];
 }
 
-/// Of the first columns.
+/// The hash of the first `columns` columns.
 std::uint64_t hash_of(const Statement& row, int columns) {
   RowHash hash;
   for (int column = 0; column < columns; ++column) {

@@ -16,8 +16,8 @@
 
 namespace swarmsmith {
 
-/// A hash of the cells of a row in order, by type and value. Finds damage, and does not defend
-/// against damage on purpose.
+/// A hash of the cells of a row in order, by type and value. It finds damage, but is no protection
+/// against changes on purpose.
 class RowHash {
  public:
   RowHash& add(std::int64_t value) { return add(1, static_cast<std::uint64_t>(value)); }
@@ -51,13 +51,13 @@ class RowHash {
   std::uint64_t state_ = 0x243f6a8885a308d3U;
 };
 
-/// For each table of the answer how many rows it has, and a sum over them. Each commit writes it,
-/// so that any state of a file whose rows give what it says is one that its writer committed: not
-/// one in which another program has changed, added or removed rows, and not a copy with some
-/// pages older than others. SQLite's own checks find neither.
+/// For each table of the answer, the number of its rows and a sum over them. Each commit writes
+/// them, so if the rows of a file agree with them, its writer has committed this state: no other
+/// program has changed, added or removed rows, and it is not a copy with some pages older than
+/// others. SQLite's own checks find neither.
 class RowSums {
  public:
-  /// `Used`: the iterations of evaluations, which come and go.
+  /// `Used`: the iterations of evaluations, which may change later.
   enum class Table {
     Candidate,
     Phrase,
@@ -78,7 +78,7 @@ class RowSums {
     RealOverride,
   };
   static constexpr std::size_t kTables = 17;
-  /// Of a store that was at rest when they were written: they are counted anew.
+  /// Tables that are written when the store is at rest: they are counted again each time.
   static constexpr std::array kOfRealRuns{Table::RealRun, Table::RealScore, Table::RealOverride};
 
   void add(Table table, std::uint64_t hash) {
@@ -93,20 +93,20 @@ class RowSums {
     of(table).sum += hash - old_hash;
   }
 
-  /// As the last commit wrote them; none in a store of a version that did not. A version that knew
-  /// fewer tables says nothing of the others. Throws SqliteError.
+  /// The sums that the last commit wrote; empty in a store of a version without sums. A version
+  /// with fewer tables has no sums for the others. Throws SqliteError.
   static std::optional<RowSums> stored(const sqlite::Connection& connection);
-  /// Of the rows that are there.
+  /// The sums over the existing rows.
   static RowSums found(const sqlite::Connection& connection);
-  /// One table is counted anew.
+  /// Counts one table again.
   void count(const sqlite::Connection& connection, Table table);
   void write(const sqlite::Connection& connection) const;
 
-  /// "evaluation (1190 rows, 1200 were committed), elite (other values)": what was found, against
-  /// these; empty when they agree.
+  /// "evaluation (1190 rows, 1200 were committed), elite (other values)": how `found` differs from
+  /// these sums; empty when they agree.
   std::string differences(const RowSums& found) const;
 
-  /// As many rows as these, and not the same ones.
+  /// Whether `found` has the same number of rows, but another sum.
   bool has_other_values(Table table, const RowSums& found) const;
 
   friend bool operator==(const RowSums&, const RowSums&) = default;
@@ -121,15 +121,15 @@ class RowSums {
   const Sum& of(Table table) const { return sums_[static_cast<std::size_t>(table)]; }
 
   std::array<Sum, kTables> sums_{};
-  std::size_t known_ = kTables;  ///< tables that these say something of
+  std::size_t known_ = kTables;  ///< number of tables for which there are sums
 };
 
 inline std::int64_t half(std::uint64_t hash) {
   return static_cast<std::int64_t>(hash >> 32U);
 }
 
-/// An evaluation's column `row_check`: half of a hash of its cells, which are those of
-/// kEvaluationColumns: what was scored, with which result.
+/// An evaluation's column `row_check`: half of a hash of its cells, the columns of
+/// kEvaluationColumns: what was evaluated, and its result.
 template <class... Cells>
 std::int64_t row_check(std::int64_t candidate, const Cells&... cells) {
   static_assert(sizeof...(cells) + 1 == kEvaluationColumns.size());
@@ -139,16 +139,16 @@ std::int64_t row_check(std::int64_t candidate, const Cells&... cells) {
   ((kEvaluationColumns.columns[column++].is_checked ? void(hash.add(cells)) : void()), ...);
   return half(hash.value());
 }
-/// Removes evaluations that are not those that were written. Returns how many.
+/// Removes evaluations that were changed after they were written. Returns how many.
 std::int64_t remove_changed_evaluations(sqlite::Connection& connection);
 
-/// The cells of a table's rows that a sum is over: a SELECT without a condition.
+/// The cells that the sum of a table covers: a SELECT without a condition.
 std::string cells_of_rows(RowSums::Table table);
-/// The hash of the row at which a statement of `cells_of_rows` stands.
+/// The hash of the current row of a statement of `cells_of_rows`.
 std::uint64_t hash_of(const sqlite::Statement& row);
 
-/// A sentence's end about rows that are not those that were committed; empty when all are, or when
-/// the store does not say. Throws SqliteError.
+/// The end of a sentence about rows that are not the committed ones; empty when all are, or when
+/// the store has no sums. Throws SqliteError.
 std::string changed_rows(const sqlite::Connection& connection);
 
 }  // namespace swarmsmith

@@ -16,14 +16,14 @@ namespace swarmsmith {
 namespace {
 
 constexpr const char* kOfEvaluation = " WHERE candidate = ? AND purpose = ? AND pair = ?";
-/// So many candidates race at a time that their totals' hashes are known without reading them.
+/// Limit for the totals' hashes of racing candidates in memory; others are read again.
 constexpr std::size_t kMostTotals = 100'000;
 constexpr const char* kOnceOnly = " ON CONFLICT DO NOTHING";
 constexpr const char* kNewTotals =
     " ON CONFLICT DO UPDATE SET runs = excluded.runs, score_sum = excluded.score_sum,"
     " score_squares = excluded.score_squares";
 constexpr const char* kNewStep = " ON CONFLICT DO UPDATE SET step = excluded.step";
-// The first result stays, whatever comes later. Only a race that asks for what was computed ahead
+// The first result stays, whatever arrives later. Only a race that asks for a result computed ahead
 // may still write its iteration, if the bits agree.
 constexpr char kUsed[] =
     "UPDATE evaluation SET iteration = ?4 WHERE candidate = ?1 AND purpose = ?2 AND pair = ?3"
@@ -33,7 +33,7 @@ constexpr char kUnused[] =
 constexpr char kDesignState[] =
     "UPDATE design SET state = ?2, used = ?3, iteration = ?4, best = ?5, best_mean = ?6,"
     " reason = ?7 WHERE id = ?1";
-// The first campaign of a store is the one that runs; others were merged or imported into it.
+// The first campaign of a store is the one that runs; the others were merged or imported.
 constexpr char kCampaignState[] =
     "UPDATE campaign SET state = ?1, finished = CASE WHEN ?1 = 'finished' THEN"
     " coalesce(finished, strftime('%Y-%m-%dT%H:%M:%fZ', 'now')) END WHERE id = 1";
@@ -144,7 +144,7 @@ void RowWriter::put(const CandidateRow& row) {
   known_candidate_.bind(row.id.value);
   const bool known = known_candidate_.step();
   known_candidate_.reset();
-  if (known) return;  // and makes no new phrases
+  if (known) return;  // and adds no new phrases
   if (!std::exchange(phrases_are_loaded_, true)) phrases_.load(connection_);
   const StoredTexts texts = phrases_.encode(row, [this](std::int64_t number, const Phrase& phrase) {
     insert(Table::Phrase, phrase_, number, phrase.machine, phrase.parameters, phrase.modules);
@@ -247,7 +247,7 @@ void RowWriter::put(const CampaignStateRow& row) {
   campaign_state_.run(row.state);
   if (sums_ && connection_.changes() > 0)
     sums_->add(Table::Campaign, RowHash::of(kFirst, row.state));
-  // No lease of a campaign that is over is signed.
+  // Leases of a finished campaign are not signed any more.
   if (row.state == "finished") forget_secret(connection_);
 }
 
@@ -280,7 +280,7 @@ void RowWriter::put(const CommandRow& row) {
   command_.run(row.number, word_of(row.kind), unless_zero(row.design.value), row.step, row.budget,
                row.who);
   if (!sums_) return;
-  command_cells_.bind(row.number);  // of a known one only the step is new
+  command_cells_.bind(row.number);  // only the step of a known command changes
   if (command_cells_.step()) sums_->add(Table::Command, hash_of(command_cells_));
   command_cells_.reset();
 }

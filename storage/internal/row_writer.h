@@ -14,31 +14,32 @@
 
 namespace swarmsmith {
 
-/// Puts rows into the tables, with one prepared statement a kind. The caller holds a transaction.
-/// Any row may come twice: what is already there stays, except where a row holds absolute values
-/// (totals, states, workers, commands), which replace the older ones.
+/// Writes rows into the tables, with one prepared statement for each type. The caller holds a
+/// transaction. Any row may be written twice: an existing row stays, except that rows which hold
+/// totals rather than increments (totals, states, workers, commands) replace older ones.
 class RowWriter {
  public:
   explicit RowWriter(sqlite::Connection& connection);
 
-  /// Throws SqliteError; then the transaction must be rolled back and forget() be called.
+  /// Throws SqliteError; the transaction must then be rolled back, and forget() called.
   void write(const Row& row);
-  /// An evaluation that gives way to another one. The same.
+  /// Removes an evaluation that another one replaces. Throws in the same way.
   void remove(const EvaluationKey& key);
-  /// Before the commit: the sums over the rows (RowSums), where the store has them. Rows of these
-  /// tables that were written by others in this transaction are counted. The same.
+  /// To be called before the commit: writes the sums over the rows (RowSums), if the store has
+  /// them. `others` are tables with rows that other code wrote in this transaction; they are
+  /// counted. Throws in the same way.
   void write_sums(std::initializer_list<RowSums::Table> others = {});
 
   void committed() { committed_ = sums_; }
-  /// Drops what was remembered of rows that a rollback has taken away.
+  /// Drops what was remembered about rows that a rollback has removed.
   void forget();
-  /// Of the rows that are committed.
+  /// The sums over the committed rows.
   const std::optional<RowSums>& sums() const { return committed_; }
 
  private:
   using Table = RowSums::Table;
 
-  /// Runs an INSERT OR IGNORE of these cells, in the order of the sum's.
+  /// Runs an INSERT OR IGNORE with these cells, in the order in which the sum covers them.
   template <class... Cells>
   void insert(Table table, sqlite::Statement& statement, const Cells&... cells) {
     statement.run(cells...);
@@ -50,7 +51,7 @@ class RowWriter {
     static_assert(sizeof...(Cells) == N, "a cell for each column");
     insert(table, statement, cells...);
   }
-  /// Takes the row of a key from the sum, before it is replaced.
+  /// Subtracts the row with this key from the sum, before it is replaced.
   template <class... Key>
   void take_away(Table table, sqlite::Statement& cells, const Key&... key) {
     if (!sums_) return;
@@ -77,7 +78,7 @@ class RowWriter {
   void put(const CommandRow& row);
   void put(const ForgivenRow& row);
 
-  /// The number of a source, made when it is new.
+  /// The number of a source; a new one is added.
   std::int64_t source_id(const std::string& name);
 
   sqlite::Connection& connection_;
@@ -85,12 +86,12 @@ class RowWriter {
       iteration_, race_step_, elimination_, elite_, totals_, design_state_, campaign_state_,
       worker_, conflict_, failure_, event_, attempt_, command_, forgiven_, new_source_,
       find_source_;
-  /// Cells of one row, as its sum has them.
+  /// Select the cells of one row, in the order in which its sum covers them.
   sqlite::Statement evaluation_cells_, used_cells_, totals_cells_, design_cells_, campaign_cells_,
       command_cells_;
-  std::optional<RowSums> sums_;  ///< none: the store has none
+  std::optional<RowSums> sums_;  ///< empty: the store has none
   std::optional<RowSums> committed_;
-  /// Hashes of the totals of candidates that are racing: each step replaces them.
+  /// Hashes of the totals of racing candidates, which each step replaces.
   std::unordered_map<std::int64_t, std::uint64_t> totals_hashes_;
   std::unordered_map<std::string, std::int64_t> sources_;
   PhraseBook phrases_;
@@ -98,7 +99,7 @@ class RowWriter {
 };
 
 /// Throws std::invalid_argument when a number of the row is NaN or infinite: SQLite would store a
-/// NaN as NULL, and no score is either.
+/// NaN as NULL, and a score is never either of them.
 void require_finite(const Row& row);
 
 }  // namespace swarmsmith

@@ -19,7 +19,7 @@ using sqlite::Statement;
 
 std::vector<TableShape> shapes_made(std::int64_t schema) {
   std::vector<TableShape> shapes;
-  // From the earliest on: columns that a later one has added may be missing in a record.
+  // From the earliest schema on: a record may lack columns that a later schema added.
   std::map<std::pair<std::string, bool>, std::size_t> first_columns;
   for (std::int64_t earlier = 1; earlier <= schema; ++earlier) {
     Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
@@ -33,7 +33,7 @@ std::vector<TableShape> shapes_made(std::int64_t schema) {
   return shapes;
 }
 
-/// Made once: a guess asks for those of each schema, for each size of pages.
+/// The shapes of a schema, made once: a guess uses those of each schema, for each page size.
 const std::vector<TableShape>& shapes_of_schema(std::int64_t schema) {
   static std::mutex mutex;
   static std::map<std::int64_t, std::vector<TableShape>> made;
@@ -43,8 +43,7 @@ const std::vector<TableShape>& shapes_of_schema(std::int64_t schema) {
                              : made.emplace(schema, shapes_made(schema)).first->second;
 }
 
-/// A row of sqlite_schema that names a table or an index: its name and the page that its tree
-/// begins on.
+/// A row of sqlite_schema that names a table or an index: its name, and the first page of its tree.
 std::optional<std::pair<std::string, std::uint32_t>> root_in(const StoredRecord& record) {
   using Type = StoredValue::Type;
   const auto& values = record.values;
@@ -55,7 +54,7 @@ std::optional<std::pair<std::string, std::uint32_t>> root_in(const StoredRecord&
   return std::pair(values[1].bytes, static_cast<std::uint32_t>(values[3].integer));
 }
 
-/// Takes the pages apart, table by table.
+/// Reads the rows from the pages, table by table.
 class Salvager {
  public:
   Salvager(const PageImage& image, std::vector<TableShape> shapes)
@@ -71,7 +70,7 @@ class Salvager {
     find_roots();
   }
 
-  /// Calls on_row(shape, record) with every whole row.
+  /// Calls on_row(shape, record) with every complete row.
   template <class OnRow>
   void each_row(OnRow on_row) {
     for (std::size_t table = 0; table < shapes_.size(); ++table) {
@@ -115,7 +114,7 @@ class Salvager {
       open.insert(open.end(), page->children.rbegin(), page->children.rend());
       finds_[table].broken += page->broken;
       for (const StoredRecord& whole : page->records) {
-        // Of a tree that is known, columns that others have added are left out.
+        // In a known tree, columns that other programs added are left out.
         const std::size_t columns = shapes_[table].columns.size();
         StoredRecord cut;
         if (whole.values.size() > columns) {
@@ -133,7 +132,7 @@ class Salvager {
     }
   }
 
-  /// A page that no tree has led to: its rows go where only one table could have them.
+  /// A page to which no tree leads: its rows are used if only one table can have them.
   template <class OnRow>
   void take_stray(std::uint32_t number, OnRow& on_row) {
     const auto page = read_btree_page(image_, number, chained_);
@@ -142,7 +141,7 @@ class Salvager {
       std::optional<std::size_t> place;
       int places = 0;
       for (std::size_t table = 0; table < shapes_.size(); ++table) {
-        // Rows of an index cannot be told from those of another.
+        // Rows of one index cannot be told from those of another.
         const bool is_table = shapes_[table].tree == shapes_[table].name;
         if (!is_table || !shapes_[table].fits(record)) continue;
         place = table;
@@ -157,8 +156,8 @@ class Salvager {
     }
   }
 
-  /// A whole record is read three times at most: for roots, by its tree, and as a stray. The rest
-  /// is for broken ones, whose chains may lead anywhere.
+  /// A complete record is read at most three times: in the search for roots, by its tree, and as a
+  /// stray. The rest is for broken records, whose chains may lead anywhere.
   static constexpr std::uint64_t kReadings = 16;
 
   const PageImage& image_;
@@ -178,9 +177,10 @@ std::int64_t rows_found(const PageImage& image, std::int64_t schema) {
   return rows;
 }
 
-/// Where the header is gone: the size of pages, and the schema, that give the most rows.
+/// For a file without a header: sets the page size, and returns the schema, that give the most
+/// rows.
 std::int64_t guess(PageImage& image) {
-  // Ours first, so that equals stay with it.
+  // The project's own page size is first, so that it is used if another gives as many rows.
   constexpr std::array<std::size_t, 8> kSizes{8192, 4096, 1024, 16384, 2048, 512, 32768, 65536};
   std::size_t best_size = kSizes.front();
   std::int64_t most = -1;
@@ -225,12 +225,12 @@ void bind(sqlite3_stmt* statement, int at, const StoredValue& value) {
   }
 }
 
-/// Rows into the tables of a new database.
+/// Inserts rows into the tables of a new database.
 class Filler {
  public:
   Filler(Connection& into, const std::vector<TableShape>& shapes) : into_(into), shapes_(shapes) {}
 
-  /// False when a row of that key is there.
+  /// False when there is a row with that key.
   bool put(std::size_t table, const StoredRecord& record) {
     const TableShape& shape = shapes_[table];
     const std::size_t columns = record.values.size();
@@ -277,7 +277,7 @@ PageFind salvage_pages(PageImage& image, Connection& into) {
     find.rows -= doubled[i];
     if (shapes[i].tree == shapes[i].name) {
       found.tables.push_back(find);
-    } else {  // what the table itself had lost
+    } else {  // rows that the table itself had lost
       std::ranges::find(found.tables, find.name, &TableFind::name)->rows += find.rows;
     }
   }

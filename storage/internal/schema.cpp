@@ -38,9 +38,9 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 
 constexpr std::chrono::milliseconds kPatience{5000};
 
-/// SQLite does not wait for this one, since it reads before it writes: another connection may have
-/// the right to write for a moment, as each client has that takes away the journal of a coordinator
-/// that died while it made the store.
+/// Sets WAL mode. SQLite does not wait for the lock here, since it reads before it writes. Another
+/// connection may hold the write lock for a moment: for example, each client that removes the
+/// journal of a coordinator that died while it made the store.
 void use_write_ahead_log(sqlite::Connection& connection) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
   while (true) {
@@ -58,7 +58,7 @@ std::string without_blanks(std::string text) {
   return text;
 }
 
-/// Of the store's campaigns, which are not built in.
+/// The flavours of the store's campaigns that are not built in.
 std::vector<const Flavour*> own_flavours(const sqlite::Connection& connection) {
   std::vector<const Flavour*> flavours;
   sqlite::Statement file(connection, "SELECT file FROM campaign ORDER BY id");
@@ -98,7 +98,7 @@ std::span<const Migration> migrations() {
     std::vector<Migration> steps;
     for (std::int64_t version = 2; version <= kSchemaVersion; ++version) {
       const auto file = std::ranges::find(kSchemaFiles, version, &SchemaFile::version);
-      // Versions without a file have other views alone.
+      // Versions without a file only change views.
       const std::string sql(file == kSchemaFiles.end() ? "" : file->sql);
       steps.push_back(
           {version, [sql](sqlite::Connection& connection) { connection.execute(sql); }});
@@ -110,8 +110,8 @@ std::span<const Migration> migrations() {
 
 void configure_writer(sqlite::Connection& connection) {
   sqlite3_busy_timeout(connection.handle(), static_cast<int>(kPatience.count()));
-  // 1000 pages of 8 KiB: the log is folded into the store every 8 MB, so that a small disk does for
-  // a campaign. It grows further only while a reader holds on to what it sees.
+  // 1000 pages of 8 KiB: the log is moved into the store every 8 MB, so that a small disk is enough
+  // for a campaign. It grows further only while a reader keeps an old state open.
   connection.execute(
       "PRAGMA page_size = 8192; PRAGMA synchronous = FULL;"
       "PRAGMA foreign_keys = ON; PRAGMA wal_autocheckpoint = 1000;"
@@ -134,7 +134,7 @@ void lend_views(sqlite::Connection& connection) {
   if (sqlite::integer_of(connection, "SELECT count(*) FROM temp.sqlite_schema") > 0) return;
   constexpr std::string_view kCreate = "CREATE VIEW ";
   constexpr std::string_view kLend = "CREATE TEMP VIEW IF NOT EXISTS ";
-  // The first of a name stays.
+  // If a name occurs twice, the first view is used.
   std::string views = kLentViews + our_views(own_flavours(connection));
   for (std::size_t at = 0; (at = views.find(kCreate, at)) != std::string::npos; at += kLend.size())
     views.replace(at, kCreate.size(), kLend);
@@ -221,9 +221,10 @@ void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
     know_flavours(connection);
     return transaction.commit();
   }
-  // A copy of that name can only be an earlier, interrupted try: the store has not moved since.
+  // A copy with that name can only be from an earlier, interrupted attempt: the store has not
+  // changed since then.
   const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);
-  std::error_code stays;  // then SQLite says why
+  std::error_code stays;  // if it could not be removed, SQLite reports that
   std::filesystem::remove(copy, stays);
   sqlite::Statement(connection, "VACUUM INTO ?").run(copy);
   upgrade(connection, steps);
@@ -234,11 +235,11 @@ void upgrade(sqlite::Connection& connection, std::span<const Migration> steps) {
   for (const Migration& step : steps) {
     if (step.to <= from) continue;
     sqlite::Transaction transaction(connection);
-    drop_views(connection);  // ALTER TABLE would stumble over them
+    drop_views(connection);  // ALTER TABLE would fail on them
     step.apply(connection);
     connection.execute(our_views(own_flavours(connection)));
     set_version(connection, step.to);
-    // A table may have got columns that count.
+    // The step may have added columns that the sums cover.
     if (RowSums::stored(connection)) RowSums::found(connection).write(connection);
     transaction.commit();
   }

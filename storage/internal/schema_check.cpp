@@ -21,15 +21,15 @@ using sqlite::Statement;
 struct Column {
   std::string name;
   std::string type;
-  bool hidden = false;  ///< generated, or of a virtual table
+  bool hidden = false;  ///< generated, or in a virtual table
 
   friend bool operator==(const Column&, const Column&) = default;
 };
 
-/// Type and name, to the table that it belongs to and the text that makes it.
+/// From type and name of an object to the name of its table and its SQL text.
 using Objects = std::map<std::pair<std::string, std::string>, std::pair<std::string, std::string>>;
 
-/// Without what SQLite may write otherwise when it changes a text: blanks and quotes.
+/// The text without characters that SQLite may change when it rewrites a text: blanks and quotes.
 std::string bare(std::string text) {
   std::erase_if(text, [](char c) {
     return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '"' || c == '`' || c == '[' ||
@@ -45,7 +45,7 @@ Objects objects_of(const Connection& connection, bool with_views) {
                 " WHERE name NOT GLOB 'sqlite_stat[134]'");
   while (row.step()) {
     if (!with_views && row.text(0) == "view") continue;
-    // A later program knows more modules, and writes their names when it opens the store.
+    // A later version knows more modules, and writes their names when it opens the store.
     const bool has_names = row.text(0) == "view" && row.text(1) == "flavour_name";
     objects[{row.text(0), row.text(1)}] = {row.text(2), has_names ? "" : bare(row.text(3))};
   }
@@ -59,7 +59,7 @@ Connection made_anew(std::int64_t schema, bool with_views) {
   return memory;
 }
 
-/// Virtual ones are none.
+/// The names of the tables, without virtual ones.
 std::vector<std::string> tables_of(const Connection& connection) {
   std::vector<std::string> names;
   Statement table(connection,
@@ -80,7 +80,7 @@ std::vector<Column> columns_of(const Connection& connection, const std::string& 
   return columns;
 }
 
-/// "column note added, column score missing"; "another text" when the columns are ours.
+/// "column note added, column score missing"; "another text" when the columns are the same.
 std::string difference(const std::vector<Column>& wanted, const std::vector<Column>& found) {
   std::vector<std::string> parts;
   const auto differ = [&](const auto& all, const auto& some, const char* what) {
@@ -96,7 +96,7 @@ std::string difference(const std::vector<Column>& wanted, const std::vector<Colu
 
 using Tables = std::vector<std::pair<std::string, std::vector<Column>>>;
 
-/// Ours of a schema; made once.
+/// The tables of a schema; made once.
 const Tables& tables_made(std::int64_t schema) {
   static std::mutex mutex;
   static std::map<std::int64_t, Tables> made;
@@ -109,7 +109,7 @@ const Tables& tables_made(std::int64_t schema) {
   return known->second;
 }
 
-/// What a store of a schema has, with views where it is today's; made once.
+/// The objects of a store of this schema, with views if it is the current one; made once.
 const Objects& objects_made(std::int64_t schema) {
   static std::mutex mutex;
   static std::map<std::int64_t, Objects> made;
@@ -194,7 +194,7 @@ Expected<void> check_lengths(const Connection& connection, const std::filesystem
   struct Limit {
     const char *column, *table;
     std::int64_t most;
-    std::int64_t schema = 1;  ///< that brought the column
+    std::int64_t schema = 1;  ///< the schema that added the column
   };
   constexpr std::int64_t kLongestReason = 1 << 20;
   constexpr std::int64_t kLongestPhrase = 8 << 20;

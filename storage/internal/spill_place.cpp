@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of one folder. SQLite looks it up by name whenever it likes, so that it stays to the end.
+/// The VFS for one folder. SQLite may look it up by name at any time, so it is never removed.
 struct SpillPlace {
   SpillPlace(const fs::path& folder, sqlite3_vfs& own)
       : vfs(own), system(&own), name("beside " + folder.string()) {
@@ -25,7 +25,7 @@ struct SpillPlace {
     sqlite3_randomness(sizeof unique, &unique);
     for (std::size_t i = 0; i < files.size(); ++i) {
       files[i] = fmt::format("{}/.swarmsmith-spill-{:016x}-{}", folder.string(), unique, i);
-      files[i].push_back('\0');  // SQLite looks for parameters behind a name
+      files[i].push_back('\0');  // SQLite looks for parameters after a name
     }
     vfs.zName = name.c_str();
     vfs.pNext = nullptr;
@@ -36,8 +36,8 @@ struct SpillPlace {
     };
   }
 
-  /// A file has its name for a moment: SQLite opens it as a new one and unlinks it at once. Several
-  /// threads may do so at the same time, each by another name.
+  /// A file has its name only for a moment: SQLite opens it as a new file and unlinks it at once.
+  /// Several threads may do so at the same time, each with another name.
   int open(sqlite3_file* file, int flags, int* out) {
     const std::string& path = files[next++ % files.size()];
     const int code = system->xOpen(system, path.c_str(), file, flags, out);

@@ -4,11 +4,11 @@
 
 namespace swarmsmith {
 
-/// The name of an SQLite VFS for `database` that is SQLite's own, but makes temporary files (large
-/// sorts, rollbacks of a statement) in the database's folder: there is room for the store, while
-/// /tmp may be small, in memory, or full. Null where SQLite shall choose: this user cannot make
-/// files there, the environment has SQLITE_TMPDIR, another VFS is the process's default, or it is
-/// not a file.
+/// The name of an SQLite VFS for `database`. It is SQLite's own VFS, but makes temporary files
+/// (large sorts, rollbacks of a statement) in the database's folder: the disk of the store has
+/// room, while /tmp may be small, in memory, or full. Null where SQLite's own choice is used: this
+/// user cannot make files in the folder, the environment has SQLITE_TMPDIR, another VFS is the
+/// process's default, or `database` is not a file.
 const char* vfs_that_spills_beside(const std::string& database);
 
 }  // namespace swarmsmith

@@ -14,7 +14,7 @@ namespace swarmsmith::sqlite {
 
 namespace {
 
-/// Where the connection's rows are.
+/// The name of the connection's database file.
 std::string file_of(sqlite3* handle) {
   const char* file = sqlite3_db_filename(handle, "main");
   return file == nullptr ? std::string() : std::string(file);
@@ -27,15 +27,15 @@ sqlite3_file& database_of(sqlite3* handle) {
   return *file;
 }
 
-/// SQLite says only that it could not.
+/// Why an operation failed: SQLite says only that it failed, and the system knows the reason.
 std::string reason_of(sqlite3* handle) {
   const int reason = sqlite3_system_errno(handle);
   return reason == 0 ? std::string(sqlite3_errmsg(handle))
                      : fmt::format("{} ({})", sqlite3_errmsg(handle), std::strerror(reason));
 }
 
-/// "disk I/O error" alone does not say which: the system's words do. A commit that fails leaves
-/// them with the log's file.
+/// "disk I/O error" does not say which error; the system's message does. After a failed commit the
+/// system's error is stored with the log's file.
 std::string message_of(sqlite3* handle, int code) {
   if ((code & 0xff) != SQLITE_IOERR) return sqlite3_errmsg(handle);
   if (sqlite3_system_errno(handle) != 0) return reason_of(handle);
@@ -48,8 +48,8 @@ std::string message_of(sqlite3* handle, int code) {
   return reason == 0 ? message : fmt::format("{} ({})", message, std::strerror(reason));
 }
 
-/// Listens to SQLite while it opens a database in this thread, for the descriptor that it does not
-/// tell. SQLite's calls of the system can be replaced (sqlite3_vfs::xSetSystemCall).
+/// Watches SQLite's system calls while it opens a database in this thread, to get the descriptor,
+/// which SQLite does not tell. SQLite's system calls can be replaced (sqlite3_vfs::xSetSystemCall).
 class Listener {
  public:
   Listener() {
@@ -83,8 +83,8 @@ class Listener {
     if (now_ != nullptr && descriptor >= 0) now_->descriptor_ = descriptor;
     return descriptor;
   }
-  /// By it SQLite looks whether it has left a descriptor of the file open, to take that again. Each
-  /// connection shall have one of its own, whose lock is its own.
+  /// SQLite calls this to find out whether it still has a descriptor of the file open that it can
+  /// use again. Each connection must have its own descriptor, which has its own lock.
   static int stat(const char* path, struct stat* found) {
     if (now_ == nullptr) return stat_(path, found);
     errno = ENOENT;
@@ -103,8 +103,8 @@ thread_local Listener* Listener::now_ = nullptr;
 
 Connection::Connection(const std::string& file, int flags) {
   sqlite3* opened = nullptr;
-  // A new store is its owner's alone, and so are the files that SQLite makes beside it. Made
-  // without opening it, which only SQLite may do.
+  // Only the owner can read a new store and the files that SQLite makes beside it. The file is made
+  // without opening it, since only SQLite may open it.
   if ((flags & SQLITE_OPEN_CREATE) != 0 && file != ":memory:")
     mknod(file.c_str(), S_IFREG | 0600, 0);
   const Listener listener;
@@ -143,7 +143,7 @@ std::string Connection::file_bytes(std::int64_t at, std::int64_t count) const {
     const auto part = static_cast<int>(std::min<std::size_t>(kAtOnce, bytes.size() - done));
     const int code = file.pMethods->xRead(&file, bytes.data() + done, part,
                                           at + static_cast<std::int64_t>(done));
-    // A file that was cut off meanwhile ends in zeros.
+    // The missing part of a file that was cut off meanwhile is read as zeros.
     if (code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ) fail(code, "it cannot be read");
   }
   return bytes;
@@ -179,7 +179,8 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
   sqlite3* connection = sqlite3_db_handle(handle_.get());
-  const std::string message = message_of(connection, code);  // which `reset` takes away
+  const std::string message =
+      message_of(connection, code);  // read it before `reset`, which clears it
   reset();
   throw SqliteError(code, message, file_of(connection));
 }
@@ -195,7 +196,7 @@ std::string Statement::text(int column) const {
 }
 
 void Statement::bind_one(int at, std::string_view value) {
-  // An empty view may have no address, which SQLite would take for NULL.
+  // An empty view may have a null pointer, which SQLite would treat as NULL.
   const char* bytes = value.empty() ? "" : value.data();
   check(sqlite3_bind_text64(handle_.get(), at, bytes, value.size(), SQLITE_STATIC, SQLITE_UTF8));
 }

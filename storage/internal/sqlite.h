@@ -14,8 +14,8 @@
 
 namespace swarmsmith::sqlite {
 
-/// SQLite refused: its words and its extended result code. The environment failed (disk full, file
-/// damaged), or a row broke a constraint.
+/// An error of SQLite: its message and its extended result code. The environment failed (disk full,
+/// file damaged), or a row broke a constraint.
 class SqliteError : public StoreFailure {
  public:
   SqliteError(int code, const std::string& message, std::string file = {})
@@ -27,35 +27,36 @@ class SqliteError : public StoreFailure {
   int code_;
 };
 
-/// Of a value: the longest that stores have is the text of a campaign with its pictures, 24 MB at
-/// most.
+/// Largest size of a value. The largest values of stores are the texts of campaigns with their
+/// pictures, at most 24 MB.
 inline constexpr int kMostValueBytes = 25 << 20;
 
-/// An open database file. One thread at a time. What the file says is data, and nothing of it acts:
-/// its triggers do not run, its views are not read unless that is allowed, its functions are not
-/// trusted, and no statement can write its schema as text.
+/// An open database file. Not thread-safe. The content of the file is only data and cannot run
+/// anything: its triggers do not run, its views are not read unless that is allowed, its functions
+/// are not trusted, and no statement can write its schema as text.
 class Connection {
  public:
   /// `flags` as for sqlite3_open_v2. Throws SqliteError.
   Connection(const std::string& file, int flags);
 
-  /// Whether views of the file may be read. Temporary ones, which are our own, always may.
+  /// Whether views of the file may be read. Temporary views, which are the program's own, always
+  /// may.
   void allow_views(bool allowed);
 
   sqlite3* handle() const { return handle_.get(); }
-  /// With which SQLite has the database file open; -1 without a file. It is SQLite's: to be asked
-  /// and to be locked by flock, never to be closed.
+  /// The descriptor with which SQLite has the database file open; -1 without a file. It belongs to
+  /// SQLite: use it only for queries and flock, and never close it.
   int descriptor() const { return descriptor_; }
-  /// Runs every statement of `sql`, rows are thrown away. Throws SqliteError.
+  /// Runs every statement of `sql`, and ignores their rows. Throws SqliteError.
   void execute(const std::string& sql);
-  /// Rows that the last statement changed.
+  /// Number of rows that the last statement changed.
   std::int64_t changes() const { return sqlite3_changes64(handle_.get()); }
-  /// Length of the database file, and its bytes from `at` on, as many of `count` as there are: read
-  /// by the handle with which SQLite has it open. No other may open it: when a process closes
+  /// Length of the database file; and up to `count` of its bytes from `at` on. Both use the handle
+  /// with which SQLite has the file open. No other code may open the file: when a process closes
   /// any descriptor of a file, it loses all its locks on it (decision 18). Throws SqliteError.
   std::int64_t file_size() const;
   std::string file_bytes(std::int64_t at, std::int64_t count) const;
-  /// Where the file is, without symbolic links; empty when it has none.
+  /// Path of the file, without symbolic links; empty when there is no file.
   std::string file() const;
   [[noreturn]] void fail(int code) const;
   [[noreturn]] void fail(int code, const std::string& message) const;
@@ -68,14 +69,14 @@ class Connection {
   int descriptor_ = -1;
 };
 
-/// A prepared statement. Parameters and columns count from the left; texts that are bound must live
+/// A prepared statement. Parameters and columns are numbered from the left. Bound texts must exist
 /// until the statement has been stepped to its end or reset.
 class Statement {
  public:
   /// Throws SqliteError when `sql` does not parse.
   Statement(const Connection& connection, std::string_view sql);
 
-  /// Binds all parameters anew, in order.
+  /// Binds all parameters, in order.
   template <class... Values>
   Statement& bind(const Values&... values) {
     reset();
@@ -83,7 +84,7 @@ class Statement {
     (bind_one(++at, values), ...);
     return *this;
   }
-  /// Goes to the next row; false at the end. Throws SqliteError.
+  /// Moves to the next row; false at the end. Throws SqliteError.
   bool step();
   /// Binds, steps to the end and resets: for statements without rows.
   template <class... Values>
@@ -112,7 +113,7 @@ class Statement {
   void bind_one(int at, double value) { check(sqlite3_bind_double(handle_.get(), at, value)); }
   void bind_one(int at, std::string_view value);
   void bind_one(int at, std::nullopt_t) { check(sqlite3_bind_null(handle_.get(), at)); }
-  void bind_one(int at, const double* value) {  // none: NULL
+  void bind_one(int at, const double* value) {  // null: NULL
     value != nullptr ? bind_one(at, *value) : bind_one(at, std::nullopt);
   }
   template <class T>

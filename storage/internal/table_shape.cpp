@@ -8,7 +8,8 @@ namespace {
 
 using sqlite::Statement;
 
-/// No control characters but line ends and tabs, and well-formed: what a text of ours is.
+/// Whether a text can be from a store: well-formed UTF-8, with no control characters except line
+/// ends, tabs and ESC.
 bool is_text(const std::string& bytes) {
   for (std::size_t i = 0; i < bytes.size();) {
     const auto byte = static_cast<unsigned char>(bytes[i]);
@@ -32,7 +33,7 @@ bool fits_column(const TableShape::Column& column, const StoredValue& value) {
   switch (value.type) {
     case Type::Null:
       return column.may_be_null;
-    case Type::Integer:  // as SQLite stores whole reals, too
+    case Type::Integer:  // SQLite also stores whole reals in this way
       return column.type == "INTEGER" || column.type == "REAL";
     case Type::Real:
       return column.type == "REAL" && std::isfinite(value.real);
@@ -77,7 +78,7 @@ std::vector<TableShape> table_shapes(const sqlite::Connection& connection) {
   while (table.step()) {
     TableShape shape{
         .name = table.text(0), .tree = table.text(0), .has_rowids = table.integer(1) == 0};
-    // Records of tables without rowids begin with the key's columns.
+    // Records of tables without rowids begin with the columns of the key.
     Statement column(connection,
                      "SELECT name, type, \"notnull\", pk"
                      " FROM pragma_table_info(?1) ORDER BY iif(?2 AND pk > 0, pk, 1000 + cid)");

@@ -9,8 +9,8 @@
 
 namespace swarmsmith {
 
-/// What the records of a table look like. Our tables are STRICT, so that a record tells much about
-/// where it belongs.
+/// The form of a table's records. The tables are STRICT, so that a record shows to which tables it
+/// may belong.
 struct TableShape {
   struct Column {
     std::string name;
@@ -18,22 +18,22 @@ struct TableShape {
     bool may_be_null = false;
   };
   std::string name;
-  /// Under which name sqlite_schema has the tree: the table's, or an index' of it.
+  /// The name in sqlite_schema of the b-tree: the table's, or that of one of its indexes.
   std::string tree;
   bool has_rowids = true;
-  int alias = -1;  ///< the column that is the rowid, and NULL in the record
+  int alias = -1;  ///< index of the column that is the rowid, and NULL in the record; -1 if none
   /// In the order of the record.
   std::vector<Column> columns;
-  std::size_t least_columns = 0;  ///< of a record from before the others were added
+  std::size_t least_columns = 0;  ///< of a record from before the other columns were added
 
-  /// Whether it can be a record of this table.
+  /// Whether the record can be one of this table.
   bool fits(const StoredRecord& record) const;
-  /// INSERT OR IGNORE of so many columns.
+  /// An INSERT OR IGNORE statement with `count` columns.
   std::string insertion(std::size_t count) const;
 };
 
-/// Of all tables of a database of ours, and of the one index that has all of a table: that of the
-/// sources' names, without which no score says where it is from.
+/// The shapes of all tables of a store, and of the one index that has all the data of its table:
+/// the index of the sources' names, without which the source of every score is unknown.
 std::vector<TableShape> table_shapes(const sqlite::Connection& connection);
 
 }  // namespace swarmsmith

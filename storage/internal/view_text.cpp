@@ -25,14 +25,14 @@ std::vector<std::string> rows_of(const Flavour& flavour) {
   return rows;
 }
 
-/// Replaces the one place of `name` in the views.
+/// Replaces the only occurrence of `name` in the views.
 void put(std::string& views, std::string_view name, const std::string& text) {
   const std::size_t at = views.find(name);
   SWARMSMITH_ASSERT(at != std::string::npos, "views.sql has a place for what is made");
   views.replace(at, name.size(), text);
 }
 
-/// Replaces each NAME(COLUMN) by what stored_enums.h says of the purpose in the column.
+/// Replaces each NAME(COLUMN) by the field that stored_enums.h has for the purpose in the column.
 void replace_purposes(std::string& views, std::string_view name,
                       std::string_view PurposeFacts::*field) {
   const std::string call = std::string(name) + "(";
@@ -52,8 +52,8 @@ void replace_purposes(std::string& views, std::string_view name,
 
 }  // namespace
 
-/// The rows of the first flavour stand once for all flavours that have the same. Of two flavours
-/// with one name, of merged campaigns, the first counts.
+/// Flavours with the same rows as the first one share its rows. If two flavours of merged campaigns
+/// have the same name, the first one is used.
 std::string flavour_view(const std::vector<const Flavour*>& own) {
   std::vector<const Flavour*> all(all_flavours().begin(), all_flavours().end());
   for (const Flavour* flavour : own) {

@@ -7,11 +7,11 @@
 
 namespace swarmsmith {
 
-/// The views of schema/views.sql, with the modules in flavour_name that this program knows, and
-/// those of `own`, flavours of the store's campaigns that are not built in.
+/// The views of schema/views.sql. flavour_name has the modules of this program's flavours, and
+/// those of `own`, the flavours of the store's campaigns that are not built in.
 std::string our_views(const std::vector<const Flavour*>& own);
 
-/// The statement of them that makes flavour_name.
+/// The statement that creates flavour_name.
 std::string flavour_view(const std::vector<const Flavour*>& own);
 
 }  // namespace swarmsmith

@@ -18,19 +18,19 @@
 namespace swarmsmith {
 namespace {
 
-/// Everything the child needs, made before it exists: between its birth and its program it may
-/// neither allocate nor lock.
+/// Everything that the child needs, prepared before it exists: until it runs its program it may
+/// neither allocate memory nor lock.
 struct Birth {
   const char* program = nullptr;
   char* const* words = nullptr;
   char* const* shell_words = nullptr;  ///< the same for /bin/sh
-  const char* folder = nullptr;        ///< null: stay
+  const char* folder = nullptr;        ///< null: the current folder
   int input = -1;
   int output = -1;
   int errors = -1;
   pid_t parent = 0;
-  int death_signal = SIGKILL;  ///< what the program gets when its parent dies
-  // Written by the child, in the memory that both share until the program is there.
+  int death_signal = SIGKILL;  ///< the signal to the program when its parent dies
+  // Written by the child, in the memory that both share until the program runs.
   volatile int error = 0;
   const char* volatile step = "";
 };
@@ -45,14 +45,14 @@ struct Birth {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, birth.death_signal);
   if (getppid() != birth.parent) _exit(127);
-  // By the child, before it is the program: a parent that is killed right now cannot say it.
+  // Done by the child before it runs the program, since the parent may be killed at this moment.
   guard(getpid());
   if (birth.folder != nullptr && chdir(birth.folder) != 0) give_up(birth, "its folder");
   if (dup2(birth.input, 0) < 0 || dup2(birth.output, 1) < 0 || dup2(birth.errors, 2) < 0) {
     give_up(birth, "its pipes");
   }
   close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
-  // What this process ignores, its programs would ignore too.
+  // Programs would inherit the signals that this process ignores.
   struct sigaction action = {};
   action.sa_handler = SIG_DFL;
   for (const int number :
@@ -66,16 +66,16 @@ struct Birth {
   give_up(birth, "");
 }
 
-/// vfork: a fork would copy the page tables of all slots' threads, and fail where memory is short.
-/// The child runs on this stack, so that nothing else may happen in this function.
+/// Uses vfork: a fork would copy the page tables of the threads of all slots, and fail when memory
+/// is short. The child runs on this stack, so nothing else may happen in this function.
 [[gnu::noinline]] pid_t begin(Birth& birth) {
   const pid_t pid = vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork): see above
   if (pid == 0)
-    become(birth);  // NOLINT(clang-analyzer-unix.Vfork): it calls async-signal-safe functions alone
+    become(birth);  // NOLINT(clang-analyzer-unix.Vfork): it calls only async-signal-safe functions
   return pid;
 }
 
-/// No handler of this process may run in the child while it shares our memory.
+/// Blocks signals, so that no handler of this process runs in the child while both share memory.
 class SignalsBlocked {
  public:
   SignalsBlocked() {
@@ -91,7 +91,7 @@ class SignalsBlocked {
   sigset_t before_{};
 };
 
-/// Not one of the numbers that become the child's own.
+/// Moves a descriptor above the three numbers that the child needs for its own standard streams.
 Descriptor above_the_standard(int number) {
   Descriptor low(number);
   if (number < 0 || number > 2) return low;
@@ -111,13 +111,14 @@ std::vector<char*> argument_pointers(const std::vector<std::string>& words) {
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);
   for (const std::string& word : words)
-    pointers.push_back(const_cast<char*>(word.c_str()));  // execve's signature; it changes nothing
+    pointers.push_back(
+        const_cast<char*>(word.c_str()));  // execve's signature; it does not change the text
   pointers.push_back(nullptr);
   return pointers;
 }
 
-/// Whether the first line ends as Windows has it: the system then looks for a program of such a
-/// name.
+/// Whether the first line ends in CR as in Windows: the system then looks for a program whose name
+/// ends in CR.
 bool first_line_ends_with_cr(const std::string& program) {
   std::ifstream file(program, std::ios::binary);
   std::array<char, 256> begin{};
@@ -176,7 +177,7 @@ Expected<Child> spawn(const std::string& program, const std::vector<std::string>
               .shell_words = shell_pointers.data(),
               .folder = folder.empty() ? nullptr : folder.c_str(),
               .parent = getpid(),
-              // The guard makes sure of the end.
+              // The guard ensures that the group ends.
               .death_signal = is_guarded() ? SIGTERM : SIGKILL};
   if (input.get() < 0 || !make_pipe(child.output, output) || !make_pipe(child.errors, errors)) {
     birth.error = errno;
@@ -197,7 +198,7 @@ Expected<Child> spawn(const std::string& program, const std::vector<std::string>
     }
     return cannot(program, birth);
   }
-  // Not by its wrapper: glibc 2.36 declares it for C only.
+  // Called directly, since glibc 2.36 declares the wrapper for C only.
   child.ended = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, child.pid, 0)));
   return child;
 }

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// A file descriptor that is closed with the object; -1 for none.
+/// A file descriptor that the destructor closes; -1 for none.
 class Descriptor {
  public:
   explicit Descriptor(int number = -1) : number_(number) {}
@@ -24,16 +24,16 @@ class Descriptor {
   int number_;
 };
 
-/// A program that was started, in a group of its own, and is not reaped.
+/// A program that was started in its own process group, and that has not been reaped.
 struct Child {
   pid_t pid = 0;
-  Descriptor output;  ///< what it writes to standard output, not blocking
+  Descriptor output;  ///< non-blocking; reads its standard output
   Descriptor errors;
   Descriptor ended;  ///< readable when it has ended; none on kernels before 5.3
 };
 
-/// Starts `program` with these words (`words[0]` is the name that it sees) in a folder. Its group
-/// is guarded (base/process/guard.h) until the caller unguards it.
+/// Starts `program` with these arguments (`words[0]` is the name that it sees) in a folder. Its
+/// group is guarded (base/process/guard.h) until the caller unguards it.
 Expected<Child> spawn(const std::string& program, const std::vector<std::string>& words,
                       const std::string& folder);
 
