@@ -65,7 +65,7 @@ Expected<void> check_campaign(const Connection& connection, const fs::path& path
     return unexpected(ErrorKind::Conflict,
                       fmt::format("the store holds {} campaigns and is read-only (merged); name "
                                   "the campaign's own store, or a new one",
-                                  run_here),
+                                  all.size()),
                       path.string());
   }
   const CampaignRow& here = all.front().row;

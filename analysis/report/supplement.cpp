@@ -213,7 +213,7 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
     if (!page) return Unexpected(page.error());
     files.push_back({"dashboard.html", std::move(*page)});
   }
-  files.push_back({"README.md", supplement_readme(files, *asked, store.digest(), options)});
+  files.push_back({"README.md", supplement_readme(files, *asked, store, options)});
   std::ranges::sort(files, {}, &SupplementFile::path);
   return files;
 }

@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <memory>
 
 #include "base/plain_text.h"
@@ -13,15 +15,21 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// `aggregation, grid_exploration x watermelon`
-std::string names_of(const Campaign& campaign) {
-  std::string text;
-  for (const CampaignMission& mission : campaign.missions) {
-    text += (text.empty() ? "" : ", ") + mission.mission.name;
-  }
-  text += " x ";
+/// "aggregation, grid_exploration x watermelon x 10 repetitions". Machines that are not searched
+/// for have one repetition, and a line of their own.
+std::string designs_text(const Campaign& campaign) {
+  std::string missions;
+  for (const CampaignMission& mission : campaign.missions)
+    missions += (missions.empty() ? "" : ", ") + mission.mission.name;
+  std::map<std::int64_t, std::string, std::greater<>> methods;
   for (const Method& method : campaign.methods) {
-    text += (text.ends_with("x ") ? "" : ", ") + method.name;
+    std::string& names = methods[repetitions_of(campaign, method)];
+    names += (names.empty() ? "" : ", ") + method.name;
+  }
+  std::string text;
+  for (const auto& [repetitions, names] : methods) {
+    text += (text.empty() ? "" : "\n             + ") + missions + " x " + names + " x " +
+            counted(repetitions, "repetition");
   }
   return text;
 }
@@ -53,8 +61,7 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
   const std::string megabytes = decimals(plan.disk_bytes / 1e6, "%.1f");
   output.out << "campaign     " << campaign.name << "\n"
              << "store        " << campaign.store.string() << "\n"
-             << "designs      " << plan.designs << " = " << names_of(campaign) << " x "
-             << campaign.repetitions << " repetitions\n"
+             << "designs      " << plan.designs << " = " << designs_text(campaign) << "\n"
              << "experiments  " << budget_text(campaign, plan) << ", and " << grouped(plan.tests)
              << " tests of winners\n"
              << "evaluation   " << evaluation_text(campaign, plan) << "\n";

@@ -6,7 +6,7 @@
 namespace swarmsmith::cli {
 
 std::string program_name() {
-  return "swarmsmith " SWARMSMITH_VERSION " (engine " + std::to_string(kEngineVersion) + ")";
+  return "swarmsmith " SWARMSMITH_VERSION;
 }
 
 CommandRun declare_version(Options&) {

@@ -412,6 +412,7 @@ void check_whole(TableReader& root, const Flavour& flavour) {
 void read_fields(TableReader& table, Flavour& flavour) {
   const std::size_t before = table.complaints();
   const std::vector<std::string> names = flavour_names();
+  const bool has_constants = table.has("base") || table.has("floor");
   if (const auto base = table.choice("base", names)) {
     std::string name = std::move(flavour.name);
     flavour = *find_flavour(*base).value();
@@ -428,6 +429,16 @@ void read_fields(TableReader& table, Flavour& flavour) {
   read_modules(table, "behaviours", flavour.behaviours);
   read_modules(table, "conditions", flavour.conditions);
   if (table.complaints() == before) check_whole(table, flavour);
+  const bool sees_floor = std::ranges::any_of(flavour.conditions, [](const ModuleSpec& spec) {
+    return spec.module == Module::BlackFloor || spec.module == Module::GrayFloor ||
+           spec.module == Module::WhiteFloor;
+  });
+  if (!has_constants && sees_floor) {
+    table.complain(
+        "conditions",
+        "conditions of the floor need `black`, `gray` and `white` in a table [floor], or a "
+        "`base` that has them: without them no floor has a colour");
+  }
 }
 
 /// The visitor that writes the constants as lines.

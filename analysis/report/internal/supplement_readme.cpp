@@ -55,7 +55,7 @@ constexpr Kind kKinds[] = {
      "a program"},
     {"controllers/*.json", "controllers/", ".json", "the same with parameters, modules and scores"},
     {"controllers/*.svg", "controllers/", ".svg", "the same as a drawing"},
-    {"controllers/*.csv", "controllers/", ".csv", "the same of trees and networks, as a table"},
+    {"controllers/*.csv", "controllers/", ".csv", "the same as a table"},
     {"controllers/*.dot", "controllers/", ".dot", "the same for Graphviz"},
     {"controllers/*.tex", "controllers/", ".tex", "the same as TikZ, for \\input"},
     {"figures/*.svg", "figures/", ".svg", "figures, fonts as text"},
@@ -92,11 +92,53 @@ std::string markdown_text(std::string_view text) {
   return marked;
 }
 
+/// The versions of the engine that made the scores, by campaign.
+std::string engine_versions(StoreReader& store) {
+  std::vector<std::string> versions;
+  const auto end = store.query(
+      "SELECT DISTINCT json_extract(deciding, '$.\"engine.version\"') FROM v_campaigns"
+      " WHERE json_extract(deciding, '$.\"engine.version\"') IS NOT NULL ORDER BY 1",
+      {}, [](const std::vector<std::string>&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) { versions.push_back(cells[0].text); });
+  if (!end || versions.empty()) return "";
+  return fmt::format("Version of the engine that made the scores: {}.\n\n",
+                     fmt::join(versions, ", "));
+}
+
+/// What `swarmsmith run` alone does not repeat: commands of users that are part of the answer, and
+/// the rest of campaigns that were not finished.
+std::string exceptions(StoreReader& store) {
+  std::string text;
+  for (const StoredCampaign& campaign : store.campaigns()) {
+    if (campaign.state == "finished" || campaign.state == "imported") continue;
+    text += fmt::format(
+        "The campaign {} was not finished when this supplement was written ({}): the same command "
+        "runs it to its end, so its results go beyond the ones here.\n",
+        markdown_text(campaign.row.name), campaign.state);
+  }
+  std::vector<std::string> given;
+  for (const CommandRow& command : store.commands()) {
+    if (!command.step || !is_of_race(command.kind)) continue;
+    const std::string design = command.design ? to_string(command.design) : "all designs";
+    const std::string more = command.kind == CommandKind::Extend
+                                 ? fmt::format(" by {} experiments", command.budget)
+                                 : "";
+    given.push_back(fmt::format("- `{}` {}{}, after step {} of the race\n", word_of(command.kind),
+                                design, more, *command.step));
+  }
+  if (given.empty()) return text;
+  return text + fmt::format(
+                    "Users changed designs while they ran. The results depend on these commands, "
+                    "and a run "
+                    "without them gives other races and scores:\n\n{}\n",
+                    fmt::join(given, ""));
+}
+
 }  // namespace
 
 std::string supplement_readme(const std::vector<SupplementFile>& files,
-                              const std::vector<CampaignRecord>& campaigns,
-                              const std::string& digest, const SupplementOptions& options) {
+                              const std::vector<CampaignRecord>& campaigns, StoreReader& store,
+                              const SupplementOptions& options) {
   std::vector<std::string> names;
   std::string again;
   for (const CampaignRecord& campaign : campaigns) {
@@ -108,16 +150,25 @@ std::string supplement_readme(const std::vector<SupplementFile>& files,
   std::string text = fmt::format(
       "# Supplement: {}\n\nWritten from a campaign's store by {} with `swarmsmith supplement STORE "
       "-o FOLDER`; the same store gives the same bytes. In every file a higher score is better.\n\n"
-      "## Files\n\n{}\nFiles of controllers and figures have the design's number, mission, method "
+      "{}## Files\n\n{}\nFiles of controllers and figures have the design's number, mission, "
+      "method "
       "and repetition in their names.\n\n## Check\n\n    sha256sum -c SHA256SUMS\n\nThe digest of "
       "the store's answer (`swarmsmith digest STORE`) is `{}`.\n\n",
-      fmt::join(names, ", "), options.program, file_list(files, options), digest);
+      fmt::join(names, ", "), options.program, engine_versions(store), file_list(files, options),
+      store.digest());
   if (again.empty()) return text;
   text += fmt::format(
       "## Again\n\n{}\nruns it again, with any number of workers, on any machine, to the same "
-      "races and scores. `swarmsmith evaluate controllers/NAME.txt` gives a controller's scores of "
-      "the tests again, with `--seeds 1-10` those on other seeds.\n",
+      "races and scores.\n",
       again);
+  text += exceptions(store);
+  const bool is_simulated = std::ranges::any_of(
+      files, [](const SupplementFile& file) { return file.path.starts_with("instances/"); });
+  if (is_simulated)
+    text +=
+        "`swarmsmith evaluate controllers/NAME.txt` gives a controller's scores of the tests "
+        "again, "
+        "with `--seeds 1-10` those on other seeds.\n";
   return text;
 }
 

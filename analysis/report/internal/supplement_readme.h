@@ -9,9 +9,9 @@
 namespace swarmsmith {
 
 /// Describes each file of the supplement, how it was made, how to check it and how to make it
-/// again. `digest` is the digest of the store's answer.
+/// again.
 std::string supplement_readme(const std::vector<SupplementFile>& files,
-                              const std::vector<CampaignRecord>& campaigns,
-                              const std::string& digest, const SupplementOptions& options);
+                              const std::vector<CampaignRecord>& campaigns, StoreReader& store,
+                              const SupplementOptions& options);
 
 }  // namespace swarmsmith

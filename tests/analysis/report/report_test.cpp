@@ -191,6 +191,34 @@ TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
     EXPECT_EQ((*files)[i].text, (*again)[i].text) << paths[i];
 }
 
+TEST_F(ReportTest, ASupplementSaysWhatAnotherRunDoesNotRepeat) {
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 2});
+  campaign.campaign.deciding = R"({"engine.version":"5"})";
+  const auto readme_of = [&](const std::string& name) {
+    const auto files = supplement(*stored(folder / name, campaign),
+                                  {.machine_file = as_is, .program = "p 1", .with_pdfs = false});
+    return std::ranges::find(*files, "README.md", &SupplementFile::path)->text;
+  };
+  const std::string as_it_ran = readme_of("plain.db");
+  EXPECT_THAT(as_it_ran, HasSubstr("the engine that made the scores: 5."));
+  EXPECT_THAT(as_it_ran, Not(HasSubstr("commands")));
+  EXPECT_THAT(as_it_ran, Not(HasSubstr("swarmsmith evaluate"))) << "nothing was simulated";
+  campaign.batches.push_back({CommandRow{.number = 1,
+                                         .kind = CommandKind::Extend,
+                                         .design = DesignId{2},
+                                         .step = 7,
+                                         .budget = 300},
+                              CommandRow{.number = 2, .kind = CommandKind::Pause, .step = 1},
+                              CommandRow{.number = 3, .kind = CommandKind::Cancel}});
+  const std::string extended = readme_of("extended.db");
+  EXPECT_THAT(extended, HasSubstr("a run without them gives other races and scores:\n\n"
+                                  "- `extend` d2 by 300 experiments, after step 7 of the race\n"));
+  EXPECT_THAT(extended, Not(HasSubstr("cancel"))) << "it never took effect";
+  campaign.batches.push_back({CampaignStateRow{"stopped"}});
+  EXPECT_THAT(readme_of("stopped.db"), HasSubstr("was not finished when this supplement was written"
+                                                 " (stopped)"));
+}
+
 TEST_F(ReportTest, ASupplementSaysWhatItsFilesAre) {
   const auto with =
       supplement(*reader, {.machine_file = as_is, .program = "p 1", .with_pdfs = true});

@@ -16,6 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 /// The errors of a flavour's file as "file:line:column: sentence".
 std::vector<std::string> complaints(const std::string& text) {
@@ -101,6 +102,11 @@ TEST(FlavourFile, WhatIsWrongIsSaidWithItsPlace) {
               ElementsAre("mine.toml:3:10: `states` must be from 1 to 16, this is 17"));
   EXPECT_THAT(complaints("[behaviours]\nstop = { number = 0 }\n"),
               ElementsAre(HasSubstr("a flavour needs a table [conditions] with one at least")));
+  const std::string on_nothing =
+      "[behaviours]\nstop = { number = 0 }\n[conditions]\nwhite_floor = { number = 0 }\n";
+  EXPECT_THAT(complaints(on_nothing),
+              ElementsAre(HasSubstr("conditions of the floor need `black`, `gray` and `white`")));
+  EXPECT_THAT(complaints(on_nothing + "[floor]\nwhite = [200, 255]\n"), IsEmpty());
   EXPECT_THAT(complaints(kOnWatermelon + "[floor]\nblack = [30, 20]\n"),
               ElementsAre(HasSubstr("`black` is from [30, 20]; the lower end comes first")));
   EXPECT_THAT(complaints(kOnWatermelon + "[floor]\nlabels = []\n"),
