@@ -66,7 +66,7 @@ ExitCode import_scenario(const ImportOptions& arguments, Output& output) {
   const Campaign campaign = campaign_of(*setup, drawn);
   const std::vector<Error> faults = check_budget(campaign);
   for (const Error& fault : faults)
-    print_error(output, fault);
+    print_error(output, {fault.kind, fault.message, {}});
   if (!faults.empty()) return ExitCode::Usage;
   const std::string text = heading(setup->scenario_file, campaign) + workers_text(campaign);
   if (arguments.out.empty()) {

@@ -265,7 +265,7 @@ std::vector<Error> mixed_names(const Campaign& campaign, const std::string& wher
 void complain_about_races(TableReader& root, Campaign& campaign) {
   auto race = root.table("race");
   for (const Error& error : check_budget(campaign))
-    race->complain("max_experiments", error.message);
+    race->complain(race->has(error.where) ? error.where : "max_experiments", error.message);
 }
 
 }  // namespace
@@ -280,7 +280,6 @@ std::vector<Error> check_budget(const Campaign& campaign) {
     const bool known = error->where.empty() || error->where == "max_experiments";
     const std::string where = known ? "" : error->where + ": ";
     error->message = "method \"" + method.name + "\": " + where + error->message;
-    error->where.clear();
     errors.push_back(std::move(*error));
   }
   return errors;

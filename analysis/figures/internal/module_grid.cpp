@@ -124,7 +124,7 @@ class GridDrawing {
     const bool any = std::ranges::any_of(chart_.blocks, [&](const ModuleChart::Block& block) {
       return std::ranges::any_of(block.columns, lacks);
     });
-    return any ? text + "; -: the method has no such module" : text;
+    return any ? text + "; -: the flavour has no such module" : text;
   }
 
   void draw_grid(Svg& svg, const MissionGrid& grid, double left, double top) const {

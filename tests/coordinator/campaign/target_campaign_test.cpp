@@ -229,10 +229,15 @@ TEST(TargetCampaign, AFlavoursMachinesAreGivenAsTextOfTheGrammar) {
 }
 
 TEST(TargetCampaign, ABudgetIsJudgedWithTheParameterFilesSpace) {
-  EXPECT_THAT(complaints(with_parameters("max_experiments = 50\n")),
-              testing::ElementsAre(HasSubstr("too small")));
-  EXPECT_THAT(complaints(with_parameters("max_experiments = 400\nblock_size = 3\nmu = 15\n")),
-              testing::ElementsAre(HasSubstr("block_size")));
+  const auto small = complaints(with_parameters("max_experiments = 50\n"));
+  EXPECT_THAT(small, testing::ElementsAre(HasSubstr("too small")));
+  const auto blocks =
+      complaints(with_parameters("max_experiments = 400\nblock_size = 3\nmu = 15\n"));
+  ASSERT_THAT(blocks, testing::ElementsAre(HasSubstr("block_size")));
+  const auto line_of = [](const std::string& text) {
+    return std::stoi(text.substr(text.find(':') + 1));
+  };
+  EXPECT_EQ(line_of(blocks[0]), line_of(small[0]) + 1) << blocks[0];
 }
 
 TEST(TargetCampaign, ProgramsAreLookedForBeforeTheyRun) {
