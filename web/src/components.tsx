@@ -193,6 +193,9 @@ interface ConfirmProps {
   /// Carries out the command; the sentence that it returns is shown.
   act: () => Promise<string>;
   danger?: boolean;
+  /// Whether the button is there; true by default. An open dialog stays until it is closed, although
+  /// its own command may take the button away.
+  is_offered?: boolean;
 }
 
 /// `said` is the sentence that says what was done, or the reason why it was not.
@@ -214,9 +217,9 @@ export class Confirm extends Component<ConfirmProps, ConfirmState> {
     }
     this.setState(next);
   };
-  render({ label, title, children, danger }: ConfirmProps, { is_open, is_busy, said, has_failed }: ConfirmState) {
+  render({ label, title, children, danger, is_offered = true }: ConfirmProps, { is_open, is_busy, said, has_failed }: ConfirmState) {
     return <span>
-      <button class={danger ? "danger" : ""} onClick={this.#open}>{label}</button>
+      {is_offered && <button class={danger ? "danger" : ""} onClick={this.#open}>{label}</button>}
       {is_open && <dialog ref={(it: any) => (this.#dialog = it)} aria-label={title} {...{ onClose: this.#closed }}>
         <h2>{title}</h2>
         {said ? <p class={has_failed ? "failure" : "done"} role="status">{said}</p> : [<div>{children}</div>,

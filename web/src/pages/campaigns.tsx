@@ -98,13 +98,12 @@ function campaign_panels(live: Live, campaign: Campaign) {
     .filter(([, n]) => n).map(([word, n]) => `${n} ${word}`).join(", ");
   const paused = designs.filter((one) => one.paused).length;
   const run = <code>swarmsmith run CAMPAIGN.toml --store {store_word(campaign)}</code>;
-  const confirm = (what: string, effect: string) =>
-    <Confirm label={`${what} all`} title={`${what} all designs of ${name}?`} act={() => post(`${c}/${what.toLowerCase()}`)}>{effect}</Confirm>;
+  const confirm = (what: string, effect: string, is_offered: boolean) =>
+    <Confirm label={`${what} all`} is_offered={is_offered} title={`${what} all designs of ${name}?`} act={() => post(`${c}/${what.toLowerCase()}`)}>{effect}</Confirm>;
   return <div class="grid">
     <Panel title={name} wide command={command("ls", "", campaign)} tools={campaign.may_act && [
-      paused < designs.length && !designs.every(is_over) && confirm("Pause",
-        kPause),
-      paused > 0 && confirm("Resume", `${count(paused, "paused design")} will get work again.`)]}>
+      confirm("Pause", kPause, paused < designs.length && !designs.every(is_over)),
+      confirm("Resume", `${count(paused, "paused design")} will get work again.`, paused > 0)]}>
       {pairs("facts", [
         ["state", state_word({ state, paused: paused > 0 && paused === designs.length })],
         ["designs", [whole(designs.length), " ", <small>{states}{paused > 0 && `, ${paused} paused`}</small>]],

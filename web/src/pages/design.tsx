@@ -19,16 +19,16 @@ class Acts extends Component<{ c: string; design: Design }, { more: string }> {
   state = { more: "1000" };
   render({ c, design }: { c: string; design: Design }, { more }: { more: string }) {
     const { id, paused, budget } = design;
-    const act = (what: string, effect: any, { path = what.toLowerCase(), of = what, danger = false } = {}) =>
-      <Confirm label={what} danger={danger} title={`${of} ${id}?`} act={() => post(`${c}/designs/${id}/${path}`)}>{effect}</Confirm>;
+    const act = (what: string, effect: any, { path = what.toLowerCase(), of = what, danger = false, is_offered = true } = {}) =>
+      <Confirm label={what} danger={danger} is_offered={is_offered} title={`${of} ${id}?`} act={() => post(`${c}/designs/${id}/${path}`)}>{effect}</Confirm>;
     const open = !is_over(design);
     return <div class="tools">
-      {open && (paused ? act("Resume", "It will get work again.")
-        : act("Pause", kPause))}
+      {act("Resume", "It will get work again.", { is_offered: open && !!paused })}
+      {act("Pause", kPause, { is_offered: open && !paused })}
       {act("Extend", [<label>Experiments more: <input type="number" min="1" step="1" value={more} onInput={(event) => this.setState({ more: typed(event) })} /></label>,
         <p>From {whole(budget)} to {whole(budget + (Number(more) || 0))}. This cannot be taken back; the command is kept in the store, so that the same answer comes out again.</p>],
         { path: `extend?budget=${Number(more)}`, of: "Extend the budget of" })}
-      {open && act("Cancel", "Its race ends after the step that runs, and the best so far is its winner. This cannot be taken back.", { danger: true })}
+      {act("Cancel", "Its race ends after the step that runs, and the best so far is its winner. This cannot be taken back.", { danger: true, is_offered: open })}
     </div>;
   }
 }
