@@ -34,7 +34,7 @@ class DriverWatch {
   /// Sets the present receivers of commands.
   void set_listeners(std::vector<Listener> listeners, TimePoint now);
 
-  /// A run begins at this time; a run is over.
+  /// Called when a run begins at this time, and when a run is over.
   void begin(TimePoint start);
   void end() { runs_ = false; }
 

@@ -41,7 +41,8 @@ struct NodeSettings {
   /// silent operator.
   Duration driver_hold = std::chrono::milliseconds(300);
   Duration operator_hold = std::chrono::milliseconds(300);
-  Duration operator_gone = std::chrono::seconds(1);  ///< 0: the operator need not stay
+  Duration operator_gone = std::chrono::seconds(1);  ///< the run ends after this silence; 0: the
+                                                     ///< operator may leave
   double least_battery = 0.2;                        ///< charge, 0 to 1
   std::string lock_step_run = "run";                 ///< names of runs in lock-step are this and
                                                      ///< their seed

@@ -47,8 +47,8 @@ bool read_times(std::string_view text, Fault& fault) {
   return fault.from_s >= 0 && fault.to_s > fault.from_s;
 }
 
-/// Sets values to NaN, or changes their number to the length in `fault`; the remaining values are
-/// kept.
+/// Sets values to NaN, or changes their number to the length in `fault`: the first values are kept,
+/// additional ones are infinity.
 void spoil(std::vector<double>& values, const Fault& fault) {
   if (fault.kind == Fault::Kind::Nan) std::fill(values.begin(), values.end(), kNan);
   if (fault.kind == Fault::Kind::Length)

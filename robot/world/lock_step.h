@@ -43,8 +43,8 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
 ///
 /// In numbered lock-step (SensorTopics::senses), a robot's answer contains seed and cycle. In
 /// counted lock-step, on the drivers' topics, the k-th message of each sensor belongs to cycle k,
-/// as does the k-th command, which also contains the controller's state. There no message may be
-/// lost (Keep::All), and readings and commands are rounded to the precision of the messages.
+/// and so does the k-th command, which also contains the controller's state. No message may be lost
+/// there (Keep::All), and readings and commands are rounded to the precision of the messages.
 ///
 /// Unavailable: a robot did not answer; the error gives its name and the cycle. BadInput: the
 /// answer belongs to another question.

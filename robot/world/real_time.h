@@ -28,10 +28,10 @@ struct RealTimeResult {
   int stops_by_rivals = 0;   ///< how often it stopped it because two nodes sent commands
 };
 
-/// Runs the mission by the wall clock, as in a laboratory. Sensors are sent by the robots' clocks
-/// (of the profile), and a command acts from the step of 10 ms in which it arrives, plus the
-/// profile's delays. Each robot has a SimulatedDriver. Before the start the robots stand at their
-/// start poses, and their sensors work. Not reproducible.
+/// Runs the mission by the wall clock, as in a laboratory. Sensor readings are sent at the times of
+/// the robots' clocks (of the profile), and a command acts from the step of 10 ms in which it
+/// arrives, plus the profile's delays. Each robot has a SimulatedDriver. Before the start the
+/// robots stand at their start poses, and their sensors work. Not reproducible.
 Expected<RealTimeResult> run_in_real_time(WorldEnd& end, const SensorTopics& sensors,
                                           const WorldRun& run, const RealTimeOptions& options,
                                           const Recorder& recorder = {});

@@ -11,8 +11,8 @@
 namespace swarmsmith {
 
 /// Low-level behaviours; each state of a machine has one. Each is defined in its own file in
-/// sim/control/behaviours. The constants of their laws are data of the flavour; the sources are
-/// thesis facts, section 6, and rvr-automode facts, section 5.
+/// sim/control/behaviours. Their constants are part of the flavour; the sources are thesis facts,
+/// section 6, and rvr-automode facts, section 5.
 
 Module module_of(const Behaviour& behaviour);
 

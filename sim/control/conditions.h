@@ -12,7 +12,7 @@ namespace swarmsmith {
 
 /// Conditions; each transition of a machine has one. Each is defined in its own file in
 /// sim/control/conditions. A condition gives the probability with which its transition is enabled
-/// in the current cycle; which readings satisfy it is data of the flavour. Sources: thesis facts,
+/// in the current cycle; the flavour defines which readings satisfy it. Sources: thesis facts,
 /// section 7, and rvr-automode facts, section 6.1.
 
 Module module_of(const Condition& condition);

@@ -15,9 +15,9 @@
 namespace swarmsmith {
 
 /// A flavour of the method as plain data: its modules, their numbers in the text grammar, the
-/// ranges of their parameters, and the constants of the modules' laws. The same code runs all
-/// flavours. Each flavour is a file (flavour_file.h); the files of the built-in ones,
-/// sim/control/flavours, give the source of each constant beside it.
+/// ranges of their parameters, and the constants of the modules. The same code runs all flavours.
+/// Each flavour is a file (flavour_file.h); the files of the built-in ones, sim/control/flavours,
+/// give the source of each constant beside it.
 
 /// Upper limits for the number of states of a flavour's machines and of transitions from each
 /// state; the machines of the thesis have at most 4 of each (thesis 5.2).
@@ -81,7 +81,7 @@ struct LabelSpec {
 struct ObstacleModel {
   enum class Reading {
     Linear,           ///< 1 at `near_m` and closer, falling linearly to 0 at `far_m`
-    InverseDistance,  ///< 1/d within [near_m, far_m], 0 outside: blind to obstacles that it touches
+    InverseDistance,  ///< 1/d within [near_m, far_m], 0 outside: obstacles in contact are not seen
     AsSensed,         ///< the robot's sensors do not give a distance but a reading in [0, 1]
   };
   Reading reading = Reading::Linear;
@@ -143,8 +143,8 @@ struct NeighbourModel {
   int repulsion_power = 1;
   double attraction_gain = 1;
   double repulsion_gain = 1;
-  /// Counts are subtracted as unsigned integers, so that more than xi neighbours never enable
-  /// NeighbourCount (epuck facts, 4.5).
+  /// Counts are subtracted as unsigned integers: with more than xi neighbours, NeighbourCount is
+  /// never enabled (epuck facts, 4.5).
   bool unsigned_count = false;
 
   friend bool operator==(const NeighbourModel&, const NeighbourModel&) = default;
@@ -233,8 +233,8 @@ struct Flavour {
   friend bool operator==(const Flavour&, const Flavour&) = default;
 };
 
-/// The built-in flavour for the RVR that follows the thesis as written; gaps in the thesis are
-/// filled as thesis facts, sections 5 to 8 and 14, say.
+/// The built-in flavour for the RVR that follows the thesis as written; its gaps are filled
+/// according to thesis facts, sections 5 to 8 and 14.
 const Flavour& watermelon();
 
 /// The flavour of the program published with the thesis, defects included (rvr-automode facts,

@@ -221,9 +221,9 @@ void read_parameter(TableReader& module, ParameterSpec& parameter) {
   }
 }
 
-/// Switches of a state, a transition or a subtree other than those of its module.
+/// Switches that a state, a transition or a subtree has in addition to those of its module.
 constexpr std::array<std::string_view, 5> kOwnSwitches = {"s", "n", "c", "a", "nchild"};
-/// The parameters of the search for the same.
+/// The same for the parameters of the search.
 constexpr std::array<std::string_view, 13> kOwnSymbols = {
     "S",           "N",        "C",        "A",      "NumStates", "NumConnections",
     "NumSubtrees", "Selector", "Children", "Action", "Condition", "Success",

@@ -76,7 +76,7 @@ class Parser {
     return state;
   }
 
-  /// Sorts the fields of a state's block into those of the state and those of its transitions.
+  /// Sorts the fields of a state's block: some belong to the state, the others to its transitions.
   static std::optional<Error> sort(int index, std::span<const Field> fields, const Token& end,
                                    Block& own, std::vector<Block>& transitions) {
     for (const Field& field : fields) {

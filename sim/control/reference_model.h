@@ -21,13 +21,13 @@ inline constexpr std::string_view kRvrModel = "rvr";
 inline constexpr std::array<int, kProximitySensors> kProximityDirections_deg = {45,   0,   -45, -90,
                                                                                 -135, 180, 135, 90};
 
-/// The first sensors, this many of them, look ahead; the others look to a side or back.
+/// The number of sensors that look ahead; they come first. The others look to a side or back.
 inline constexpr int kFrontSensors = 3;
 
 /// A proximity sensor cannot measure smaller distances: then prox is 1 (thesis 4.2.9).
 inline constexpr double kBlindZone_m = 0.05;
-/// R, the distance at which prox becomes 0, unless a user tunes it: a profile for its sensors, a
-/// flavour for the sensors it expects (thesis facts, section 5).
+/// R, the distance at which prox becomes 0 by default. A profile may set another range for its
+/// sensors, and a flavour for the sensors that it expects (thesis facts, section 5).
 inline constexpr double kProximityRange_m = 0.4;
 /// The highest reading of a light sensor (thesis 4.2.6).
 inline constexpr double kMostLight_lux = 16'000;

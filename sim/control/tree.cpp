@@ -34,7 +34,7 @@ std::optional<Error> need_value(Block& block, std::string_view stem, int value,
                                     ", " + meaning + ": only Maple's trees can be read");
 }
 
-/// The fields of a subtree, sorted into those of the subtree and those of its children.
+/// The fields of a subtree, sorted: some belong to the subtree, the others to its children.
 struct SubtreeBlocks {
   Block own;
   std::vector<Block> children;

@@ -44,7 +44,7 @@ class Decider {
 
   virtual void ask(const Question& question) = 0;
 
-  /// The newest decision for a robot that was not returned before. Nothing: the treads keep their
+  /// The newest decision for a robot, if it was not yet returned. Nothing: the treads keep their
   /// speeds. A decision acts from this instant on, or later by the delays of the profile.
   virtual std::optional<Answer> answer(int robot) = 0;
 

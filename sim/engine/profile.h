@@ -114,9 +114,9 @@ struct Treads {
   double step_mps = 0;  ///< commanded speeds are rounded to multiples of it; 0: no rounding
   /// Each speed is multiplied by 1 + N(0, sd), drawn in each cycle.
   double sd = 0;
-  /// Slip of the treads: the fractions of the commanded way and turn that a robot really moves.
+  /// Slip of the treads: the fractions of the commanded way and turn that a robot actually moves.
   /// They are drawn for the run from N(way, way_sd) and N(turn, turn_sd), and are at least 0. The
-  /// robot's sensors of its own motion measure as if the treads did not slip.
+  /// robot's own motion sensors measure as if the treads did not slip.
   double way = 1;
   double way_sd = 0;
   double turn = 1;

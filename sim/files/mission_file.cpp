@@ -147,7 +147,7 @@ void check_room(TableReader& table, const Mission& mission) {
   }
 }
 
-/// Reads the keys of a mission, which override those of its preset.
+/// Reads the keys of a mission; they override the keys of its preset.
 void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entry) {
   Mission& mission = entry.mission;
   read_duration(table, mission);

@@ -123,7 +123,7 @@ std::string profile_text(const Profile& profile) {
   for (Section& section : profile_sections(profile, root)) {
     const bool is_top = section.header == "[" + root + "]";
     section.header = is_top ? "" : "[" + section.header.substr(root.size() + 2);
-    if (is_top)  // the name is that of the file
+    if (is_top)  // the file gives the name
       std::erase_if(section.lines, [](const SectionLine& line) { return line.key == "name"; });
     text += text_of({section});
   }

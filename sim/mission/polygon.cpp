@@ -176,7 +176,7 @@ std::vector<Point> regular_polygon(int sides, double inradius_m) {
 }
 
 double inradius_of_area(int sides, double area_m2) {
-  // The area of the polygon is that of `sides` triangles of height r and base 2 r tan(pi / sides).
+  // The polygon consists of `sides` triangles of height r and base 2 r tan(pi / sides).
   const SinCos half = sin_cos(kPi / sides);
   return std::sqrt(area_m2 * half.cos / (sides * half.sin));
 }

@@ -2,8 +2,8 @@
 
 namespace swarmsmith {
 
-/// Constants of the RVR's body, drive and sensors for compile time, used in the code that is
-/// optimised for the RVR. `rvr()` of robot.h has the same as a value. SI units.
+/// Compile-time constants of the RVR's body, drive and sensors, for code that is optimised for the
+/// RVR. `rvr()` of robot.h gives the same values. SI units.
 
 /// Side of its square body, and its height (argos3-rvr; rvr-automode facts, section 2).
 inline constexpr double kBodySide_m = 0.286;

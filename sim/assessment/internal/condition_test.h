@@ -12,8 +12,8 @@
 
 namespace swarmsmith::assessment {
 
-/// The reading to which a condition responds: the floor (and which colour, for a colour detector),
-/// the number of neighbours, none, or other readings.
+/// The reading to which a condition responds: the floor (and, for a colour detector, which colour),
+/// the number of neighbours, no reading, or other readings.
 enum class Trigger { Always, Gray, Label, Neighbours, NeighboursInverted, Readings };
 
 /// A condition, with an arena in which it can be satisfied.

@@ -38,8 +38,8 @@ struct Front {
 
 using Turn = TurnAway;
 
-/// Turns away from the strongest reading of the front (thesis facts, section 6.2). `directions` are
-/// those of the sensors, by index.
+/// Turns away from the strongest reading of the front (thesis facts, section 6.2). `directions`
+/// holds the directions of the sensors, by index.
 template <std::size_t N>
 Turn turn_from(std::span<const double, N> proximity, const RingDirections& directions,
                Senses& senses, const Flavour& flavour) {

@@ -20,8 +20,8 @@ struct NeighbourCount {
   static constexpr std::string_view kLabel = "Neighbour count";
   using Reads = NeighbourTally;
 
-  double eta = 0;  ///< the count at which the probability is one half
-  int xi = 0;      ///< the count with probability one half
+  double eta = 0;  ///< steepness, 0..20 in the search
+  int xi = 0;      ///< the count at which the probability is one half
 
   template <class Self, class Visitor>
   static void parameters(Self& self, Visitor& visitor) {

@@ -9,7 +9,7 @@
 
 namespace swarmsmith {
 
-/// The word with which a genome begins, and so the text of a network that is given as a genome.
+/// The first word of a genome; the text of a network that is a genome begins with it.
 inline constexpr std::string_view kGenomeStart = "genomestart";
 
 /// Reads a genome in the format of NEAT 1.2.1, which the programs of EvoStick, CMA-ES and xNES use,

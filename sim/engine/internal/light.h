@@ -30,8 +30,8 @@ double front_light(const World& world, const Arena& arena, int robot);
 /// counts I / d^2 times max(0, cosine of the horizontal angle between the sensor's direction and
 /// the light), and 0 when it is directly above the sensor. Clamped to the same range.
 ///
-/// For LightRing::Reading::Strength, the readings defined in robot.h, without noise and not yet
-/// limited to 1; the direction of a light is then seen from the robot's axis. `room` is working
+/// For LightRing::Reading::Strength it gives the readings defined in robot.h, without noise and not
+/// yet limited to 1; the direction of a light is then seen from the robot's axis. `room` is working
 /// memory.
 LightReadings light_ring(const World& world, const Arena& arena, int robot, std::vector<int>& room);
 

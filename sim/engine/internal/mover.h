@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The properties shared by all robots of a mission, or those of one object.
+/// The properties of all robots of a mission, or of one object.
 struct MoverKind {
   Form form;
   Dynamics dynamics;
@@ -22,8 +22,8 @@ const MoverKind& rvr_kind();
 /// The kind of a robot; equal to `rvr_kind` for a robot with the RVR's body and drive.
 MoverKind robot_kind(const Robot& robot);
 
-/// An object that slides on the floor. Floor friction acts with at most `friction_N`, and with at
-/// most that force times the mean distance of its floor area from its centre as a torque.
+/// An object that slides on the floor. The friction of the floor is at most the force `friction_N`,
+/// and at most the torque of this force times the mean distance of its floor area from its centre.
 /// `friction` is the friction coefficient of its sides.
 MoverKind object_kind(const MovableObject& object, double friction = kFriction);
 

@@ -29,8 +29,8 @@ class Places {
   void update(std::span<const Mover> movers);
 
   /// Calls visit(other) for the movers with index `first` or higher whose centres are at most
-  /// `radius_m` from that of `mover`, in ascending order, except `mover` itself. `movers` must be
-  /// those of the last update; `room` is working memory.
+  /// `radius_m` from the centre of `mover`, in ascending order, except `mover` itself. `movers`
+  /// must be the same as in the last update; `room` is working memory.
   template <class Visit>
   void visit_near(std::span<const Mover> movers, std::size_t mover, double radius_m,
                   std::size_t first, std::vector<int>& room, const Visit& visit) const {

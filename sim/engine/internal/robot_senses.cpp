@@ -302,7 +302,7 @@ void RobotSenses::receive_packets() {
   const auto groups = static_cast<std::uint64_t>(robots + 3) / 4;
   const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * groups;
   for (int group = 0; group < robots; group += 4) {
-    // Most packets are lost, so that the senders' positions are not needed.
+    // Most packets are lost. The loss is decided first, so that few positions are needed.
     std::uint64_t bits = neighbour_misses_.at(first + static_cast<std::uint64_t>(group) / 4).next();
     for (int other = group; other < std::min(group + 4, robots); ++other, bits >>= 16U) {
       if ((bits & 0xffffU) >= lost_below) take(other);

@@ -133,7 +133,8 @@ class RobotSenses final : public SimulatedSenses {
   RayDistances front_m_{};    ///< for front_proximity; only the first values are readings
   std::vector<int> room_;     ///< for indices of movers
   std::vector<int> between_;  ///< a second one, while room_ is in use
-  Point floor_place_;         ///< where the floor was last looked up; floor_ is its colour there
+  Point floor_place_;         ///< place where the floor was last looked up; floor_ is the colour
+                              ///< there
   Rgb floor_;
   std::vector<double> turret_ranges_m_;  ///< the scan in which neighbours are found, if the source
                                          ///< is the lidar

@@ -51,7 +51,8 @@ void ProximityRays::cast(RayDistances& distances) {
   });
 }
 
-/// Handles everything except walls when not all bodies are RVRs. Rays pass above low bodies.
+/// Shortens the rays at all bodies except walls, for worlds where not all bodies are RVRs. Rays
+/// pass above low bodies.
 void ProximityRays::meet_solids(RayDistances& distances) {
   const Body& self = world_->body(robot_);
   const Ring& ring = world_->proximity_ring();
@@ -72,8 +73,7 @@ RayDistances ray_distances(const World& world, int robot, double range_m) {
 
 namespace {
 
-/// A robot at (dx, dy) from `self`, on the axes of the arena; `less_m` is the value of
-/// NeighbourSensor.
+/// A robot at (dx, dy) from `self`, on the axes of the arena; `less_m` as in NeighbourSensor.
 Neighbour neighbour_at(const Body& self, double dx, double dy, double distance2, double less_m) {
   const double distance = std::sqrt(distance2);
   Neighbour neighbour{.distance_m = distance - less_m};

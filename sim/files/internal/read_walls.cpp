@@ -32,7 +32,7 @@ const std::array<WallKey, 9> kWallKeys = {{{"area", {"dodecagon", "regular"}},
                                            {"corners", {"polygon"}},
                                            {"walls", {"polygon"}}}};
 
-/// A key of another shape gets its own complaint, instead of that about unknown keys.
+/// A key of another shape gets its own complaint, instead of the one about unknown keys.
 bool has_keys_of_other_shapes(TableReader& arena, const std::string& shape) {
   bool found = false;
   for (const WallKey& known : kWallKeys) {

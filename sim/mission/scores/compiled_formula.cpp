@@ -101,7 +101,7 @@ std::string message_of(const mu::Parser::exception_type& error,
 
 struct CompiledFormula::Compiled {
   std::string text;
-  std::vector<std::string_view> names;  ///< of literals
+  std::vector<std::string_view> names;  ///< refer to string literals
   std::vector<double> values;
   mu::Parser parser;
 

@@ -28,7 +28,7 @@ class CompiledFormula {
                                           std::span<const std::string_view> names);
 
   bool uses(std::string_view name) const;
-  /// `values` in the order of the names.
+  /// `values` must be in the order of the names.
   double operator()(std::span<const double> values) const;
 
  private:
