@@ -14,7 +14,8 @@ namespace swarmsmith {
 namespace {
 
 constexpr Rgb kRed = {255, 0, 0};
-/// Fractions of a run's cycles: the run is degraded or invalid if more are skipped.
+/// Fractions of a run's cycles. Skipped cycles above them make the run degraded or invalid; held
+/// cycles above kInvalid end it.
 constexpr double kDegraded = 0.01;
 constexpr double kInvalid = 0.05;
 constexpr double kLatestStart_s = 60;  ///< the longest time until an ordered start

@@ -19,7 +19,8 @@ namespace swarmsmith {
 /// The action of a node in a cycle.
 enum class Act {
   Step,  ///< the controller decided
-  Hold,  ///< a needed sensor was silent: the treads stood still, and the controller was not stepped
+  Hold,  ///< a needed sensor or the operator was silent, or the driver did not obey: the treads
+         ///< stood still, and the controller was not stepped
 };
 constexpr auto names_of(Act) {
   return std::to_array<std::string_view>({"step", "hold"});
