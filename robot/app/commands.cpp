@@ -89,7 +89,7 @@ std::vector<std::string> without_ros_words(std::vector<std::string> words) {
       }
       continue;
     }
-    if (word[1] == '_') continue;  // __name, __log and the like are ROS' own
+    if (word[1] == '_') continue;  // __name, __log and the like are for ROS itself
     std::string name = "--" + word.substr(1, at - 1);
     for (char& letter : name)
       letter = letter == '_' ? '-' : letter;

@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// All commands of swarmsmith-robot, in the order of the help. A new one: a file of its own with
-/// its `declare_` function, a line here, an entry in commands.cpp, a section in
+/// All commands of swarmsmith-robot, in the order of the help. A new command needs its own file
+/// with its `declare_` function, a line here, an entry in commands.cpp and a section in
 /// docs/robot-runtime.md.
 std::span<const ProgramCommand> robot_commands();
 
@@ -19,7 +19,8 @@ CommandRun declare_robot_check(Options& options);
 CommandRun declare_robot_replay(Options& options);
 CommandRun declare_robot_version(Options& options);
 
-/// Words in the manner of ROS: `_seed:=7` as `--seed 7`, `ranges:=/teraranger/ranges` as `--topic`.
+/// Replaces arguments in the syntax of ROS: `_seed:=7` by `--seed 7`, `ranges:=/teraranger/ranges`
+/// by `--topic`.
 std::vector<std::string> without_ros_words(std::vector<std::string> words);
 
 /// "swarmsmith-robot 0.1.0".

@@ -49,7 +49,7 @@ Expected<RobotMachine> robot_machine(const std::string& word, std::string flavou
   }
   auto known = find_flavour(flavour, turn_clock.value_or(TurnClock::Cycles), own);
   if (!known) return Unexpected(known.error());
-  // Drivers speak of the RVR's sensors and treads alone (docs/robot-messages.md).
+  // Drivers support only the RVR's sensors and treads (docs/robot-messages.md).
   if (const auto why = misfit(*known, rvr()))
     return bad_input(*why + "; this program drives RVRs", filed->place);
   const auto& mission = filed->head.mission;

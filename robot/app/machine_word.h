@@ -9,14 +9,14 @@
 
 namespace swarmsmith {
 
-/// A controller with the flavour that says what its modules do.
+/// A controller with the flavour of its modules.
 struct RobotMachine {
   Flavour flavour;
   Controller controller;
 };
 
-/// By a word of the command line: a text of the grammar, or a file with one machine. What its head
-/// says of flavour and turn clock needs no flag; flags (empty: not given) win over it.
+/// Reads a controller from an argument of the command line: its text, or a file with one machine.
+/// Flavour and turn clock come from the head of the file, unless flags set them (empty: not given).
 Expected<RobotMachine> robot_machine(const std::string& word, std::string flavour,
                                      std::optional<TurnClock> turn_clock);
 

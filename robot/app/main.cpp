@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
                                  "standard output: the answer could not be written; is the disk "
                                  "full, or the output closed?"));
   } catch (const std::exception& error) {
-    // What the environment refused: a full disk, no memory, a device that goes away.
+    // Errors of the environment: a full disk, no memory, a device that disappears.
     return static_cast<int>(fail(output, ExitCode::Failed, sentence_of_fault(error)));
   }
 }

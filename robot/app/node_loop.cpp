@@ -11,7 +11,8 @@ namespace swarmsmith {
 namespace {
 
 constexpr Duration kTellEvery = std::chrono::milliseconds(500);
-/// Messages that are taken behind a deadline: a flood must not keep the node from its cycle.
+/// Limit of the messages that are taken after a deadline, so that a flood of messages cannot keep
+/// the node from its cycle.
 constexpr int kMostBehindDeadline = 64;
 constexpr Duration kFlush = std::chrono::milliseconds(500);
 constexpr Duration kLastLog = std::chrono::seconds(10);
@@ -41,7 +42,7 @@ NodeLoop::Ending NodeLoop::run() {
   return *ending_;
 }
 
-/// Each time: the wall clock may be stepped.
+/// Set each time, because the wall clock may be stepped.
 void NodeLoop::set_wall_offset(const Now& now) {
   node_.feeds().set_wall_offset(duration_of(now.unix_s) - now.clock.time_since_epoch());
 }
@@ -74,7 +75,8 @@ bool NodeLoop::turn_by_clock() {
 }
 
 bool NodeLoop::turn_in_lock_step() {
-  constexpr Duration kSlice = std::chrono::milliseconds(100);  // `ends` is asked as often
+  constexpr Duration kSlice = std::chrono::milliseconds(100);  // `ends` is called at least this
+                                                               // often
   const TimePoint now = steady_now();
   if (const auto message = end_.receive(now + kSlice)) {
     world_heard_ = steady_now();
@@ -132,18 +134,20 @@ void NodeLoop::hear_order(const OrderMessage& message) {
   const bool was_on = node_.is_on();
   node_.hear(*order, now_on_both_clocks());
   if (!was_on && node_.is_on()) open_log();
-  if (was_on && !node_.is_on()) end_.send(WheelsMessage{});  // not only at the next tick
+  if (was_on && !node_.is_on())
+    end_.send(WheelsMessage{});  // immediately, not only at the next
+                                 // tick
   if (order->kind != Order::Kind::Alive) tell_state(true);
 }
 
 void NodeLoop::answer(const SensesMessage& senses) {
   const Now now = now_on_both_clocks();
-  if (senses.cycle <= 1) {  // a run is over
+  if (senses.cycle <= 1) {  // the previous run is over
     if (senses.cycle == 0) static_cast<void>(node_.answer(senses, now));
     if (senses.cycle == 1 && node_.is_on()) node_.end_run();
     tend_log();
     if (senses.cycle == 0) {
-      end_.send(AnswerMessage{.seed = senses.seed});  // the world waits for it
+      end_.send(AnswerMessage{.seed = senses.seed});  // the world waits for this answer
       finish(node_.phase() == Phase::Failed ? Ending::Wrong : Ending::NoMoreRuns);
       return;
     }
@@ -192,7 +196,8 @@ void NodeLoop::carry_out(Decision decision) {
                          .right_mps = decision.command->right_mps};
     if (options_.pace == Pace::CountedTopics) wheels.state = decision.state;
     end_.send(wheels);
-    if (leds_ != decision.command->leds) {  // after the treads, and not each time: one slow line
+    if (leds_ != decision.command->leds) {  // after the treads, and only on changes: LEDs share one
+                                            // slow line
       LedsMessage message;
       std::size_t i = 0;
       for (const Rgb& led : decision.command->leds) {
@@ -208,7 +213,7 @@ void NodeLoop::carry_out(Decision decision) {
 
 void NodeLoop::open_log() {
   if (!options_.logs) return;
-  if (log_) log_.reset();  // of a run before; writes what is there
+  if (log_) log_.reset();  // of the previous run; writes the remaining rows
   log_is_ending_ = false;
   const NodeState state = node_.state(now_on_both_clocks());
   auto opened = LogWriter::open(log_files_of(*options_.logs, state.run, state.robot), node_.head());

@@ -13,45 +13,45 @@
 
 namespace swarmsmith {
 
-/// The wall clock and the steady one, at one instant.
+/// The wall clock and the steady clock at one instant.
 Now now_on_both_clocks();
 
-/// How a node is driven.
+/// The pace of a node.
 enum class Pace {
-  Clock,         ///< its own clock: on a robot
-  Senses,        ///< a simulated world sends cycles by number, and waits for each answer
+  Clock,         ///< its own clock, as on a robot
+  Senses,        ///< a simulated world sends numbered cycles, and waits for each answer
   CountedTopics  ///< a simulated world sends each sensor's k-th message for cycle k
 };
 
 struct LoopOptions {
   Pace pace = Pace::Clock;
-  /// Where logs go; none: nowhere.
+  /// The folder of the logs; without it no log is written.
   std::optional<std::filesystem::path> logs;
-  /// In lock-step, how long the world may be silent during a run.
+  /// In lock-step, the longest time that the world may be silent during a run.
   Duration patience = std::chrono::seconds(10);
-  /// Is asked often: whether to end, and by what ("by SIGTERM").
+  /// Called often: whether to end, and by what ("by SIGTERM").
   std::function<std::optional<std::string>()> ends = [] { return std::nullopt; };
-  /// What a person should know.
+  /// Called with remarks for the user.
   std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
-/// Carries messages between a node and its transport, on time, and writes its log. Whatever ends
-/// it, the last thing that the treads hear is to stand still.
+/// Passes messages between a node and its transport, on time, and writes its log. Whatever ends the
+/// loop, the last command to the treads is to stand still.
 class NodeLoop {
  public:
   /// All must outlive the loop.
   NodeLoop(RobotNode& node, RobotEnd& end, LoopOptions options);
 
   enum class Ending {
-    Asked,       ///< `ends` said so
-    NoMoreRuns,  ///< the world has no more
-    Lost,        ///< the transport or the world
-    Wrong,       ///< the world sent what cannot be, or the log could not be written
+    Asked,       ///< `ends` requested it
+    NoMoreRuns,  ///< the world has no more runs
+    Lost,        ///< the connection to the transport or the world is lost
+    Wrong,       ///< the world sent invalid messages, or the log could not be written
   };
   Ending run();
 
  private:
-  /// False: the loop is over.
+  /// Returns false when the loop is over.
   bool turn();
   void set_wall_offset(const Now& now);
   bool turn_by_clock();
@@ -74,13 +74,13 @@ class NodeLoop {
   std::optional<Ending> ending_;
   std::unique_ptr<LogWriter> log_;
   bool log_is_ending_ = false;
-  std::optional<Leds> leds_;  ///< as sent
+  std::optional<Leds> leds_;  ///< as last sent
   TimePoint told_at_;
-  std::string told_;  ///< of what was told, the part that must be told when it changes
+  std::string told_;  ///< the part of the last sent state whose changes must be sent immediately
   TimePoint world_heard_;
   std::string last_trouble_;
-  std::string last_refused_;  ///< of texts that are not orders
-  std::string last_unknown_;  ///< keys of orders
+  std::string last_refused_;  ///< the last text that was not an order
+  std::string last_unknown_;  ///< unknown keys of the last order
 };
 
 }  // namespace swarmsmith

@@ -64,7 +64,7 @@ bool hear_states(OperatorEnd& end, TimePoint until,
       continue;
     }
     const Now now = now_on_both_clocks();
-    // As it came, and not as it was taken: it may have waited.
+    // The time when it arrived, not when it was taken: it may have waited.
     const double waited_s = seconds_of(now.clock - message.arrival.at);
     hear(received->robot, *state, {message.arrival.at, now.unix_s - waited_s});
   }

@@ -12,7 +12,7 @@
 namespace swarmsmith {
 namespace {
 
-/// 0: the same commands; 1: others; 2: no log that can be read.
+/// Exits with 0 if the commands are the same, 1 if they differ, 2 if the log cannot be read.
 ExitCode replay(const std::string& file, Output& output) {
   const auto record = read_robot_log(file);
   if (!record) {

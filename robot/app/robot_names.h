@@ -9,11 +9,12 @@
 
 namespace swarmsmith {
 
-/// A robot by a word: `2` is rvr2, any other plain name is itself.
+/// The name of a robot from an argument: `2` is rvr2, any other plain name is used unchanged.
 Expected<std::string> robot_name(const std::string& word);
-/// Index of a robot's random stream by its name: rvr1 has 0; none for a name without a number.
+/// Index of a robot's random stream, from its name: 0 for rvr1; none for a name without a number.
 std::optional<int> index_in_name(const std::string& name);
-/// `1-3` is rvr1, rvr2, rvr3; `rvr1,rvr4` is as it stands.
+/// The names of several robots: `1-3` is rvr1, rvr2, rvr3; the names in `rvr1,rvr4` are used
+/// unchanged.
 Expected<std::vector<std::string>> robot_names(const std::string& words);
 
 }  // namespace swarmsmith

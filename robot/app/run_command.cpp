@@ -139,7 +139,7 @@ Expected<NodeSettings> settings_of(const RunWords& words) {
   return settings;
 }
 
-/// What the node listens to.
+/// The topics to which the node subscribes.
 EndOptions end_options(const RunWords& words, const PerFeed<bool>& needed) {
   const bool by_clock = words.pace == Pace::Clock;
   EndOptions end{.keep = by_clock ? Keep::Newest : Keep::All, .wheels = words.wheels};
@@ -158,8 +158,8 @@ EndOptions end_options(const RunWords& words, const PerFeed<bool>& needed) {
   return end;
 }
 
-/// Puts this thread ahead of all that is not urgent; threads that it starts are as before. Returns
-/// what the log says of it.
+/// Gives this thread priority over everything that is not urgent; threads that it starts are not
+/// affected. Returns the text for the log.
 std::string schedule(const RunWords& words, Output& output) {
   constexpr int kPriority = 20;
   if (words.normal_priority) return "normal priority";

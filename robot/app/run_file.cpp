@@ -16,7 +16,7 @@ std::string file_of(const RunFileWords& words, const std::string& name) {
   return words.write.empty() ? name + ".toml" : words.write;
 }
 
-/// The wall clock's date here.
+/// The local date by the wall clock.
 std::string date_of(double unix_s) {
   const auto seconds = static_cast<std::time_t>(unix_s);
   std::tm parts{};
@@ -24,7 +24,7 @@ std::string date_of(double unix_s) {
   return fmt::format("{:04}-{:02}-{:02}", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday);
 }
 
-/// As seen from the folder of the run log.
+/// The path of a file relative to the folder of the run log.
 std::string seen_from(const std::filesystem::path& file, const std::filesystem::path& run_file) {
   std::error_code failed;
   const auto folder = std::filesystem::absolute(run_file, failed).parent_path();
@@ -34,7 +34,7 @@ std::string seen_from(const std::filesystem::path& file, const std::filesystem::
   return relative.empty() ? file.string() : relative.string();
 }
 
-/// The clock of the video's frames, of the finished recording or of one that goes on.
+/// The clock of the video's frames, from the finished recording or from one in progress.
 std::optional<CameraClock> clock_of(const std::string& video,
                                     const std::function<void(const std::string&)>& note) {
   if (video.empty()) return std::nullopt;

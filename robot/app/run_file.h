@@ -11,19 +11,21 @@
 
 namespace swarmsmith {
 
-/// The run log that `start` writes for the camera's side: words that only a person knows, and what
-/// the run was (robot/log/track_log.h).
+/// The run log that `start` writes for `swarmsmith track`: data from arguments, which only a person
+/// knows, and data of the run (robot/log/track_log.h).
 struct RunFileWords {
   std::string write;  ///< the file; empty: RUN.toml
-  StartedRun run;     ///< what words say of it
+  StartedRun run;     ///< the part that is given by arguments
   std::string logs;
   std::optional<std::int64_t> sync_tag;
   bool none = false;
 
   void declare(Options& options);
-  /// Before the run: the file can be written, and nothing is lost by it.
+  /// Called before the run: checks that the file can be written, and that no other file is lost by
+  /// it.
   Expected<void> check(const std::string& name) const;
-  /// After it. The file's name, empty when none was wanted; `note` gets what a person should know.
+  /// Called after the run. Returns the name of the file, empty if none was requested; `note` gets
+  /// remarks for the user.
   Expected<std::string> write_file(const std::string& name, const RunStarter& starter,
                                    const std::function<void(const std::string&)>& note) const;
 };

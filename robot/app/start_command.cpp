@@ -28,7 +28,7 @@ struct StartWords {
   TransportWords transport;
 };
 
-/// Says what happens as it happens.
+/// Reports the progress of a run.
 class Teller {
  public:
   explicit Teller(Output& output) : output_(&output) {}
@@ -51,8 +51,8 @@ class Teller {
   bool began_ = false;
 };
 
-/// A robot that was not heard to end its run: how it ended is not known here, whatever it said
-/// last.
+/// The message for a robot that did not report the end of its run: its result is unknown, whatever
+/// its last state was.
 std::string unknown(const RolledRobot& robot) {
   return fmt::format(
       "{}: unknown; it was last heard {:.1f} s ago, {} after {} cycles: check the robot and its "
@@ -61,7 +61,7 @@ std::string unknown(const RolledRobot& robot) {
       robot.state->cycle);
 }
 
-/// The verdict of each robot; "unknown" of one that was not heard to end.
+/// The verdict of each robot; "unknown" for a robot that did not report the end of its run.
 JsonObject verdicts_of(const RunStarter& starter) {
   JsonObject verdicts;
   for (const RolledRobot& robot : starter.roll().robots()) {

@@ -22,7 +22,7 @@ struct StopWords {
   TransportWords transport;
 };
 
-/// Tells them again and again until each stands, whatever run it is.
+/// Repeats the order to stop until each robot stands still, whatever its run is.
 ExitCode stop(const StopWords& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());

@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A handler runs in whatever thread the signal finds.
+/// Atomic, because a signal handler may run in any thread.
 std::atomic<int> asked_by = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 

@@ -30,7 +30,7 @@ Expected<std::optional<ServerKeys>> server_keys(const std::string& folder) {
   return ServerKeys{.secret_key = pair->secret_key, .clients = list->clients()};
 }
 
-/// The places in the order of the names.
+/// The addresses of the robots in the order of their names.
 Expected<std::vector<RobotPlace>> places_of(const TransportWords& words,
                                             const std::vector<std::string>& names) {
   std::map<std::string, std::string> endpoints;

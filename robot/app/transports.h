@@ -10,25 +10,26 @@
 
 namespace swarmsmith {
 
-/// The words that say how messages travel.
+/// The arguments that select a transport.
 struct TransportWords {
   std::string transport;  ///< `ros` or `zeromq`
   std::vector<std::string> topics;
-  // Of ZeroMQ:
-  std::string bind;             ///< where a node listens
-  std::string keys;             ///< folder with a node's keys
-  std::vector<std::string> at;  ///< NAME=tcp://HOST:PORT of each robot
-  std::string key;              ///< file with a client's key
+  // For ZeroMQ:
+  std::string bind;             ///< address at which a node listens
+  std::string keys;             ///< folder with the keys of a node
+  std::vector<std::string> at;  ///< NAME=tcp://HOST:PORT for each robot
+  std::string key;              ///< file with the key of a client
 
   void declare_node(Options& options);
-  /// Of worlds and operators.
+  /// For worlds and operators.
   void declare_client(Options& options);
 
  private:
   void declare(Options& options);
 };
 
-/// The ends by those words. `end` is what both ends must agree on. Where a node listens is printed.
+/// Opens the ends selected by these arguments. `end` holds the options on which both ends must
+/// agree. The address at which a node listens is printed.
 Expected<std::unique_ptr<RobotEnd>> open_robot_end(const TransportWords& words,
                                                    const std::string& name, const EndOptions& end,
                                                    Output& output);
@@ -38,10 +39,10 @@ Expected<std::unique_ptr<WorldEnd>> open_world_end(const TransportWords& words,
 Expected<std::unique_ptr<OperatorEnd>> open_operator_end(const TransportWords& words,
                                                          const std::vector<std::string>& names);
 
-/// `--wheels`.
+/// Declares `--wheels`.
 void declare_wheels(Options& options, WheelsForm& wheels);
 
-/// What to exit with when an end cannot be opened: 2 for wrong words, else 5.
+/// Exit code when an end cannot be opened: 2 for wrong arguments, otherwise 5.
 ExitCode exit_code_of_transport(const Error& error);
 
 }  // namespace swarmsmith

@@ -52,7 +52,7 @@ struct WorldWords {
   TransportWords transport;
 };
 
-/// Everything that the words name, read and checked.
+/// All inputs that the arguments name, read and checked.
 struct Plan {
   Mission mission;
   Profile profile;
@@ -64,7 +64,7 @@ struct Plan {
   std::vector<Fault> faults;
 };
 
-/// The last of what is wrong with a file is the error, the others are printed.
+/// Returns the last error in a file; prints the others.
 Unexpected complain(const std::vector<Error>& errors, const char* option, Output& output) {
   for (std::size_t i = 0; i + 1 < errors.size(); ++i)
     print_error(output, errors[i]);
@@ -224,7 +224,7 @@ std::string digest_text(std::uint64_t digest) {
   return buffer;
 }
 
-/// When the run of a node that is armed or runs begins, by this host's steady clock.
+/// The start of a node's run, if the node is armed or running, by this host's steady clock.
 std::optional<TimePoint> start_of(const StateMessage& message) {
   const auto state = parse_state(message.text);
   if (!state || (state->phase != Phase::Armed && state->phase != Phase::Running)) return {};
@@ -260,7 +260,7 @@ class World {
   }
 
  private:
-  /// So that people see what a node may wait for in vain.
+  /// The topics that the world sends, so that users see when a node waits for others in vain.
   std::string sent() const {
     const SensorTopics& sensors = plan_.end.sensors;
     if (sensors.senses) return "senses";

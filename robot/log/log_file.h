@@ -14,13 +14,13 @@ struct LogFiles {
   std::filesystem::path head;
 };
 
-/// Those of a robot's run, in a folder.
+/// The files of a robot's run in a folder.
 LogFiles log_files_of(const std::filesystem::path& folder, const std::string& run,
                       const std::string& robot);
-/// The same by the name of either; one that ends in neither is an error.
+/// The same from the name of either file; a name with another ending is an error.
 Expected<LogFiles> log_files_at(const std::filesystem::path& either);
 
-/// Reads a log by the name of either file, or everything that is wrong with it.
+/// Reads a log, given the name of either file; all errors in it are returned.
 OrErrors<RunRecord> read_robot_log(const std::filesystem::path& either);
 
 }  // namespace swarmsmith

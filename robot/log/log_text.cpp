@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kKind = "robot log";
 
-/// The columns of a row in their order, each with its name.
+/// Visits the columns of a row in their order, each with its name.
 template <class Row, class Field>
 void visit_columns(Row& row, Field& field) {
   field("cycle", row.cycle);
@@ -88,7 +88,7 @@ bool read_leds(std::string_view text, Leds& leds) {
   return true;
 }
 
-/// Writes a row's columns one after the other.
+/// Writes the columns of a row one after another.
 class RowWriter {
  public:
   template <class Value>
@@ -99,7 +99,7 @@ class RowWriter {
   std::string take() { return std::move(text_) + "\n"; }
 
  private:
-  /// The shortest digits that read back to the same bits, -0 and infinities as well.
+  /// The shortest digits that read back to the same bits, including -0 and infinities.
   void add(double value) {
     std::array<char, 32> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
@@ -121,7 +121,7 @@ class RowWriter {
       numbers.insert(numbers.end(), {one.distance_m, one.direction_x, one.direction_y});
     add_numbers(numbers);
   }
-  /// In one field, with blanks between.
+  /// In one field, separated by blanks.
   void add_numbers(std::span<const double> numbers) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       if (i > 0) text_ += ' ';
@@ -132,7 +132,7 @@ class RowWriter {
   std::string text_;
 };
 
-/// Reads a row's fields one after the other, and remembers the first one that is wrong.
+/// Reads the fields of a row one after another, and remembers the first error.
 class RowReader {
  public:
   explicit RowReader(const std::vector<std::string>& cells) : cells_(&cells) {}
@@ -147,7 +147,7 @@ class RowReader {
   const std::string& error() const { return error_; }
 
  private:
-  /// Each returns what was wanted, or nothing when it is right.
+  /// Each function returns a description of the expected text, or nothing if the cell is valid.
   static std::string read(std::string_view cell, double& value) {
     const auto number = number_in(cell);
     value = number.value_or(0);
@@ -211,8 +211,8 @@ constexpr double kMost = std::numeric_limits<double>::max();
 constexpr Limits<double> kPositive = {0, kMost};
 constexpr Limits<double> kAny = {-kMost, kMost};
 
-/// The fields of a head in their order, each with its key. `maybe`: those that need not be there,
-/// with whether they are written.
+/// Visits the fields of a head in their order, each with its key. `maybe` is for optional fields;
+/// its first argument tells whether the field is written.
 template <class Head, class Field>
 void visit_head(Head& head, Field& field) {
   field("run", head.run);
@@ -282,7 +282,7 @@ class HeadReader {
  public:
   explicit HeadReader(TableReader& table) : table_(&table) {}
 
-  /// A key that must be there.
+  /// A required key.
   void operator()(const char* key, auto& value, const auto&... limits) {
     if (!table_->has(key))
       table_->complain(key, table_->name() + " needs `" + std::string(key) + "`");
@@ -371,7 +371,7 @@ OrErrors<std::vector<LogRow>> parse_log_rows(std::string_view text, const std::s
     return tl::unexpected(
         std::vector<Error>{{ErrorKind::BadInput, message, file + ":" + std::to_string(line)}});
   };
-  text = text.substr(0, text.rfind('\n') + 1);  // nothing of a row that was being written
+  text = text.substr(0, text.rfind('\n') + 1);  // drops a row that was being written
   CsvReader reader(text);
   if (reader.at_end() || reader.next() != columns()) {
     return wrong(1,

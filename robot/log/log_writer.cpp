@@ -69,7 +69,7 @@ LogWriter::~LogWriter() {
 
 void LogWriter::add(LogRow row) {
   added_.push_back(std::move(row));
-  // The writing thread holds the lock for moments, but may lose the processor in one.
+  // The writing thread holds the lock only briefly, but may be suspended meanwhile.
   std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock.owns_lock()) return;
   std::move(added_.begin(), added_.end(), std::back_inserter(rows_));

@@ -13,44 +13,44 @@
 
 namespace swarmsmith {
 
-/// Writes the log of one run from a thread of its own, each second: adding a row never waits
-/// for the disk. What cannot be written is kept and tried again.
+/// Writes the log of one run every second in its own thread, so that adding a row never waits for
+/// the disk. Rows that cannot be written are kept and tried again.
 class LogWriter {
  public:
-  /// Makes both files. Conflict: one of them exists. Unavailable: they cannot be made.
+  /// Creates both files. Conflict: one of them exists. Unavailable: they cannot be created.
   static Expected<std::unique_ptr<LogWriter>> open(const LogFiles& files, const LogHead& head);
-  /// Writes what is there, once, and waits for that.
+  /// Tries once more to write the remaining rows, and waits for that.
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// By one thread.
+  /// Call it from one thread only.
   void add(LogRow row);
-  /// There are no more rows; the head gets its end. Does not wait.
+  /// Ends the rows, and gives the head its end. Does not wait.
   void finish(const LogHead& head);
-  /// After `finish`: nothing is written any more, all of it or what could be.
+  /// After `finish`: whether writing is over, either completely or as far as possible.
   bool is_done() const;
-  /// Waits for that, until then at most.
+  /// Waits for that, at most until then.
   void wait_done(TimePoint until);
-  /// Why the last rows could not be written; empty: they were.
+  /// The reason why the last rows could not be written; empty: they were written.
   std::string trouble() const;
 
  private:
   LogWriter(LogFiles files, int descriptor);
   void run();
-  /// Whether all of it is in the file.
+  /// Returns whether all rows are in the file.
   bool write_out();
 
   const LogFiles files_;
   const int descriptor_;
-  std::vector<LogRow> added_;  ///< of the adding thread, while it could not pass them on
-  std::string bytes_;          ///< of the writing thread: not written yet
+  std::vector<LogRow> added_;  ///< of the adding thread: rows not yet passed on
+  std::string bytes_;          ///< of the writing thread: text not yet written
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable ended_;
   std::vector<LogRow> rows_;
-  std::string end_;  ///< the head's last text
+  std::string end_;  ///< the final text of the head
   bool finishing_ = false;
   bool done_ = false;
   std::string trouble_;

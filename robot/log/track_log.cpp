@@ -14,7 +14,7 @@ constexpr std::string_view kLackOfClock =
     "it is not from a camera that `swarmsmith track record` films on this host; name the start by "
     "`track score --start`, or cover a tag";
 
-/// Why the start time is unknown; empty if it is known.
+/// The reason why the start time is unknown; empty if it is known.
 std::string doubt_of(const StartedRun& run, const std::optional<CameraClock>& clock) {
   if (run.video.empty()) return "no video was named";
   if (!clock) return "the video's clock is not known";
@@ -52,7 +52,7 @@ Section head_of(const StartedRun& run) {
 Section section_of(const NodeReport& node) {
   Section section{"[[robot]]", "robot.", {{"name", quoted_text(node.robot)}}};
   if (!node.log.empty()) section.lines.push_back({"log", quoted_text(node.log)});
-  // What it did since it was last heard of is unknown.
+  // Its behaviour after its last state is unknown, so its verdict cannot be better.
   const RunVerdict verdict = node.verdict.value_or(RunVerdict::Invalid);
   section.lines.push_back({"verdict", quoted_text(name_of(verdict))});
   std::vector<std::string> reasons = node.reasons;
@@ -66,7 +66,7 @@ Section section_of(const NodeReport& node) {
 }  // namespace
 
 Expected<CameraClock> camera_clock_of(std::string_view sidecar, const std::string& file) {
-  // The last row may be in the making.
+  // The last row may be incomplete.
   const auto table = parse_csv(sidecar.substr(0, sidecar.rfind('\n') + 1), file);
   if (!table) return Unexpected(table.error().front());
   if (!table->column("time_s")) {

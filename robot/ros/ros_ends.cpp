@@ -22,12 +22,12 @@ constexpr const char* kOrderTopic = "/swarm/order";
 
 constexpr std::uint32_t kUnlimited = 0;
 
-/// Sensors and commands: the newest, or all of them.
+/// Queue size for sensors and commands: the newest message, or all.
 std::uint32_t queue_of(Keep keep) {
   return keep == Keep::All ? kUnlimited : 1;
 }
 
-/// Of commands: with one of each sender, so that a second one is noticed.
+/// Queue size for commands: room for one of each sender, so that a second sender is noticed.
 std::uint32_t command_queue_of(Keep keep) {
   return keep == Keep::All ? kUnlimited : 10;
 }
@@ -64,7 +64,7 @@ bool has_ranges_apart(const SensorTopics& sensors) {
   return sensors.ranges && sensors.ranges_apart && !sensors.senses;
 }
 
-/// Calls `use` with an empty message of each sensor that the topics name, but for ranges apart.
+/// Calls `use` with an empty message of each sensor topic, except separate ranges.
 template <class Use>
 void for_each_sensor(const SensorTopics& sensors, const Use& use) {
   if (sensors.senses) return use(SensesMessage());
@@ -83,13 +83,13 @@ RosType<Ours> ros_message(const Ours& ours) {
   return theirs;
 }
 
-/// What a node of ROS listens to.
+/// The subscriptions of a ROS node.
 struct Node {
-  std::set<std::string> complained;  ///< topics; of the thread of callbacks
+  std::set<std::string> complained;  ///< topics; used only by the thread of callbacks
   std::unique_ptr<Session> session;
   std::vector<ros::Subscriber> subscribers;
 
-  /// The callback gets (message, name of who sent it).
+  /// The callback gets the message and the name of its sender.
   template <class Message, class Callback>
   void subscribe(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue,
                  Callback callback) {
@@ -101,7 +101,7 @@ struct Node {
                                                     ros::TransportHints().tcpNoDelay()));
   }
 
-  /// `put` gets what comes as our message, and troubles: of each topic the first one.
+  /// `put` gets the converted messages, and troubles: only the first one of each topic.
   template <class Ours, class Theirs = RosType<Ours>, class Put>
   void listen(ros::NodeHandle& handle, const std::string& topic, std::uint32_t queue, Put put) {
     const std::string whole_topic = handle.resolveName(topic);
@@ -119,7 +119,7 @@ struct Node {
   }
 };
 
-/// Messages leave at once, in threads of ROS; there is nothing in its interface to wait for.
+/// ROS sends messages immediately, in its own threads; its interface has no way to wait for them.
 void give_time(Duration most) {
   constexpr Duration kEnough = std::chrono::milliseconds(50);
   std::this_thread::sleep_for(std::min(most, kEnough));
@@ -166,8 +166,8 @@ class RosRobotEnd final : public RobotEnd {
   explicit RosRobotEnd(const EndOptions& options)
       : options_(options), inbox_(std::make_shared<Inbox<ToRobot>>(options.keep)) {}
 
-  /// A world sends its first question when this node listens to it; it may be that its own
-  /// connection for answers does not stand yet. Then the answer waits for it.
+  /// A world sends its first question when this node is subscribed to it, but its own connection
+  /// for answers may not yet exist. Then the answer waits for the connection.
   template <class Message>
   void publish_or_keep(const ros::Publisher& publisher, const Message& message) {
     if (options_.keep != Keep::All) return publisher.publish(message);
@@ -191,7 +191,7 @@ class RosRobotEnd final : public RobotEnd {
           watch_->left(one.getSubscriberName());
         });
   }
-  /// Commands go out, and those of others to the same treads come in.
+  /// Publishes commands, and subscribes to the commands of others to the same treads.
   template <class Message>
   void advertise_wheels(ros::NodeHandle& handle) {
     const std::string topic = wheels_topic(options_.wheels);
@@ -225,7 +225,8 @@ class RosRobotEnd final : public RobotEnd {
       });
     }
     leds_ = handle.advertise<RosType<LedsMessage>>(LedsMessage::kTopic, queue);
-    // The last one: who sees it at the master sees all the others (RosWorldEnd::connected).
+    // Advertised last: if the master knows this topic, it also knows all others
+    // (RosWorldEnd::connected).
     state_ = handle.advertise<RosType<StateMessage>>(StateMessage::kTopic, 10, true);
     node_.session->spin(node_.subscribers);
   }
@@ -250,7 +251,7 @@ class RosRobotEnd final : public RobotEnd {
                    [this](TroubleMessage trouble) { inbox_->put(std::move(trouble)); }});
   }
 
-  /// Its first words may come before its connection.
+  /// Tolerates a few messages, because the first ones may come before its connection.
   void not_believed(const std::string& sender) {
     constexpr int kMany = 20;
     if (++deaf_[sender] != kMany) return;
@@ -259,7 +260,7 @@ class RosRobotEnd final : public RobotEnd {
                                false});
   }
 
-  /// Eight topics become one message, whenever the last sensor of a round has come.
+  /// Combines eight topics into one message, whenever the last sensor of a round has arrived.
   void take_range(std::size_t sensor, const sensor_msgs::Range& range) {
     ranges_.ranges_m[sensor] = double{range.range};
     came_.insert(sensor);
@@ -271,18 +272,19 @@ class RosRobotEnd final : public RobotEnd {
 
   EndOptions options_;
   std::shared_ptr<Inbox<ToRobot>> inbox_;
-  /// Messages of those who drive and do not listen; of the thread of callbacks.
+  /// Number of messages of each sender that reports speeds but does not receive them; used only by
+  /// the thread of callbacks.
   std::map<std::string, int> deaf_;
   std::mutex early_mutex_;
-  std::function<void()> early_;  ///< sends what had no receiver yet
-  RangesMessage ranges_;         ///< with ranges_apart
+  std::function<void()> early_;  ///< sends the message that had no receiver yet
+  RangesMessage ranges_;         ///< for ranges_apart
   std::set<std::size_t> came_;
   ros::Publisher wheels_;
   ros::Publisher leds_;
   ros::Publisher state_;
   ros::Publisher answers_;
   std::unique_ptr<ListenerWatch> watch_;
-  Node node_;  ///< ends first: its callbacks use the others
+  Node node_;  ///< destroyed first, because its callbacks use the other members
 };
 
 class RosWorldEnd final : public WorldEnd {
@@ -319,8 +321,8 @@ class RosWorldEnd final : public WorldEnd {
         message);
   }
 
-  /// The node advertises its state last, so that the master then knows all topics that it listens
-  /// to; each must have its connection.
+  /// The node advertises its state last, so that the master then knows all its subscriptions; each
+  /// of them must have a connection.
   bool connected(std::size_t robot) override {
     const Topics& topics = topics_[robot];
     if (topics.state.getNumPublishers() == 0) return false;
@@ -421,7 +423,7 @@ class RosOperatorEnd final : public OperatorEnd {
   std::optional<Received> receive(TimePoint until) override { return inbox_->take(until); }
   void send(const OrderMessage& order) override { orders_.publish(ros_message(order)); }
 
-  /// The operator's own subscriptions come first, one a robot.
+  /// The operator's own subscriptions, one per robot, must be connected first.
   bool connected(std::size_t robot) override {
     SystemState state;
     if (node_.subscribers[robot].getNumPublishers() == 0 || !ask_system_state(state)) return false;

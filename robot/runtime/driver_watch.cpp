@@ -11,13 +11,14 @@
 namespace swarmsmith {
 namespace {
 
-/// Drivers round: the published one to 1 cm/s.
+/// Tolerance for rounding in drivers: the published one rounds to 1 cm/s.
 constexpr double kSame_mps = 0.011;
-/// Commands are remembered for so long, to tell a slow driver from one that obeys another.
+/// How long commands are remembered, to distinguish a slow driver from one that obeys another
+/// sender.
 constexpr Duration kMemory = std::chrono::seconds(10);
-/// Others that come within so long of each other are one.
+/// Signs of another sender within this time of each other belong to one spell.
 constexpr Duration kSpell = std::chrono::seconds(3);
-/// A driver says several times a second what it does.
+/// A driver reports its speeds several times a second.
 constexpr Duration kUsualSilence = std::chrono::milliseconds(250);
 
 constexpr Duration kDelayStep = std::chrono::milliseconds(50);
@@ -113,14 +114,14 @@ std::ptrdiff_t DriverWatch::prompt_delays() const {
   return std::min<std::ptrdiff_t>(delays, Follows::kDelays);
 }
 
-/// When its changes follow those that were commanded so much better.
+/// The reason, if the driver's changes follow earlier commands much better than prompt ones.
 std::string DriverWatch::why_behind(const Follows& follows) const {
   constexpr double kSure = 0.9;
   SWARMSMITH_ASSERT(follows.changes <= follows.most, "older changes are forgotten");
   if (follows.changes < follows.least) return {};
   const auto& share = follows.share;
   const auto late = share.begin() + prompt_delays();
-  if (late == share.end()) return {};  // that late is not remembered
+  if (late == share.end()) return {};  // such long delays are not remembered
   const double prompt = *std::max_element(share.begin(), late);
   const auto best = std::max_element(late, share.end());
   if (*best < kSure || *best - prompt < follows.better) return {};
@@ -138,8 +139,8 @@ std::string DriverWatch::why_behind() const {
 void DriverWatch::note_obeyed(const DrivenMessage& driven, TimePoint until) {
   const bool stands = driven.left_mps == 0 && driven.right_mps == 0;
   const bool is_late = driven.arrival.at - until > limits_.hold;
-  // A prompt act before does not excuse one that is late. However late it is, it counts the same,
-  // so that one alone does not end the run.
+  // An earlier prompt report does not excuse a late one. All late reports count the same, however
+  // late they are, so that a single one does not end the run.
   obeyed_ = is_late && !stands ? std::min(obeyed_, driven.arrival.at - limits_.hold - kDelayStep)
                                : std::max(obeyed_, until);
   if (stands) stopped_ = driven.arrival.at;
@@ -155,7 +156,7 @@ void DriverWatch::note_said(const DrivenMessage& driven) {
 }
 
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint now) const {
-  // The last command whose time is over; all like it count.
+  // Finds the last command whose time is over; all commands with the same speeds count.
   const Commanded* last = nullptr;
   TimePoint until = TimePoint::max();
   for (auto command = commands_.rbegin(); command != commands_.rend(); ++command) {
@@ -180,7 +181,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_not_done(TimePoint n
     sum += commands_[i + 1].from - command.from;
     ++times;
   }
-  // One that looks five times a second misses half of what is commanded for 0.1 s.
+  // A driver that reads commands five times a second misses half of the commands that last 0.1 s.
   if (sum <= limits_.give_up) return std::nullopt;
   return Trouble{
       changed_, true, sum > 2 * limits_.give_up,
@@ -295,7 +296,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of(const std::optional<
   return Trouble{spell->first, true, ends, spell->name + what};
 }
 
-/// Of drivers that do not say what they do.
+/// For drivers that do not report their speeds.
 std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoint now) const {
   const auto since = [&](TimePoint time, std::string what) {
     return Trouble{time, now - time > limits_.hold, now - time > limits_.give_up, std::move(what)};
@@ -304,7 +305,7 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_silent_kind(TimePoin
     return since(std::max(listened_, obeyed_), "no driver listens to the speeds of the treads");
   if (replaced_ < listened_)
     return since(replaced_, "another one came in place of the driver: " + names_of(listeners_));
-  // Of clients that say that they drive each may be the one; others may as well only listen.
+  // Any client that declares itself a driver may be the real one; others may be mere listeners.
   TimePoint heard{};
   for (const Listener& one : lively_) {
     heard = std::max(heard, one.heard);
@@ -322,7 +323,8 @@ std::optional<DriverWatch::Trouble> DriverWatch::trouble_of_driver(TimePoint now
   } else if (held_ && stopped_ > *held_) {
     held_.reset();
   } else if (held_) {
-    // A late driver says now and then what fits. Whether it follows is seen by the stop.
+    // The reports of a late driver sometimes match by chance. Only the stop shows whether it
+    // follows.
     trouble = Trouble{obeyed_, true, false, why_not_obeyed(now)};
   }
   return trouble;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFullColor = 255;
 
-/// "proximity sensor 3 (-90 degrees)".
+/// A name such as "proximity sensor 3 (-90 degrees)".
 std::string proximity_sensor(std::size_t index) {
   return "proximity sensor " + std::to_string(index) + " (" +
          std::to_string(kProximityDirections_deg[index]) + " degrees)";

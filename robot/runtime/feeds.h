@@ -12,21 +12,23 @@
 
 namespace swarmsmith {
 
-/// How a robot's drivers measure.
+/// How to interpret the measurements of a robot's drivers.
 struct FeedSettings {
-  double proximity_range_m = kProximityRange_m;  ///< what is farther is nothing
-  double color_scale = 255;                      ///< the driver's value of full colour
+  double proximity_range_m = kProximityRange_m;  ///< farther obstacles are ignored
+  double color_scale = 255;                      ///< the driver's value for full colour
   std::vector<Rgb> labels;    ///< the floor's colours (`nearest_label`); empty: no labeler
-  double lidar_turn_rad = 0;  ///< of the lidar's zero from the robot's head, counter-clockwise
+  double lidar_turn_rad = 0;  ///< angle of the lidar's zero from the robot's head,
+                              ///< counter-clockwise
 };
 
-/// Drivers' messages as readings, each with the time at which it came. A message that is of no use,
-/// such as one with a sensor that is off, counts as none: its feed grows old, and says why.
+/// Converts drivers' messages to readings, each with the time of its arrival. An unusable message,
+/// such as one with a sensor that is off, is ignored: its feed gets older, and keeps the reason.
 class Feeds {
  public:
   explicit Feeds(FeedSettings settings) : settings_(std::move(settings)) {}
 
-  /// -infinity below 0.05 m, +infinity beyond the range. NaN is a missing sensor, not a free way.
+  /// -infinity below 0.05 m, +infinity beyond the range. NaN means a missing sensor, not a free
+  /// path.
   void hear(const RangesMessage& message);
   void hear(const GroundColorMessage& message);
   void hear(const ScanMessage& message);
@@ -36,16 +38,17 @@ class Feeds {
   /// The last readings of all feeds.
   const Sensed& sensed() const { return sensed_; }
   const RawColor& ground_as_sent() const { return ground_as_sent_; }
-  /// How many usable messages came.
+  /// The number of usable messages so far.
   std::int64_t heard(Feed feed) const { return of(feed).heard; }
-  /// Since the last usable message; nothing before the first.
+  /// Time since the last usable message; nothing before the first.
   std::optional<Duration> age(Feed feed, TimePoint now) const;
-  /// The last usable message's arrival by the wall clock minus its stamp; nothing without a stamp.
+  /// Arrival of the last usable message by the wall clock, minus its stamp; nothing without a
+  /// stamp.
   std::optional<double> stamp_ms(Feed feed) const { return of(feed).stamp_ms; }
-  /// What is wrong with the newest message, when it is of no use; else empty.
+  /// The reason why the newest message is unusable; empty if it is usable.
   const std::string& trouble(Feed feed) const { return of(feed).trouble; }
 
-  /// The wall clock minus the steady one, for stamps.
+  /// Sets the difference of the wall clock minus the steady one, for stamps.
   void set_wall_offset(Duration offset) { wall_offset_ = offset; }
 
  private:

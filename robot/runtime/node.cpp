@@ -14,10 +14,11 @@ namespace swarmsmith {
 namespace {
 
 constexpr Rgb kRed = {255, 0, 0};
-/// Of a run's cycles: more that are skipped, and what the run is then.
+/// Fractions of a run's cycles. Skipped cycles above them make the run degraded or invalid; held
+/// cycles above kInvalid end it.
 constexpr double kDegraded = 0.01;
 constexpr double kInvalid = 0.05;
-constexpr double kLatestStart_s = 60;  ///< a start is at most so far ahead
+constexpr double kLatestStart_s = 60;  ///< the longest time until an ordered start
 
 double milliseconds_of(Duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
@@ -27,7 +28,7 @@ double clock_s(TimePoint time) {
   return seconds_of(time.time_since_epoch());
 }
 
-/// By the other clock.
+/// The instant of the steady clock for a time of the wall clock.
 TimePoint clock_at(double unix_s, const Now& now) {
   return now.clock + Duration(std::llround(1e9 * (unix_s - now.unix_s)));
 }
@@ -47,8 +48,8 @@ std::string digest_of(const std::string& machine, const Flavour& flavour) {
   return digest.hex();
 }
 
-/// Seconds since the start at cycle k of a simulated world with a steady clock: as the engine
-/// counts, in steps of 10 ms.
+/// Seconds since the start at cycle k of a simulated world with a steady clock, computed as in the
+/// engine, in steps of 10 ms.
 double counted_time_s(std::int64_t cycle) {
   constexpr double kStep_s = 0.01;
   constexpr std::int64_t kSteps = 10;
@@ -126,7 +127,7 @@ void RobotNode::hear(const BatteryMessage& message) {
 
 void RobotNode::hear(const Order& order, const Now& now) {
   if (!door_.is_for_this_robot(order)) return;
-  // Comes often: says nothing of the last real order.
+  // It comes often, and does not replace the last real order.
   if (order.kind == Order::Kind::Alive) return hear_alive(order, now);
   auto refusal = door_.refusal(order, now.unix_s);
   order_ = order.id;
@@ -138,10 +139,11 @@ void RobotNode::hear(const Order& order, const Now& now) {
   }
 }
 
-/// An old one, held up on its way or played back, says nothing. How old it is follows from the
-/// steady clock here: a wall clock may be stepped in a run, and neither run nor operator is gone.
+/// An old message, delayed or replayed, does not count. Its age is measured with the steady clock
+/// here, because a wall clock may be stepped during a run without any effect on the run or the
+/// operator.
 void RobotNode::hear_alive(const Order& order, const Now& now) {
-  constexpr double kDrift = 1e-3;  // of two clocks
+  constexpr double kDrift = 1e-3;  // drift of the two clocks
   if (!is_on() || order.run != run_) return;
   const double since_s = seconds_of(now.clock - operator_clock_.clock);
   const double ahead_s = order.sent_unix_s - (operator_clock_.unix_s + since_s);
@@ -158,7 +160,7 @@ void RobotNode::hear_alive(const Order& order, const Now& now) {
   if (ahead_s > 0) operator_clock_ = {now.clock, order.sent_unix_s};
 }
 
-/// The run follows the steady clock. The log names a step of the other one.
+/// The run follows the steady clock. A step of the wall clock is recorded in the log.
 void RobotNode::look_at_clock(const Now& now) {
   constexpr double kStep_s = 0.1;
   const double ahead_s = now.unix_s - clock_s(now.clock);
@@ -230,7 +232,7 @@ void RobotNode::arm(const Order& order, const Now& now) {
     clock_offset_s_ = offset->second;
 }
 
-/// `start`: when the run begins.
+/// `start` is the time when the run begins.
 void RobotNode::begin(std::string run, std::int64_t seed, std::int64_t cycles, const Now& start) {
   run_ = std::move(run);
   runs_.insert(run_);
@@ -274,7 +276,7 @@ Decision RobotNode::tick(const Now& now) {
   return decision;
 }
 
-/// Whatever was decided and why: what leaves for the treads. NaN is not a speed within the limit.
+/// Checks the command to the treads, whatever its origin. NaN fails the check, too.
 void RobotNode::check_treads(const Command& command) const {
   const auto is_within = [this](double mps) { return std::fabs(mps) <= settings_.max_mps; };
   SWARMSMITH_ASSERT(is_within(command.left_mps) && is_within(command.right_mps),
@@ -297,7 +299,7 @@ Decision RobotNode::decide(const Now& now) {
   last_tick_ = now.clock;
   if (phase_ == Phase::Idle || phase_ == Phase::Ready) {
     phase_ = not_ready(now.clock).empty() ? Phase::Ready : Phase::Idle;
-    return {};  // the robot may be carried or driven to its place
+    return {};  // the robot may be carried or driven to its start position
   }
   if (is_on() && settings_.operator_gone > Duration::zero() &&
       now.clock - operator_heard_ > settings_.operator_gone) {
@@ -372,7 +374,7 @@ void RobotNode::count(Standing& standing, const std::string& what, TimePoint sin
   standing.at_s = time_s(since);
 }
 
-/// A cycle that is not stepped; too many of them end the run.
+/// Counts a cycle without a step; too many of them end the run.
 Decision RobotNode::hold_and_count(const ControlClock::Beat& beat, const Now& now,
                                    const std::string& why) {
   ++held_;

@@ -19,51 +19,54 @@
 
 namespace swarmsmith {
 
-/// What a node obeys besides its controller.
+/// The settings of a node, in addition to its controller.
 struct NodeSettings {
   std::string robot = "rvr1";
   int robot_index = 0;    ///< of the random stream, from 0
-  std::int64_t seed = 1;  ///< when the order to start has none
+  std::int64_t seed = 1;  ///< if the order to start has none
   Duration period = std::chrono::milliseconds(100);
-  double max_mps = 0.35;  ///< speeds are cut to this
+  double max_mps = 0.35;  ///< speeds are limited to this
   FeedSettings feeds;
-  /// Needed besides what the controller asks for.
+  /// Feeds that are needed in addition to those that the controller uses.
   PerFeed<bool> also_needed{};
-  /// A needed feed that is silent for longer is counted,
+  /// When a needed feed is silent for longer than this, it is counted.
   Duration late = std::chrono::milliseconds(150);
-  /// for longer stops the treads,
+  /// When a needed feed is silent for longer than this, the treads stop. Including one period, they
+  /// stand within 0.5 s.
   PerFeed<Duration> hold = {std::chrono::milliseconds(300), std::chrono::milliseconds(350),
                             std::chrono::milliseconds(350), std::chrono::milliseconds(350)};
-  /// and for longer ends the run. With a period on top the treads stand within 0.5 s.
+  /// When a needed feed is silent for longer than this, the run ends.
   Duration give_up = std::chrono::seconds(1);
-  /// The same of a driver that does not obey (it ends the run after `give_up`), and of the
-  /// operator.
+  /// The same limits for a driver that does not obey (it ends the run after `give_up`), and for a
+  /// silent operator.
   Duration driver_hold = std::chrono::milliseconds(300);
   Duration operator_hold = std::chrono::milliseconds(300);
-  Duration operator_gone = std::chrono::seconds(1);  ///< 0: the operator may go
+  Duration operator_gone = std::chrono::seconds(1);  ///< the run ends after this silence; 0: the
+                                                     ///< operator may leave
   double least_battery = 0.2;                        ///< charge, 0 to 1
-  std::string lock_step_run = "run";                 ///< runs in lock-step are this and their seed
+  std::string lock_step_run = "run";                 ///< names of runs in lock-step are this and
+                                                     ///< their seed
   std::string version;
   std::string scheduling;
   std::string host;
   std::vector<std::pair<std::string, std::string>> topics;  ///< for the log
 };
 
-/// Both clocks at one instant.
+/// Both clocks at the same instant.
 struct Now {
   TimePoint clock;
   double unix_s = 0;
 };
 
-/// What the treads and LEDs of a robot shall do, and what is written down.
+/// The next command to treads and LEDs of a robot, and the row for the log.
 struct Decision {
-  std::optional<Command> command;  ///< to be sent now
+  std::optional<Command> command;  ///< to be sent immediately
   int state = 0;                   ///< of the controller
   std::optional<LogRow> row;
 };
 
-/// A robot's node without its surroundings: it hears messages, is ticked at its deadlines, and says
-/// what to do. Whatever goes wrong, the treads stand still.
+/// The logic of a robot's node without transport and clock: it receives messages, is called at its
+/// deadlines, and decides. On any error the treads stand still.
 class RobotNode {
  public:
   /// `controller` and `flavour` must outlive the node.
@@ -72,40 +75,40 @@ class RobotNode {
   Feeds& feeds() { return feeds_; }
   const Feeds& feeds() const { return feeds_; }
   void hear(const BatteryMessage& message);
-  /// Obeys or refuses; a start that is obeyed arms the node.
+  /// Obeys or refuses an order; a start that is obeyed arms the node.
   void hear(const Order& order, const Now& now);
-  /// Text that is not an order.
+  /// Called for a text that is not an order.
   void refuse_order(std::string why) { refused_ = std::move(why); }
 
-  /// Why no run can start, by name of what is missing; empty: it can.
+  /// The reasons why a run cannot start, each with the name of the missing part; empty: it can.
   std::vector<std::string> not_ready(TimePoint now) const;
-  /// What is known of who drives the treads.
+  /// The observations of the treads' driver.
   DriverWatch& driver() { return driver_; }
 
-  /// When the node wants to be ticked next, at the latest.
+  /// The latest time at which `tick` must be called next.
   TimePoint next_tick(TimePoint now) const;
   /// Begins, steps, holds or ends the run.
   Decision tick(const Now& now);
 
-  /// Lock-step: one cycle of a simulated world, in order from 1; cycle 1 begins a run, cycle 0 ends
-  /// the last one. BadInput: a cycle that is not the next.
+  /// Numbered lock-step: one cycle of a simulated world, in order from 1; cycle 1 begins a run,
+  /// cycle 0 ends the last one. BadInput: the cycle is not the next one.
   Expected<Decision> answer(const SensesMessage& senses, const Now& now);
-  /// Lock-step by counting: begins the run, and then steps one cycle with what the feeds have.
+  /// Counted lock-step: begins the run, and then steps one cycle with the readings of the feeds.
   void begin_counted(const Now& now);
   Decision step_counted(const Now& now);
 
-  /// The world has ended the run.
+  /// Called when the world has ended the run.
   void end_run() { end(Phase::Ended); }
-  /// Ends whatever is going on; what a signal or a closed pipe does.
+  /// Ends any activity; called for a signal or a closed pipe.
   void stop(const std::string& why);
   void fail(const std::string& why);
-  /// A run that was armed does not begin: why its log cannot be written, say.
+  /// Cancels an armed run, for example because its log cannot be written.
   void disarm(const std::string& why);
-  /// Whether a run's log is being written.
+  /// Sets whether the log of a run is being written.
   void set_log_open(bool open) { log_open_ = open; }
-  /// The log cannot be written at present, or (empty) it can again.
+  /// Sets the reason why the log cannot be written at present; empty: it can be written again.
   void set_log_trouble(std::string why);
-  /// The run is over and its log is not whole.
+  /// Called when the run is over and its log is incomplete.
   void lose_log();
 
   Phase phase() const { return phase_; }
@@ -113,7 +116,7 @@ class RobotNode {
   bool is_on() const { return phase_ == Phase::Armed || phase_ == Phase::Running; }
   bool was_killed() const { return killed_; }
   NodeState state(const Now& now) const;
-  /// The head of the run's log; without an end while it goes on.
+  /// The head of the run's log; during the run it has no end.
   LogHead head() const;
   std::int64_t cycle() const { return cycle_; }
   const PerFeed<bool>& needed() const { return needed_; }
@@ -130,7 +133,7 @@ class RobotNode {
   Decision run_cycle(const ControlClock::Beat& beat, const Now& now);
   Decision hold(std::int64_t cycle, Duration late, const Now& now, std::string why);
   LogRow row_of(std::int64_t cycle, Duration late, const Now& now) const;
-  /// The needed feed that is silent for longest, measured in what it may be.
+  /// The needed feed that is silent for longest, relative to its limit.
   struct Silence {
     Feed feed = Feed::Proximity;
     Duration age{};
@@ -138,12 +141,12 @@ class RobotNode {
   std::optional<Silence> silence(TimePoint now, const PerFeed<Duration>& limits) const;
   std::string told(const Silence& silence) const;
   double time_s(TimePoint at) const;
-  /// Why the treads stand, besides sensors: the driver, or the operator.
+  /// A reason, other than sensors, for the treads to stand still: the driver, or the operator.
   struct Standing {
     std::string what;
     std::int64_t cycles = 0;
     Duration longest{};
-    double at_s = 0;  ///< when that began
+    double at_s = 0;  ///< when the longest one began
   };
   void check_treads(const Command& command) const;
   void count(Standing& standing, const std::string& what, TimePoint since, const Now& now);
@@ -170,7 +173,7 @@ class RobotNode {
   std::string log_trouble_;
   bool log_open_ = false;
 
-  // Of the present or the last run.
+  // State of the present or the last run.
   std::string run_;
   bool lock_step_ = false;
   std::int64_t seed_ = 1;
@@ -180,11 +183,12 @@ class RobotNode {
   std::optional<ControlClock> clock_;
   std::optional<ControlSoftware> control_;
   TimePoint operator_heard_;
-  Now operator_clock_;            ///< a steady instant here, and the operator's wall clock then
-  double operator_behind_s_ = 0;  ///< so much too early the last order was dated, if it was
+  Now operator_clock_;            ///< an instant of the steady clock here, with the operator's wall
+                                  ///< clock at that instant
+  double operator_behind_s_ = 0;  ///< how much too early the last order was dated, or 0
   double wall_ahead_s_ = 0;       ///< the wall clock minus the steady one
   std::vector<std::string> clock_steps_;
-  std::string new_step_;  ///< for the log's next row
+  std::string new_step_;  ///< for the next row of the log
   Sensed sensed_;
   std::int64_t cycle_ = 0;
   std::int64_t stepped_ = 0;
@@ -197,15 +201,15 @@ class RobotNode {
   bool driver_failed_ = false;
   PerFeed<std::int64_t> held_for_{};
   PerFeed<Duration> longest_silence_{};
-  std::string broken_;  ///< why it failed or was stopped
+  std::string broken_;  ///< why the run failed or was stopped
   TimePoint last_tick_;
-  std::set<std::string, std::less<>> runs_;  ///< that began here
+  std::set<std::string, std::less<>> runs_;  ///< runs that began here
   bool log_lost_ = false;
   RunVerdict verdict_ = RunVerdict::Valid;
   std::vector<std::string> reasons_;
 };
 
-/// Speeds within the limit, or nothing when one of them is not a finite number.
+/// Speeds cut to the limit; nothing when one of them is not finite.
 std::optional<Command> within_limits(const Command& command, double max_mps);
 
 }  // namespace swarmsmith

@@ -11,15 +11,15 @@
 
 namespace swarmsmith {
 
-/// Where a node is in its life:
+/// The phases of a node:
 ///
 ///     idle <-> ready -> armed -> running -> ended | stopped | failed -> (a new start) armed
 enum class Phase {
-  Idle,   ///< something is missing: `not_ready` says what
-  Ready,  ///< may be started
-  Armed,  ///< waits for the agreed instant
+  Idle,   ///< a requirement is missing: see `not_ready`
+  Ready,  ///< a run can be started
+  Armed,  ///< waits for the agreed start
   Running,
-  Ended,    ///< the run's time was over
+  Ended,    ///< the run's time is over
   Stopped,  ///< by an order or a signal
   Failed,
 };
@@ -28,11 +28,11 @@ constexpr auto names_of(Phase) {
       {"idle", "ready", "armed", "running", "ended", "stopped", "failed"});
 }
 
-/// What a node says of itself, twice a second and whenever it changes.
+/// The state that a node sends twice a second and whenever it changes.
 struct NodeState {
   std::string robot;
   Phase phase = Phase::Idle;
-  std::string run;  ///< the present or the last one
+  std::string run;  ///< the present or the last run
   std::int64_t cycle = 0;
   std::string machine_digest;
   std::string flavour;
@@ -41,27 +41,29 @@ struct NodeState {
   std::int64_t robot_index = 0;
   std::string version;
   std::string scheduling;
-  /// Age of a needed feed's last message; -1 before the first, none of a feed that is not needed.
+  /// Age of the last message of a needed feed; -1 before the first; none for a feed that is not
+  /// needed.
   PerFeed<std::optional<double>> age_ms;
   std::int64_t held = 0;
   std::int64_t skipped = 0;
   std::optional<double> battery;  ///< charge, 0 to 1
   RunVerdict verdict = RunVerdict::Valid;
   std::vector<std::string> reasons;    ///< of the verdict
-  std::vector<std::string> not_ready;  ///< why no run can start
+  std::vector<std::string> not_ready;  ///< reasons why a run cannot start
   std::string log_trouble;             ///< why the log cannot be written
-  bool log_open = false;               ///< the run's log is not whole yet
+  bool log_open = false;               ///< the run's log is not yet complete
   std::string order;                   ///< id of the last order
-  std::string refused;                 ///< why that one was refused; empty: obeyed
-  double start_unix_s = 0;             ///< the run's agreed instant, by the wall clock
+  std::string refused;                 ///< the reason why that order was refused; empty: obeyed
+  double start_unix_s = 0;             ///< the agreed start of the run, by the wall clock
   double clock_s = 0;                  ///< CLOCK_MONOTONIC
   double unix_s = 0;                   ///< wall clock
 
   friend bool operator==(const NodeState&, const NodeState&) = default;
 };
 
-/// The fields in the order in which they travel, each with its key. What is missing when a state is
-/// read, or of another type, keeps its default: so do fields that came later.
+/// Visits the fields in the order in which they are sent, each with its key. Fields that are
+/// missing in a state, or have another type, keep their defaults; so do fields that were added
+/// later.
 template <class AnyState, class Field>
 void visit_state_fields(AnyState& state, Field& field) {
   field("robot", state.robot);
@@ -91,7 +93,7 @@ void visit_state_fields(AnyState& state, Field& field) {
   field("unix_s", state.unix_s);
 }
 
-/// As JSON, and back.
+/// Converts a state to JSON, and back.
 std::string state_text(const NodeState& state);
 Expected<NodeState> parse_state(std::string_view text);
 

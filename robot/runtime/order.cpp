@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Clocks that differ by more start nothing together.
+/// If clocks differ by more than this, robots cannot start at the same time.
 constexpr double kMostAhead_s = 1;
 
 Expected<void> check_start(const Order& order) {
@@ -41,7 +41,7 @@ Expected<Order> parse_order(std::string_view text) {
   visit_order_fields(order, reader);
   if (!reader.error().empty()) return bad_input(reader.error());
   if (order.id.empty()) return bad_input("an order needs an `id`");
-  // Its robots and its purpose must not be guessed.
+  // The robots and the seed of an order must not be guessed.
   if (json.contains("robots") &&
       (!json["robots"].is_array() || json["robots"].size() != order.robots.size()))
     return bad_input("`robots` is a list of names");

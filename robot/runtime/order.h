@@ -13,29 +13,30 @@
 
 namespace swarmsmith {
 
-/// What an operator tells the robots. Orders only begin and end runs: control software hears
-/// nothing of them.
+/// An operator's order to the robots. Orders only begin and end runs: control software does not
+/// receive them.
 struct Order {
   enum class Kind {
     Start,
     Stop,   ///< ends the run
-    Kill,   ///< ends it, and nothing starts any more until the node is restarted
-    Alive,  ///< the operator is there; comes several times a second during a run
-    Echo,   ///< asks for the state at once
+    Kill,   ///< ends the run; the node then refuses to start until it is restarted
+    Alive,  ///< sign of life of the operator, several times a second during a run
+    Echo,   ///< requests the state immediately
   };
   Kind kind = Kind::Echo;
-  std::string id;                    ///< of the order, never used twice
-  std::string run;                   ///< "run07"; of Stop empty: whatever run it is
-  std::vector<std::string> robots;   ///< the robots it is for; empty: all
+  std::string id;                    ///< of the order; never reused
+  std::string run;                   ///< "run07"; if empty, Stop is for any run
+  std::vector<std::string> robots;   ///< the robots that must obey it; empty: all
   double sent_unix_s = 0;            ///< by the operator's clock
-  double valid_s = 1;                ///< who gets it later refuses it
+  double valid_s = 1;                ///< seconds after which it is refused
   double at_unix_s = 0;              ///< of Start: the agreed instant
-  double seconds = 0;                ///< of Start: how long the run lasts
-  std::optional<std::int64_t> seed;  ///< of Start: in place of the nodes' own
-  /// Of Start: a robot's wall clock minus the operator's, as measured.
+  double seconds = 0;                ///< of Start: duration of the run
+  std::optional<std::int64_t> seed;  ///< of Start: replaces the nodes' own seeds
+  /// Of Start: each robot's wall clock minus the operator's, as measured.
   std::map<std::string, double> clock_offsets_s;
 
-  std::string unknown_keys;  ///< of an order that was read: "`sed`"; empty: it has none
+  std::string unknown_keys;  ///< unknown keys in an order that was read, such as "`sed`"; empty:
+                             ///< none
 
   friend bool operator==(const Order&, const Order&) = default;
 };
@@ -44,7 +45,8 @@ constexpr auto names_of(Order::Kind) {
   return std::to_array<std::string_view>({"start", "stop", "kill", "alive", "echo"});
 }
 
-/// The fields in the order in which they travel, each with its key and whether it is written.
+/// Visits the fields in the order in which they are sent, each with its key and whether it is
+/// written.
 template <class AnyOrder, class Field>
 void visit_order_fields(AnyOrder& order, Field& field) {
   const bool starts = order.kind == Order::Kind::Start;
@@ -60,20 +62,20 @@ void visit_order_fields(AnyOrder& order, Field& field) {
   field("clock_offsets_s", order.clock_offsets_s, starts);
 }
 
-/// As JSON, and back.
+/// Converts an order to JSON, and back.
 std::string order_text(const Order& order);
 Expected<Order> parse_order(std::string_view text);
 
-/// Whether a name of a run or a robot can be part of a file's name: letters, digits, - and _.
+/// Whether the name of a run or a robot can be part of a file name: letters, digits, - and _.
 bool is_plain_name(std::string_view name);
 
-/// Which orders a node may obey at all, whatever it is doing.
+/// Decides which orders a node may obey at all, in any phase.
 class OrderDoor {
  public:
   explicit OrderDoor(std::string robot) : robot_(std::move(robot)) {}
 
-  /// Why not: too old, from a clock far ahead, or a start that was given before. What stops a robot
-  /// is obeyed however old it is. Remembers starts.
+  /// The reason for refusing the order: it is too old, comes from a clock far ahead, or is a start
+  /// that was given before. Orders that stop a robot are obeyed at any age. Remembers starts.
   std::optional<std::string> refusal(const Order& order, double now_unix_s);
   bool is_for_this_robot(const Order& order) const;
 

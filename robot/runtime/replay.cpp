@@ -17,7 +17,7 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// How the row differs from what the controller did; empty when it does not.
+/// The difference between the row and the controller's decision; empty when there is none.
 std::string difference(const LogRow& row, const Command& command, int state, std::uint64_t drawn) {
   if (!same_bits(row.command.left_mps, command.left_mps) ||
       !same_bits(row.command.right_mps, command.right_mps)) {
@@ -83,7 +83,7 @@ Expected<LogReplay> replay_log(const RunRecord& record) {
     ++replay.stepped;
     SWARMSMITH_ASSERT(replay.stepped <= row.cycle, "a controller steps at most once a cycle");
     const auto sent = within_limits(wanted, head.max_mps);
-    if (!sent) continue;  // the node stopped, and says so
+    if (!sent) continue;  // the node stopped, and has logged this
     const std::string what = difference(row, *sent, control.state(), control.drawn());
     if (what.empty()) continue;
     replay.difference = {row.cycle, what};

@@ -9,10 +9,10 @@
 
 namespace swarmsmith {
 
-/// What stepping the controller through a log's readings gave.
+/// The result of stepping the controller through the readings of a log.
 struct LogReplay {
-  std::int64_t stepped = 0;  ///< cycles
-  /// The first cycle that differs, and how.
+  std::int64_t stepped = 0;  ///< number of cycles
+  /// The first cycle that differs, with a description.
   struct Difference {
     std::int64_t cycle = 0;
     std::string what;
@@ -20,8 +20,8 @@ struct LogReplay {
   std::optional<Difference> difference;
 };
 
-/// Steps the controller of the log's head through the readings of its rows and compares commands,
-/// states and random numbers bit by bit. BadInput: a head whose controller or flavour cannot be
+/// Steps the controller in the log's head through the readings of the rows, and compares commands,
+/// states and random numbers bit by bit. BadInput: the controller or flavour in the head cannot be
 /// read.
 Expected<LogReplay> replay_log(const RunRecord& record);
 

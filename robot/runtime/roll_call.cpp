@@ -23,7 +23,7 @@ bool is_on(Phase phase) {
   return phase == Phase::Armed || phase == Phase::Running;
 }
 
-/// "rvr2: has the seed 3, and rvr1 has 1".
+/// Adds a complaint such as "rvr2: has the seed 3, and rvr1 has 1".
 void compare(const RolledRobot& robot, const RolledRobot& first, const char* what,
              const std::string& its, const std::string& of_first,
              std::vector<std::string>& complaints) {
@@ -66,7 +66,7 @@ std::optional<Order> RollCall::tick(const Now& now) {
   echo.kind = Order::Kind::Echo;
   echo.id = fmt::format("{}-echo{}", id_, round_);
   echo.sent_unix_s = now.unix_s;
-  echo.valid_s = 10;  // also a clock that is far off is to be measured
+  echo.valid_s = 10;  // long, so that a clock that is far off can be measured, too
   return echo;
 }
 
@@ -184,7 +184,7 @@ std::vector<Order> RunStarter::tick(const Now& now) {
       if (!roll_.is_complete() && !late) break;
       complaints_ = roll_.complaints(now.clock);
       if (!complaints_.empty()) {
-        if (late) stage_ = Stage::Over;  // until then it may get ready
+        if (late) stage_ = Stage::Over;  // until then robots may become ready
         break;
       }
       Order start = order(Order::Kind::Start, now);
@@ -234,7 +234,7 @@ std::vector<Order> RunStarter::tick(const Now& now) {
 
 void RunStarter::watch(const Now& now) {
   for (const RolledRobot& robot : roll_.robots()) {
-    // The roll call has no complaint of a robot only when that robot has answered.
+    // The roll call has no complaint about a robot only if that robot has answered.
     SWARMSMITH_ASSERT(robot.state, "a robot that was started has sent its state");
     if (robot.state->order == start_id_ && !robot.state->refused.empty())
       return give_up(robot.name + ": refuses the start: " + robot.state->refused, now);

@@ -11,35 +11,36 @@
 
 namespace swarmsmith {
 
-/// A robot as the operator knows it.
+/// The operator's information on a robot.
 struct RolledRobot {
   std::string name;
-  std::optional<NodeState> state;  ///< the last one; none: never heard
+  std::optional<NodeState> state;  ///< the last one; none: no message yet
   TimePoint heard;
-  int echoes = 0;  ///< answered
-  /// Its wall clock minus the operator's, by the quickest echo, which took so long.
+  int echoes = 0;  ///< number of answered echoes
+  /// Its wall clock minus the operator's, measured by the fastest echo, and the duration of that
+  /// echo.
   double offset_s = 0;
   double echo_s = 0;
 };
 
-/// Asks all robots for their states and measures their clocks by ten echoes each. Pure.
+/// Asks all robots for their states and measures their clocks with ten echoes each. Pure.
 class RollCall {
  public:
   static constexpr int kEchoes = 10;
   static constexpr double kMostOffset_s = 0.02;
 
-  /// `id`: begins the ids of orders; no two operators' are equal.
+  /// `id` is the prefix of the ids of orders, different for each operator.
   RollCall(const std::vector<std::string>& robots, std::string id);
 
-  /// `robot`: its place among those of the constructor.
+  /// `robot` is its index among the names given to the constructor.
   void hear(std::size_t robot, const NodeState& state, const Now& now);
-  /// The echo to be sent now, if one is.
+  /// The echo to send now, if there is one.
   std::optional<Order> tick(const Now& now);
-  /// Each robot has answered all echoes.
+  /// Whether each robot has answered all echoes.
   bool is_complete() const;
 
   const std::vector<RolledRobot>& robots() const { return robots_; }
-  /// What is wrong with a swarm that shall start, a line each.
+  /// The problems that keep the swarm from starting, one per line.
   std::vector<std::string> complaints(TimePoint now) const;
 
  private:
@@ -50,21 +51,21 @@ class RollCall {
   std::vector<bool> answered_;  ///< of this round
 };
 
-/// Begins a run, watches over it, and ends it when something goes wrong with any robot. Pure.
+/// Begins a run, watches it, and ends it when a problem occurs with any robot. Pure.
 class RunStarter {
  public:
   struct Settings {
     std::string run;
     double seconds = 120;
     std::optional<std::int64_t> seed;
-    double lead_s = 2;      ///< from the order to the agreed instant
-    double patience_s = 5;  ///< until all robots have answered
+    double lead_s = 2;      ///< time from the order to the agreed instant
+    double patience_s = 5;  ///< time limit for the answers of all robots
   };
   enum class Stage {
     Calling,   ///< roll call
-    Ordered,   ///< all have the order, and are to say that they are armed
+    Ordered,   ///< all have received the order, and must report that they are armed
     Watching,  ///< until the run is over
-    Stopping,  ///< something went wrong: all get the order to stop
+    Stopping,  ///< a problem occurred: all receive the order to stop
     Over,
   };
 
@@ -72,21 +73,22 @@ class RunStarter {
              const Now& now);
 
   void hear(std::size_t robot, const NodeState& state, const Now& now);
-  /// Orders to be sent now.
+  /// The orders to send now.
   std::vector<Order> tick(const Now& now);
-  /// The operator wants an end.
+  /// Called when the operator requests an end.
   void interrupt(const Now& now);
 
   Stage stage() const { return stage_; }
   bool has_begun() const { return begun_; }
   const RollCall& roll() const { return roll_; }
-  /// Why there was no run, or why it was ended; empty: all went well.
+  /// The reasons why there was no run, or why it was ended; empty: no problem.
   const std::vector<std::string>& complaints() const { return complaints_; }
-  /// The agreed instant by both clocks of the operator.
+  /// The agreed start by both clocks of the operator.
   const Now& start() const { return start_; }
-  /// Of the whole run: the worst of the robots', INVALID when one was lost.
+  /// The verdict of the whole run: the worst of the robots' verdicts, INVALID when a robot was
+  /// lost.
   RunVerdict verdict() const;
-  /// Whether the robot's node was in this run and has left it, and its log is closed.
+  /// Whether the robot's node was in this run and has left it, with its log closed.
   bool is_over_for(const RolledRobot& robot) const;
 
  private:

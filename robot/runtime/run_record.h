@@ -13,13 +13,14 @@
 
 namespace swarmsmith {
 
-/// What a robot's node wrote down of one run, so that it can be stepped again and compared with
-/// what a camera saw (docs/robot-runtime.md, "The log").
+/// The record of one run by a robot's node. It allows the run to be stepped again and compared with
+/// a camera's measurements (docs/robot-runtime.md, "The log").
 
-/// What a node did in a cycle.
+/// The action of a node in a cycle.
 enum class Act {
   Step,  ///< the controller decided
-  Hold,  ///< a needed sensor was silent: treads 0, the controller did not see the cycle
+  Hold,  ///< a needed sensor or the operator was silent, or the driver did not obey: the treads
+         ///< stood still, and the controller was not stepped
 };
 constexpr auto names_of(Act) {
   return std::to_array<std::string_view>({"step", "hold"});
@@ -36,30 +37,30 @@ struct RawColor {
 
 /// One control cycle.
 struct LogRow {
-  std::int64_t cycle = 0;  ///< from 1; a number that is missing was skipped
+  std::int64_t cycle = 0;  ///< from 1; missing numbers are skipped cycles
   double clock_s = 0;      ///< CLOCK_MONOTONIC of the robot when the cycle began
-  double late_ms = 0;      ///< behind its deadline
+  double late_ms = 0;      ///< delay after its deadline
   Act act = Act::Step;
   int state = 0;    ///< of the controller, after the cycle
   Command command;  ///< as sent
-  Sensed sensed;    ///< what the controller saw
+  Sensed sensed;    ///< input of the controller
   RawColor ground_as_sent;
   PerFeed<std::optional<double>>
-      age_ms;  ///< since the feed's last message; none of one never heard
-  /// From the time stamp of that message to its arrival, by two clocks; none without a stamp.
+      age_ms;  ///< time since the feed's last message; none if there was no message
+  /// Time from the stamp of that message to its arrival, by two clocks; none without a stamp.
   PerFeed<std::optional<double>> stamp_ms;
-  std::uint64_t drawn = 0;  ///< random numbers, in all
-  std::string event;        ///< what a person should know; mostly empty
+  std::uint64_t drawn = 0;  ///< number of random numbers drawn so far
+  std::string event;        ///< remark for the user; mostly empty
 };
 
-/// How trustworthy a run is.
+/// How far a run can be trusted.
 enum class RunVerdict { Valid, Degraded, Invalid };
-/// As for filmed runs.
+/// The same names as for filmed runs.
 constexpr auto names_of(RunVerdict) {
   return std::to_array<std::string_view>({"VALID", "DEGRADED", "INVALID"});
 }
 
-/// What is decided when a run is over.
+/// The results that are determined at the end of a run.
 struct RunEnd {
   std::string state;  ///< `ended`, `stopped` or `failed`
   RunVerdict verdict = RunVerdict::Valid;
@@ -67,17 +68,17 @@ struct RunEnd {
   std::int64_t stepped = 0;
   std::int64_t held = 0;
   std::int64_t skipped = 0;
-  /// Whether a driver said what it has the treads do; none: an older log, or one of a lock-step.
+  /// Whether a driver reported the tread speeds; none: an older log, or a run in lock-step.
   std::optional<bool> driven;
-  /// If one did: what the node thinks of it, and the longest time for which the treads were not
-  /// known to do as commanded, or another one acted on them.
+  /// If a driver reported: the node's verdict on it, and the longest time during which the treads
+  /// were not known to obey, or another sender acted on them.
   RunVerdict driver = RunVerdict::Valid;
   double driver_off_s = 0;
 
   friend bool operator==(const RunEnd&, const RunEnd&) = default;
 };
 
-/// What holds for the whole run.
+/// The data that apply to the whole run.
 struct LogHead {
   std::string run;               ///< "run07"
   std::string robot;             ///< "rvr1"
@@ -85,21 +86,22 @@ struct LogHead {
   std::string machine;           ///< text of the grammar
   std::string machine_digest;
   std::string flavour;
-  std::string own_flavour;  ///< all of it as a file; empty for one that is built in
+  std::string own_flavour;  ///< the complete flavour as the text of a file; empty for a built-in
+                            ///< one
   std::string turn_clock;
   std::int64_t seed = 1;
-  bool lock_step = false;  ///< stepped by a simulated world, not by the clock
+  bool lock_step = false;  ///< stepped by a simulated world instead of the clock
   double period_s = kControlPeriod_s;
-  double seconds = 0;  ///< that the run was to last; 0: as the world likes
+  double seconds = 0;  ///< planned duration of the run; 0: the world decides
   double max_mps = 0;
   std::string program;  ///< with its version
   std::string host;
   std::string scheduling;  ///< of the control thread
-  /// Where feeds came from: (name, topic as remapped).
+  /// The topics of the feeds: (name, topic after remapping).
   std::vector<std::pair<std::string, std::string>> topics;
   double start_clock_s = 0;  ///< CLOCK_MONOTONIC of the robot
   double start_unix_s = 0;   ///< its wall clock at the same instant
-  /// Wall clock of the robot minus that of the operator, as `start` measured it.
+  /// The robot's wall clock minus the operator's, as measured by `start`.
   std::optional<double> clock_offset_s;
   std::optional<RunEnd> end;  ///< none: the node was killed
 

@@ -9,17 +9,18 @@
 namespace swarmsmith {
 namespace {
 
-/// Half an increment, and what angles lose as float32 on the way.
+/// Half an increment, plus the rounding error of angles sent as float32.
 constexpr double kFarthest = 0.5 + 1e-3;
 
-/// The index of the value nearest to the ray whose place is `place` values after the first one;
-/// `turn` values are a full turn. The earlier one of equals.
+/// The index of the value nearest to a ray, whose position is `place` values after the first one;
+/// `turn` values are a full turn. In a tie, the earlier value.
 std::optional<std::size_t> nearest(double place, double turn, std::size_t values) {
   SWARMSMITH_ASSERT(values > 0 && turn > 0, "the scan was checked");
   const auto last = static_cast<double>(values - 1);
   std::optional<std::size_t> found;
   double least = kFarthest;
-  place -= std::floor((place + kFarthest) / turn) * turn;  // the first turn that can reach a value
+  place -= std::floor((place + kFarthest) / turn) * turn;  // the first turn in which it can reach a
+                                                           // value
   while (place <= last + kFarthest) {
     const double index = std::fmin(std::fmax(std::floor(place + 0.5), 0), last);
     const double distance = std::fabs(place - index);
@@ -50,7 +51,7 @@ std::optional<std::string> resample(const ScanMessage& scan, double turn_rad, Ra
     if (!index) continue;
     SWARMSMITH_ASSERT(*index < scan.ranges_m.size(), "the nearest value is one of the scan's");
     const double value = scan.ranges_m[*index];
-    // false for NaN, as it shall be
+    // false for NaN, as required
     if (value > 0 && value >= scan.range_min_m && value <= scan.range_max_m) range = value;
   }
   return std::nullopt;

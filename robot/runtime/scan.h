@@ -9,15 +9,15 @@
 
 namespace swarmsmith {
 
-/// Distances along our rays, +infinity where nothing was met.
+/// Distances along the rays of lidar_directions(), +infinity for rays without a hit.
 using RayRanges = std::array<double, kLidarRays>;
 
-/// A scan of any length, direction and number of turns as distances along our rays: each takes the
-/// value that is nearest in angle, at most half an increment away. 0, NaN and what is outside of
-/// the scan's limits is nothing met. `turn_rad`: the angle of the lidar's own zero from the robot's
+/// Converts a scan of any length, direction and number of turns to distances along these rays: each
+/// gets the value nearest in angle, at most half an increment away. 0, NaN and values outside the
+/// scan's limits count as no hit. `turn_rad` is the angle of the lidar's zero from the robot's
 /// head, counter-clockwise.
 ///
-/// Returns what is wrong with the scan, if anything; then `ranges_m` is not of use.
+/// Returns the error in the scan, if there is one; `ranges_m` is then unusable.
 std::optional<std::string> resample(const ScanMessage& scan, double turn_rad, RayRanges& ranges_m);
 
 }  // namespace swarmsmith

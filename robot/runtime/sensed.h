@@ -13,7 +13,7 @@
 
 namespace swarmsmith {
 
-/// Enumerators have names in files and messages: `names_of` lists them in their order.
+/// Enumerators have names in files and messages: `names_of` lists them in order.
 template <class Enum>
 std::string_view name_of(Enum value) requires requires {
   names_of(value);
@@ -27,7 +27,8 @@ std::optional<Enum> named(std::string_view name) {
   return static_cast<Enum>(found - names.begin());
 }
 
-/// What a robot's drivers deliver, one message each. A scan or ready neighbours: the same feed.
+/// The inputs from a robot's drivers, one message each. Scans and finished neighbours are the same
+/// feed.
 enum class Feed { Proximity, Ground, Neighbours, Light };
 inline constexpr std::size_t kFeeds = 4;
 inline constexpr std::array<Feed, kFeeds> kAllFeeds = {Feed::Proximity, Feed::Ground,
@@ -40,15 +41,15 @@ constexpr auto names_of(Feed) {
   return std::to_array<std::string_view>({"proximity", "ground", "neighbours", "light"});
 }
 
-/// A value a feed.
+/// One value per feed.
 template <class T>
 using PerFeed = std::array<T, kFeeds>;
 
-/// Which of them a controller needs.
+/// The feeds that a controller needs.
 PerFeed<bool> feeds_of(const UsedSenses& used);
 
-/// The readings of one cycle as control software gets them; of sensors that it does not need
-/// nothing is known.
+/// The readings of one cycle, as control software receives them; readings of sensors that it does
+/// not need are unknown.
 struct Sensed {
   double time_s = 0;  ///< since the start of the run
   ProximityReadings proximity_m{};
@@ -57,7 +58,7 @@ struct Sensed {
   LightReadings light_lux{};
 };
 
-/// Control software's view of them. `sensed` must outlive the object.
+/// Gives these readings to control software. `sensed` must outlive the object.
 class SensedSenses final : public Senses {
  public:
   explicit SensedSenses(const Sensed& sensed) : sensed_(&sensed) {}

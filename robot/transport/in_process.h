@@ -8,8 +8,8 @@
 
 namespace swarmsmith {
 
-/// All ends of a swarm in one process, for tests: what is sent arrives at once, with the bits that
-/// it has. Ends may be used by a thread each, and must not outlive the swarm.
+/// All ends of a swarm in one process, for tests: messages arrive immediately, with the same bits.
+/// Each end may be used by its own thread; ends must not outlive the swarm.
 class InProcessSwarm {
  public:
   explicit InProcessSwarm(std::vector<std::string> names, Keep keep = Keep::All);

@@ -16,7 +16,7 @@
 
 namespace swarmsmith {
 
-/// The message, as it arrives now.
+/// The message with the present time as arrival.
 template <class Variant>
 Variant arrived(Variant message) {
   std::visit(
@@ -28,8 +28,9 @@ Variant arrived(Variant message) {
   return message;
 }
 
-/// Whether the older one counts no more once the newer one is there: of sensors and commands the
-/// newest counts, of each sender where several are to be noticed.
+/// Whether a newer message replaces an older one. Sensors and commands are replaced by newer ones,
+/// but only by those of the same sender if a message has a sender, so that several senders are
+/// noticed.
 template <class Variant>
 bool takes_place_of(const Variant& newer, const Variant& older) {
   if (newer.index() != older.index()) return false;
@@ -47,12 +48,13 @@ bool takes_place_of(const Variant& newer, const Variant& older) {
 inline bool takes_place_of(const WorldEnd::Received& newer, const WorldEnd::Received& older) {
   return newer.robot == older.robot && takes_place_of(newer.message, older.message);
 }
-/// Its states and troubles are all kept.
+/// States and troubles are all kept.
 inline bool takes_place_of(const OperatorEnd::Received&, const OperatorEnd::Received&) {
   return false;
 }
 
-/// Messages that came and were not taken yet, oldest first. Any thread puts, one takes.
+/// Messages that arrived and were not yet taken, oldest first. Any thread puts messages, one thread
+/// takes them.
 template <class Message>
 class Inbox {
  public:
@@ -72,7 +74,7 @@ class Inbox {
     came_.notify_one();
   }
 
-  /// The oldest; waits for one until `until`.
+  /// Takes the oldest message; waits for one until `until`.
   std::optional<Message> take(TimePoint until) {
     std::unique_lock lock(mutex_);
     came_.wait_until(lock, until, [this] { return !messages_.empty(); });

@@ -14,23 +14,23 @@
 
 namespace swarmsmith {
 
-/// What travels between a robot's control software, its drivers (or a simulated world in their
-/// place) and the operator. Plain values in SI units, as they were sent: nothing is clamped,
-/// resampled or labelled yet. Robot frame: x forward, y left, angles counter-clockwise.
+/// The messages between a robot's control software, its drivers (or a simulated world that replaces
+/// them) and the operator. Plain values in SI units, as they were sent: without clamping,
+/// resampling or labelling. Robot frame: x forward, y left, angles counter-clockwise.
 ///
 /// `kTopic` is the topic's name in the robot's name space; a message without one is never sent.
-/// `kNumbers` are the fields that travel, in the order of the wire (docs/robot-messages.md).
+/// `kNumbers` are the fields that are sent, in this order (docs/robot-messages.md).
 
 inline constexpr std::size_t kRangeSensors = 8;
 
-/// When a message came.
+/// The arrival time of a message.
 struct Arrival {
-  TimePoint at{};             ///< when it arrived here, by the steady clock; set by the transport
-  std::int64_t stamp_ns = 0;  ///< of its header, by the sender's clock; 0: it has none
+  TimePoint at{};             ///< time of arrival here, by the steady clock; set by the transport
+  std::int64_t stamp_ns = 0;  ///< stamp of its header, by the sender's clock; 0: none
 };
 
-/// The proximity sensors, by index. As drivers have them: -infinity too near, +infinity nothing
-/// there, NaN a sensor that is off.
+/// The proximity sensors, by index. Values as drivers send them: -infinity for too near, +infinity
+/// for no obstacle, NaN for a sensor that is off.
 struct RangesMessage {
   static constexpr const char* kTopic = "ranges";
   Arrival arrival{};
@@ -39,7 +39,7 @@ struct RangesMessage {
   static constexpr std::tuple kNumbers{&RangesMessage::ranges_m};
 };
 
-/// The floor's colour, in the driver's scale (0 to 255 or 0 to 1).
+/// The colour of the floor, in the scale of the driver (0 to 255 or 0 to 1).
 struct GroundColorMessage {
   static constexpr const char* kTopic = "ground_color";
   Arrival arrival{};
@@ -51,7 +51,8 @@ struct GroundColorMessage {
                                        &GroundColorMessage::b};
 };
 
-/// One turn of the lidar: value i was measured at `angle_min_rad` + i * `angle_increment_rad`.
+/// One revolution of the lidar: value i was measured at `angle_min_rad` + i *
+/// `angle_increment_rad`.
 struct ScanMessage {
   static constexpr const char* kTopic = "scan";
   Arrival arrival{};
@@ -60,7 +61,7 @@ struct ScanMessage {
   double angle_increment_rad = 0;
   double range_min_m = 0;
   double range_max_m = 0;
-  std::vector<double> ranges_m{};  ///< of any length; 0, NaN, infinity: no return
+  std::vector<double> ranges_m{};  ///< any number of values; 0, NaN and infinity mean no return
 
   static constexpr std::tuple kNumbers{
       &ScanMessage::angle_min_rad, &ScanMessage::angle_max_rad, &ScanMessage::angle_increment_rad,
@@ -74,7 +75,7 @@ struct SeenRobot {
   double direction_y = 0;
 };
 
-/// Robots nearby, of hardware that finds them without a scan.
+/// Robots nearby, from hardware that detects them without a scan.
 struct NeighboursMessage {
   static constexpr const char* kTopic = "neighbours";
   Arrival arrival{};
@@ -83,7 +84,7 @@ struct NeighboursMessage {
   static constexpr std::tuple kNumbers{&NeighboursMessage::robots};
 };
 
-/// Lux at the directions of the proximity sensors, by index.
+/// Lux along the directions of the proximity sensors, by index.
 struct LightMessage {
   static constexpr const char* kTopic = "light";
   Arrival arrival{};
@@ -96,44 +97,45 @@ struct BatteryMessage {
   static constexpr const char* kTopic = "battery";
   Arrival arrival{};
   double voltage_V = 0;
-  double charge = 0;  ///< 0 empty to 1 full; NaN not known
+  double charge = 0;  ///< 0 empty to 1 full; NaN if unknown
 
   static constexpr std::tuple kNumbers{&BatteryMessage::voltage_V, &BatteryMessage::charge};
 };
 
-/// What the driver of the treads has them do: the speeds of the command that it obeys, as they
-/// came, or 0 and 0 where it stops them by itself. Several times a second, also while it stands.
+/// The report of the treads' driver on the speeds that it executes: the speeds of the command that
+/// it obeys, unchanged, or 0 and 0 if the driver itself stops the treads. It is sent several times
+/// a second, even while the robot stands still.
 struct DrivenMessage {
   static constexpr const char* kTopic = "driven";
   Arrival arrival{};
   double left_mps = 0;
   double right_mps = 0;
-  std::string sender{};  ///< who sent it, where the transport knows
+  std::string sender{};  ///< the sender, if the transport knows it
 
   static constexpr std::tuple kNumbers{&DrivenMessage::left_mps, &DrivenMessage::right_mps};
 };
 
-/// Speeds for this node's treads that another one sent.
+/// Notice that another sender has sent speeds for the treads of this node.
 struct RivalMessage {
   Arrival arrival{};
   std::string sender{};
 };
 
-/// An order of the operator, to all robots: a JSON object. What it means is robot/runtime's.
+/// An order of the operator to all robots: a JSON object, interpreted in robot/runtime.
 struct OrderMessage {
   static constexpr const char* kTopic = "order";
   Arrival arrival{};
   std::string text{};
 };
 
-/// Lock-step by number: all that the control software may read in one cycle, with the bits that the
-/// simulator has. It is answered by an AnswerMessage, and only then comes the next.
+/// For numbered lock-step: all readings that control software may use in one cycle, with the bits
+/// of the simulator. The node answers with an AnswerMessage; only then the next one is sent.
 struct SensesMessage {
   static constexpr const char* kTopic = "senses";
   Arrival arrival{};
   std::int64_t seed = 0;   ///< of the run
-  std::int64_t cycle = 0;  ///< from 1, where a run begins; 0: there are no more runs
-  double time_s = 0;       ///< since the start, as the robot's clock has it
+  std::int64_t cycle = 0;  ///< from 1, at which a run begins; 0: there are no more runs
+  double time_s = 0;       ///< since the start, by the robot's clock
   std::array<double, kRangeSensors> ranges_m{};
   std::array<double, 3> color{};  ///< r, g, b, 0 to 255
   std::array<double, kRangeSensors> light_lux{};
@@ -145,31 +147,32 @@ struct SensesMessage {
                                        &SensesMessage::neighbours};
 };
 
-/// What went wrong on the way, as a sentence: a name that does not resolve, a peer that hung up.
+/// A problem in the transport, as a sentence: a name that does not resolve, a peer that closed the
+/// connection.
 struct TroubleMessage {
   std::string text{};
-  bool ended = false;  ///< nothing comes or goes any more: stop
+  bool ended = false;  ///< the transport has ended: the receiver must stop
 };
 
-/// What reaches a robot's node.
+/// The messages to a robot's node.
 using ToRobot = std::variant<RangesMessage, GroundColorMessage, ScanMessage, NeighboursMessage,
                              LightMessage, BatteryMessage, DrivenMessage, RivalMessage,
                              OrderMessage, SensesMessage, TroubleMessage>;
 
-/// Speeds of the treads over ground.
+/// Speeds of the treads over the ground.
 struct WheelsMessage {
   static constexpr const char* kTopic = "wheels";
   Arrival arrival{};
   double left_mps = 0;
   double right_mps = 0;
-  std::optional<int> state{};  ///< of the machine after the cycle; sent in lock-step alone
-  std::string sender{};        ///< who sent it, where the transport knows; a driver obeys only one
+  std::optional<int> state{};  ///< of the machine after the cycle; sent only in lock-step
+  std::string sender{};        ///< the sender, if the transport knows it; a driver obeys only one
 
   static constexpr std::tuple kNumbers{&WheelsMessage::left_mps, &WheelsMessage::right_mps,
                                        &WheelsMessage::state};
 };
 
-/// Two in front, one on each side, one at the back; r, g, b of each, 0 to 255.
+/// Two LEDs in front, one on each side, one at the back; r, g, b of each, 0 to 255.
 struct LedsMessage {
   static constexpr const char* kTopic = "leds";
   Arrival arrival{};
@@ -178,14 +181,14 @@ struct LedsMessage {
   static constexpr std::tuple kNumbers{&LedsMessage::colors};
 };
 
-/// A node's state: a JSON object. What is in it is robot/runtime's.
+/// A node's state: a JSON object, defined in robot/runtime.
 struct StateMessage {
   static constexpr const char* kTopic = "state";
   Arrival arrival{};
   std::string text{};
 };
 
-/// The answer to a SensesMessage; seed and cycle are those of it.
+/// The answer to a SensesMessage, with its seed and cycle.
 struct AnswerMessage {
   static constexpr const char* kTopic = "answer";
   Arrival arrival{};

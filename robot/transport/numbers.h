@@ -12,9 +12,9 @@
 
 namespace swarmsmith {
 
-/// Messages as rows of numbers, as they travel where a transport has no type of its own for them
-/// (docs/robot-messages.md): the fields of `kNumbers`, one after the other. A neighbour is d, x, y;
-/// what is optional or of any length stands at the end. Arrivals are not part of them.
+/// Messages as rows of numbers, the format for transports without a type for a message
+/// (docs/robot-messages.md): the fields of `kNumbers`, one after another. A neighbour is d, x, y;
+/// optional fields and fields of any length come last. Arrivals are not included.
 
 namespace detail {
 
@@ -41,7 +41,7 @@ class NumberWriter {
   std::vector<double> numbers_;
 };
 
-/// Takes number after number; is wrong for good once one is missing or cannot be.
+/// Reads number after number; after a missing or invalid number the result stays invalid.
 class NumberReader {
  public:
   explicit NumberReader(const std::vector<double>& numbers) : numbers_(numbers) {}
@@ -54,7 +54,8 @@ class NumberReader {
     }
   }
   void operator()(std::int64_t& number) {
-    constexpr double kLargestWhole = 9007199254740992.0;  // up to here doubles are exact
+    constexpr double kLargestWhole = 9007199254740992.0;  // doubles up to here represent all
+                                                          // integers
     number = whole(-kLargestWhole, kLargestWhole);
   }
   /// A state of a machine.
@@ -74,7 +75,7 @@ class NumberReader {
     for (Number& number : numbers)
       (*this)(number);
   }
-  /// All that is left.
+  /// Reads all remaining numbers.
   template <class Number>
   void operator()(std::vector<Number>& numbers) {
     numbers.clear();
@@ -107,11 +108,11 @@ std::vector<double> numbers_of(const Message& message) {
   return writer.take();
 }
 
-/// False, and the message untouched, when there are more or fewer numbers than the message has, or
-/// when one of them cannot be what it stands for.
+/// False, without changing the message, when the count of numbers does not match the message, or
+/// when a number is not valid for its field.
 template <class Message>
 bool read_numbers(const std::vector<double>& numbers, Message& message) {
-  Message read = message;  // also what does not travel
+  Message read = message;  // keeps the fields that are not sent
   detail::NumberReader reader(numbers);
   std::apply([&](auto... field) { (reader(read.*field), ...); }, Message::kNumbers);
   if (!reader.all_read()) return false;

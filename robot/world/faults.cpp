@@ -47,7 +47,8 @@ bool read_times(std::string_view text, Fault& fault) {
   return fault.from_s >= 0 && fault.to_s > fault.from_s;
 }
 
-/// Other values, or as many as `fault` says, which are what the sensor saw as far as they go.
+/// Sets values to NaN, or changes their number to the length in `fault`: the first values are kept,
+/// additional ones are infinity.
 void spoil(std::vector<double>& values, const Fault& fault) {
   if (fault.kind == Fault::Kind::Nan) std::fill(values.begin(), values.end(), kNan);
   if (fault.kind == Fault::Kind::Length)
@@ -71,7 +72,7 @@ void spoil(ScanMessage& message, const Fault& fault) {
   std::vector<double>& ranges_m = message.ranges_m;
   if (fault.kind == Fault::Kind::Nan) spoil(ranges_m, fault);
   if (fault.kind == Fault::Kind::Length) {
-    // One turn in so many values: each the nearest of the old ones.
+    // One revolution with this number of values: each is the nearest old value.
     const auto length = static_cast<std::size_t>(fault.length);
     std::vector<double> values;
     for (std::size_t i = 0; i < length; ++i)

@@ -15,7 +15,7 @@ namespace swarmsmith {
 
 namespace {
 
-/// What ends a run from inside of the engine.
+/// Ends a run from inside the engine.
 struct RunEnded : std::runtime_error {
   explicit RunEnded(Error why) : std::runtime_error(why.message), error(std::move(why)) {}
   Error error;
@@ -59,7 +59,7 @@ class LockStep final : public Decider {
     std::deque<Answer> answers{};
   };
 
-  /// Waits for one message while the robot's answer is missing.
+  /// Waits for one message while the answer of a robot is missing.
   void hear(std::size_t missing, TimePoint until) {
     constexpr Duration kLook = std::chrono::milliseconds(100);
     const TimePoint now = SystemClock().now();
@@ -97,7 +97,7 @@ class LockStep final : public Decider {
   }
 
   void take(std::size_t robot, const AnswerMessage& answer) {
-    if (!sensors_.senses || robots_[robot].asked == 0) return;  // of an older run
+    if (!sensors_.senses || robots_[robot].asked == 0) return;  // from an earlier run
     if (answer.seed != seed_ || answer.cycle != robots_[robot].asked ||
         !robots_[robot].answers.empty()) {
       throw RunEnded({ErrorKind::BadInput,
@@ -113,7 +113,7 @@ class LockStep final : public Decider {
   }
 
   void take(std::size_t robot, const WheelsMessage& wheels) {
-    // Before the first question a node may say that it stands still.
+    // Before the first question a node may send commands to stand still.
     if (sensors_.senses || robots_[robot].asked == 0) return;
     if (!wheels.state) {
       throw RunEnded({ErrorKind::BadInput,
@@ -180,7 +180,7 @@ Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions&
       told = now;
       options.tell("waiting for " + missing);
     }
-    // States and commands from before the start are of no use.
+    // States and commands from before the start are ignored.
     const auto received = end.receive(now + kLook);
     if (!received) continue;
     if (const auto* trouble = std::get_if<TroubleMessage>(&received->message)) {
@@ -199,7 +199,7 @@ Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& s
     return simulate(run.setup(), recorder, &decider);
   } catch (const RunEnded& ended) {
     return tl::unexpected(ended.error);
-  } catch (const std::invalid_argument& error) {  // a command that is not a number
+  } catch (const std::invalid_argument& error) {  // the command is not finite
     return bad_input(error.what());
   }
 }

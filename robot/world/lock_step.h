@@ -11,49 +11,49 @@
 
 namespace swarmsmith {
 
-/// One run of a simulated world, as in SimulationSetup; control software is on the other side.
+/// One run of a simulated world, as in SimulationSetup; control software runs in the nodes.
 struct WorldRun {
   const Profile& profile;
   const Mission& mission;
   const Instance& instance;
   std::int64_t seed = 1;
 
-  /// For simulate() with a decider; the controller counts for nothing.
+  /// For simulate() with a decider; the controller in it is ignored.
   SimulationSetup setup() const;
-  /// BadInput when the mission has another number of robots.
+  /// BadInput when the number of robots in the mission is different.
   Expected<void> check(const WorldEnd& end) const;
 };
 
 struct WorldOptions {
-  /// Until a robot's answer; then the run ends. The last command is never used again.
+  /// How long to wait for a robot's answer; then the run ends. The last command is never reused.
   Duration patience = std::chrono::seconds(5);
-  /// Called with what a person should know while it runs.
+  /// Called with remarks for the user during a run.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
-  /// Whether the world is to end.
+  /// Whether the world must end.
   std::function<bool()> is_over = [] { return false; };
 };
 
-/// Waits until every robot's node listens. Unavailable, with the names of those that are missing,
-/// when `most` is over; what is missing is reported every few seconds.
+/// Waits until every robot's node is connected. Unavailable, with the names of the missing robots,
+/// after `most`; missing robots are also reported every few seconds.
 Expected<void> wait_for_robots(WorldEnd& end, Duration most, const WorldOptions& options);
 
-/// Runs the mission with the robots' nodes in lock-step: each control cycle's readings travel, and
-/// the world stands still until all answers are there, so that the result has the bits of
+/// Runs the mission with the robots' nodes in lock-step: the readings of each control cycle are
+/// sent, and the world waits until all answers have arrived, so the result has the same bits as
 /// simulate() with the nodes' controllers.
 ///
-/// By number (SensorTopics::senses): a robot's answer names seed and cycle. By counting, on the
-/// drivers' topics: the k-th message of each sensor is cycle k, and so is the k-th command, which
-/// has the controller's state with it. Nothing may be lost there (Keep::All), and readings and
-/// commands are rounded as the messages are.
+/// In numbered lock-step (SensorTopics::senses), a robot's answer contains seed and cycle. In
+/// counted lock-step, on the drivers' topics, the k-th message of each sensor belongs to cycle k,
+/// and so does the k-th command, which also contains the controller's state. No message may be lost
+/// there (Keep::All), and readings and commands are rounded to the precision of the messages.
 ///
-/// Unavailable: a robot did not answer; the error names it and the cycle. BadInput: an answer to
-/// another question.
+/// Unavailable: a robot did not answer; the error gives its name and the cycle. BadInput: the
+/// answer belongs to another question.
 Expected<SimulationResult> run_in_lock_step(WorldEnd& end, const SensorTopics& sensors,
                                             const WorldRun& run, const WorldOptions& options,
                                             const Recorder& recorder = {});
 
-/// Tells the nodes that no more runs come (lock-step by number), and waits a second at most until
-/// they have heard it.
+/// Tells the nodes that there are no more runs (numbered lock-step), and waits for at most a second
+/// until they have received it.
 void end_runs(WorldEnd& end);
 
 }  // namespace swarmsmith

@@ -14,7 +14,8 @@ namespace swarmsmith {
 
 namespace {
 
-/// Ends the run from inside of the engine: for a reason, or (none) because the real one begins.
+/// Ends the run from inside the engine: with an error, or without one because the nodes' run
+/// begins.
 struct Broken : std::exception {
   explicit Broken(std::optional<Error> why) : error(std::move(why)) {}
   std::optional<Error> error;
@@ -34,7 +35,7 @@ class Laboratory final : public Decider {
       robots_[i].faults.emplace(options.faults, end.name(i));
   }
 
-  /// The robots wait in their places, from now on.
+  /// From now on the robots wait at their start poses.
   void wait_for_start() {
     waits_ = true;
     zero_ = SystemClock().now();
@@ -47,7 +48,7 @@ class Laboratory final : public Decider {
 
   bool wants_every_step() const override { return true; }
 
-  /// Until then, messages come in.
+  /// Receives messages until this time is due.
   void begin(double time_s) override {
     time_s_ = time_s;
     const TimePoint due = zero_ + duration_of(time_s);
@@ -61,7 +62,7 @@ class Laboratory final : public Decider {
 
   void ask(const Question& question) override {
     const auto robot = static_cast<std::size_t>(question.robot);
-    // Faults are of the run.
+    // Faults apply only during the run.
     const double time_s = waits_ ? -1 : question.time_s;
     const std::int64_t stamp_ns = stamp_now();
     const FaultySensors& faults = *robots_[robot].faults;
@@ -75,7 +76,8 @@ class Laboratory final : public Decider {
   std::optional<Answer> answer(int index) override {
     Robot& robot = robots_[static_cast<std::size_t>(index)];
     const auto treads = robot.driver.act(now_);
-    // A second node is reported before the start, too: nodes that wait for it say that they stand.
+    // A second node is reported before the start, too: nodes that wait for it report that they
+    // stand still.
     const bool rivals_changed = robot.driver.has_rivals() != robot.had_rivals;
     for (const std::string& event : robot.driver.take_events()) {
       if (!waits_ || rivals_changed) {
@@ -87,8 +89,8 @@ class Laboratory final : public Decider {
     stops_by_rivals_ += robot.driver.has_rivals() && !robot.had_rivals ? 1 : 0;
     robot.was_silent = robot.driver.silent();
     robot.had_rivals = robot.driver.has_rivals();
-    // While they wait for the start, robots that get commands drive: real ones would. Here they
-    // would not start where the mission says, so that it is refused.
+    // Real robots would drive if they got commands while they wait for the start. Here this is an
+    // error, because the robots would not start from the mission's poses.
     if (!treads) return std::nullopt;
     say_driven(static_cast<std::size_t>(index));
     if (waits_ && treads->move()) {

@@ -9,7 +9,7 @@ namespace swarmsmith {
 
 namespace {
 
-/// Of the YDLIDAR X4 (ros facts, 1.2).
+/// Limits of the YDLIDAR X4 (ros facts, 1.2).
 constexpr double kLeastScan_m = 0.1;
 constexpr double kMostScan_m = 12;
 

@@ -9,13 +9,15 @@
 
 namespace swarmsmith {
 
-/// The driver of a simulated robot, as a real one should be (ros facts, 3.6 and 3.8): it obeys one
-/// sender of commands alone, and stops the treads when commands stop coming. Pure.
+/// The driver of a simulated robot, with the behaviour required of a real one (ros facts, 3.6 and
+/// 3.8): it obeys only one sender of commands, and stops the treads when commands stop arriving.
+/// Pure.
 class SimulatedDriver {
  public:
-  /// No command for so long: treads 0.
+  /// After this time without a command, the treads stop.
   static constexpr Duration kSilence = std::chrono::milliseconds(300);
-  /// Two senders within so long: treads 0, until one alone has sent for as long.
+  /// If two senders are heard within this time, the treads stop until only one has sent for the
+  /// same time.
   static constexpr Duration kRivals = std::chrono::seconds(1);
 
   struct Treads {
@@ -26,15 +28,16 @@ class SimulatedDriver {
   };
 
   void hear(const WheelsMessage& wheels);
-  /// What the treads shall do from `now` on, if that is new.
+  /// The speeds that the treads must have from `now` on, if they change.
   std::optional<Treads> act(TimePoint now);
 
-  /// What the treads do.
+  /// The present speeds of the treads.
   const Treads& treads() const { return treads_; }
-  /// Whether it stands still because commands stopped coming, or two senders are there.
+  /// Whether the treads stand still because commands stopped arriving, or because there are two
+  /// senders.
   bool silent() const { return silent_; }
   bool has_rivals() const { return rivals_; }
-  /// What a person should know since the last call: "no command for 300 ms: treads stopped".
+  /// Remarks for the user since the last call: "no command for 300 ms: treads stopped".
   std::vector<std::string> take_events();
 
  private:
@@ -49,7 +52,7 @@ class SimulatedDriver {
   TimePoint heard_{};
   bool silent_ = true;
   bool rivals_ = false;
-  bool broken_ = false;  ///< the last command was not a number
+  bool broken_ = false;  ///< the last command was not finite
   std::vector<std::string> events_;
 };
 

@@ -20,7 +20,7 @@ void append(std::string& text, double value) {
   text.append(buffer.data(), end);
 }
 
-/// Cuts the next word off; empty at the end.
+/// Removes the next word from the text and returns it; empty at the end.
 std::string_view next_word(std::string_view& text) {
   const std::size_t begin = text.find_first_not_of(' ');
   if (begin == std::string_view::npos) return text = {};

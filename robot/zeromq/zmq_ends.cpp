@@ -21,16 +21,16 @@ namespace {
 constexpr std::string_view kDriver = "driver";
 constexpr std::string_view kOperator = "operator";
 
-/// How often a thread looks whether it shall end, and whether its connection stands.
+/// How often a thread checks whether it must end, and whether its connection exists.
 constexpr std::chrono::milliseconds kLook{50};
 constexpr std::chrono::milliseconds kTryAgain{200};
-/// For what was sent last, treads that stand still above all, when an end goes.
+/// Time for the last frames when an end is closed, above all the command to stand still.
 constexpr std::chrono::milliseconds kLastFrames{200};
 
-/// Frames on their way out, put by any thread.
+/// Outgoing frames; any thread may put them.
 class Outbox {
  public:
-  /// `newest_only`: a frame of the same topic that still waits is dropped.
+  /// With `newest_only`, a waiting frame of the same topic is dropped.
   void put(std::string frame, bool newest_only) {
     if (frame.empty()) return;
     {
@@ -59,7 +59,7 @@ class Outbox {
   Wakeup wakeup_;
 };
 
-/// Waits until all was handed to the sockets, whose threads then send it.
+/// Waits until all frames have been passed to the sockets, whose threads then send them.
 void wait_until_sent(const std::function<bool()>& sent, Duration most) {
   const TimePoint until = SystemClock().now() + most;
   while (!sent() && SystemClock().now() < until)
@@ -195,7 +195,7 @@ class ServingEnd final : public RobotEnd {
     else if (!state_.empty())
       socket_->send(received.peer, state_);
     keep_drivers();
-    // Who hears of it finds it done.
+    // Put last, so that the receiver finds the change completed.
     if (left) inbox_.put(*std::move(left));
   }
 
@@ -210,7 +210,7 @@ class ServingEnd final : public RobotEnd {
     keep_drivers();
   }
 
-  /// For the other thread.
+  /// Copies the drivers for the other thread.
   void keep_drivers() {
     const std::lock_guard lock(drivers_mutex_);
     drivers_.clear();
@@ -219,7 +219,7 @@ class ServingEnd final : public RobotEnd {
     }
   }
 
-  /// Who was kept out, and why: with a key that is not listed, say.
+  /// Reports clients that were refused, with the reason, such as a key that is not listed.
   void tell_refused() {
     constexpr std::size_t kMost = 100;
     const Refusals refusals = socket_->refusals();
@@ -241,9 +241,9 @@ class ServingEnd final : public RobotEnd {
   std::unique_ptr<ServerSocket> socket_;
   std::map<PeerId, Peer> peers_;
   std::set<PeerId> complained_;
-  std::string state_;              ///< the last one, for who comes later
-  int connections_ = 0;            ///< that said hello
-  std::set<std::string> refused_;  ///< as told
+  std::string state_;              ///< the last state, for clients that connect later
+  int connections_ = 0;            ///< number of clients that sent hello
+  std::set<std::string> refused_;  ///< reported refusals
   std::mutex drivers_mutex_;
   std::vector<Listener> drivers_;
   std::atomic<bool> sending_{false};
@@ -251,10 +251,10 @@ class ServingEnd final : public RobotEnd {
   std::thread thread_;
 };
 
-/// A connection to one robot's node, in a thread of its own.
+/// A connection to the node of one robot, with its own thread.
 class NodeLink {
  public:
-  /// What the node sent, and troubles with it.
+  /// Called with messages of the node, and with troubles of the connection.
   using OnMessage = std::function<void(FromRobot)>;
 
   NodeLink(RobotPlace place, std::string_view greeting, std::optional<ClientKeys> keys,
@@ -405,7 +405,7 @@ class ClientWorldEnd final : public WorldEnd {
  private:
   Keep keep_;
   Inbox<Received> inbox_;
-  NodeLinks links_;  ///< end first: they put into the inbox
+  NodeLinks links_;  ///< destroyed first, because they put messages into the inbox
 };
 
 class ClientOperatorEnd final : public OperatorEnd {
@@ -470,7 +470,7 @@ Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions op
   }
   SocketOptions socket_options;
   socket_options.linger = kLastFrames;
-  socket_options.probes_newcomers = false;  // drivers are programs of others
+  socket_options.probes_newcomers = false;  // drivers may be programs of other authors
   auto socket = ServerSocket::bind(options.endpoint, socket_options, std::move(options.keys));
   if (!socket) return tl::unexpected(socket.error());
   NodeServer server{.end = nullptr, .endpoint = (*socket)->endpoint()};

@@ -11,10 +11,11 @@
 
 namespace swarmsmith {
 
-/// The three ends over ZeroMQ, for laboratories without ROS: each node listens at an address of its
-/// own, and drivers, worlds and operators connect to it (docs/robot-messages.md). With keys,
-/// connections are encrypted, and the key says who may do what: a worker's feeds sensors and gets
-/// commands, an operator's gives orders. Without, all clients may do all; loopback only.
+/// The three ends over ZeroMQ, for laboratories without ROS: each node listens at its own address,
+/// and drivers, worlds and operators connect to it (docs/robot-messages.md). With keys, connections
+/// are encrypted, and the key decides what a client may do: with a worker's key it sends sensor
+/// readings and gets commands, with an operator's key it gives orders. Without keys all clients may
+/// do everything, and only loopback addresses are allowed.
 
 struct NodeServerOptions {
   EndOptions end{};
@@ -22,17 +23,17 @@ struct NodeServerOptions {
   std::optional<ServerKeys> keys{};
 };
 
-/// A node's end, and where it really listens.
+/// A node's end, with the actual address at which it listens.
 struct NodeServer {
   std::unique_ptr<RobotEnd> end;
   std::string endpoint;
 };
 
-/// Conflict: the address is taken, by another node of this robot, say. BadInput: it is reachable
-/// from other hosts, and there are no keys.
+/// Conflict: the address is in use, for example by another node of this robot. BadInput: other
+/// hosts can reach the address, and there are no keys.
 Expected<NodeServer> zmq_robot_end(const std::string& name, NodeServerOptions options);
 
-/// Where a robot's node listens.
+/// The address of a robot's node.
 struct RobotPlace {
   std::string name;
   std::string endpoint;  ///< tcp://HOST:PORT
@@ -43,7 +44,7 @@ struct NodeClientOptions {
   std::optional<ClientKeys> keys{};
 };
 
-/// Connections are made again whenever they break.
+/// Broken connections are made again.
 Expected<std::unique_ptr<WorldEnd>> zmq_world_end(std::vector<RobotPlace> robots,
                                                   const NodeClientOptions& options);
 Expected<std::unique_ptr<OperatorEnd>> zmq_operator_end(std::vector<RobotPlace> robots,

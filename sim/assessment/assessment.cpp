@@ -14,7 +14,7 @@
 namespace swarmsmith::assessment {
 namespace {
 
-/// A control cycle for each instant that a recorder sees.
+/// The profile with exactly one control cycle per instant that a recorder observes.
 Profile with_nominal_clock(Profile profile) {
   profile.timing.least_period = 1;
   profile.timing.most_period = 1;

@@ -10,25 +10,25 @@
 
 namespace swarmsmith {
 
-/// Low-level behaviours, one a state of the machine: a file each in sim/control/behaviours. What
-/// they do in detail is the flavour's data; the sources are thesis facts, section 6, and
-/// rvr-automode facts, section 5.
+/// Low-level behaviours; each state of a machine has one. Each is defined in its own file in
+/// sim/control/behaviours. Their constants are part of the flavour; the sources are thesis facts,
+/// section 6, and rvr-automode facts, section 5.
 
 Module module_of(const Behaviour& behaviour);
 
-/// The parameters' values, in the order of the flavour's table.
+/// The values of the parameters, in the order of the flavour's table.
 std::vector<double> parameters_of(const Behaviour& behaviour);
 
-/// The inverse of the two above. Throws std::invalid_argument when `module` is not a behaviour or
-/// the number of parameters is another.
+/// The inverse of the two functions above. Throws std::invalid_argument when `module` is not a
+/// behaviour or takes a different number of parameters.
 Behaviour make_behaviour(Module module, std::span<const double> parameters);
 
-/// One control cycle of a behaviour. Asks `senses` only for what it needs: a turning or a standing
-/// robot asks for nothing.
+/// Runs one control cycle of a behaviour. It requests from `senses` only the readings that it
+/// needs: a robot that turns or stands still requests none.
 Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,
             BehaviourMemory& memory, Rng& rng);
 
-/// What the behaviour may ask for in some cycle or other, without the time.
+/// The readings that the behaviour may request in any cycle, except the time.
 UsedSenses senses_used_by(const Behaviour& behaviour, const Flavour& flavour);
 
 }  // namespace swarmsmith

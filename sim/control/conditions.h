@@ -10,24 +10,26 @@
 
 namespace swarmsmith {
 
-/// Conditions, one a transition of the machine: a file each in sim/control/conditions. A condition
-/// says with which probability its transition is enabled in this cycle; which readings it accepts
-/// is the flavour's data. Sources: thesis facts, section 7, and rvr-automode facts, section 6.1.
+/// Conditions; each transition of a machine has one. Each is defined in its own file in
+/// sim/control/conditions. A condition gives the probability with which its transition is enabled
+/// in the current cycle; the flavour defines which readings satisfy it. Sources: thesis facts,
+/// section 7, and rvr-automode facts, section 6.1.
 
 Module module_of(const Condition& condition);
 
-/// The parameters' values, in the order of the flavour's table; a label as its enumerator's index.
+/// The values of the parameters, in the order of the flavour's table; a label is given by the index
+/// of its enumerator.
 std::vector<double> parameters_of(const Condition& condition);
 
-/// The inverse of the two above. Throws std::invalid_argument when `module` is not a condition or
-/// the number of parameters is another.
+/// The inverse of the two functions above. Throws std::invalid_argument when `module` is not a
+/// condition or takes a different number of parameters.
 Condition make_condition(Module module, std::span<const double> parameters);
 
-/// Probability with which the condition enables its transition in this cycle; 0 when the reading
-/// is not the one it waits for. Asks `senses` only for what it needs.
+/// Probability with which the condition enables its transition in this cycle; 0 when the readings
+/// do not satisfy it. It requests from `senses` only the readings that it needs.
 double enabling_probability(const Condition& condition, Senses& senses, const Flavour& flavour);
 
-/// What the condition asks for.
+/// The readings that the condition requests.
 UsedSenses senses_used_by(const Condition& condition);
 
 }  // namespace swarmsmith

@@ -11,11 +11,13 @@
 
 namespace swarmsmith {
 
-/// The random numbers of a robot's control software in a run, the robot counted from 0: a
-/// ControlSoftware started with them, in the simulator or on a robot, has the same draws.
+/// The random stream of a robot's control software in a run; robots are counted from 0. A
+/// ControlSoftware that starts with this stream draws the same numbers in the simulator and on a
+/// robot.
 Rng control_stream(std::int64_t seed, int robot);
 
-/// One robot's running controller. Senses in, command out; links nothing of a simulator.
+/// The running controller of one robot. It takes readings and gives commands; it links no code of a
+/// simulator.
 class ControlSoftware {
  public:
   /// `controller` and `flavour` must outlive the object.
@@ -25,13 +27,13 @@ class ControlSoftware {
     return std::visit([&senses](auto& running) { return running.step(senses); }, running_);
   }
 
-  /// Index of the current state of a machine or subtree of a tree, after the last step; 0 of a
-  /// network.
+  /// Index of the current state of a machine, or of the current subtree of a tree, after the last
+  /// step; 0 for a network.
   int state() const {
     return std::visit([](const auto& running) { return running.state(); }, running_);
   }
 
-  /// How many random numbers were drawn so far.
+  /// The number of random numbers drawn so far.
   std::uint64_t drawn() const {
     return std::visit([](const auto& running) { return running.drawn(); }, running_);
   }

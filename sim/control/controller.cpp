@@ -17,7 +17,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Characters; ours have some thousand.
+/// In characters; the controllers of this program have some thousand.
 constexpr std::size_t kLongestController = 1 << 20;
 
 constexpr std::array<std::pair<std::string_view, Architecture>, 7> kFirstSwitches = {{
@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, Architecture>, 7> kFirstSwitche
     {kGenomeStart, Architecture::Network},
 }};
 
-/// A read controller of one kind as one of any.
+/// Converts a controller of one kind to the variant.
 template <class Kind>
 Expected<Controller> as_controller(Expected<Kind> read) {
   if (!read) return Unexpected(std::move(read.error()));

@@ -13,39 +13,42 @@
 
 namespace swarmsmith {
 
-/// The control software of one robot, as a value: what a method's architecture puts together.
+/// The control software of one robot, as a value; a method's architecture decides which kind it is.
 using Controller = std::variant<Machine, Tree, Network>;
 
-/// What is searched: state machines of modules, behaviour trees of modules, or the weights of a
-/// neural network.
+/// The kind of controller that is searched: state machines of modules, behaviour trees of modules,
+/// or the weights of a neural network.
 enum class Architecture { Machine, Tree, Network };
 
 /// `machine`, `tree` or `network`.
 std::string_view name_of(Architecture architecture);
 Architecture architecture_of(const Controller& controller);
 
-/// Reads a text of any architecture; its first switch says which: `--nstates` or `--fsm-config`,
-/// `--nroot` or `--bt-config`, `--network`.
+/// Reads the text of a controller of any architecture. The first switch tells which: `--nstates` or
+/// `--fsm-config`, `--nroot` or `--bt-config`, `--network`.
 Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour);
-/// Whether the text begins as one of a controller; nothing of the rest is looked at.
+/// The architecture of the controller that begins with this text, if it begins like one; the rest
+/// of the text is not checked.
 std::optional<Architecture> architecture_of_text(std::string_view text);
-/// The switches that texts begin with, for sentences: "--nstates, --fsm-config, ...".
+/// The switches with which texts of controllers begin, for use in messages: "--nstates,
+/// --fsm-config, ...".
 std::string first_switches();
-/// Where a controller's text begins in a line, behind a name or nothing; npos without any.
+/// The position in a line at which the text of a controller begins, after a name or at the start;
+/// npos if there is none.
 std::size_t find_controller(std::string_view line);
 
 /// The canonical text. Throws std::invalid_argument when the controller does not fit the flavour.
 std::string print_controller(const Controller& controller, const Flavour& flavour);
 
-/// The module that acts in a state (ControlSoftware::state): a machine's behaviour or a tree's
-/// action by its id, `network` of a network.
+/// The module that acts in a state (ControlSoftware::state): the id of a machine's behaviour or of
+/// a tree's action, or `network` for a network.
 std::string_view acting_in(const Controller& controller, int state);
 
-/// What is wrong with the controller, if anything.
+/// The error in the controller, if there is one.
 std::optional<Error> check(const Controller& controller, const Flavour& flavour);
 
-/// Why the control software cannot act on the RVR or in its simulation, as a sentence: its flavour
-/// is for another robot, or has external modules. Nothing when it can.
+/// The reason, as a sentence, why the control software cannot run on the RVR or in its simulation:
+/// its flavour is for another robot, or has external modules. Nothing if it can.
 std::optional<std::string> complaint_about_running(const Controller& controller,
                                                    const Flavour& flavour);
 

@@ -8,15 +8,16 @@
 
 namespace swarmsmith {
 
-/// Modules that only other programs have: a flavour names them, with number, tokens and ranges, and
-/// texts of them are read, counted, drawn and raced with programs. They are never simulated; what
-/// runs control software refuses it before (`complaint_about_running`, controller.h).
+/// Modules that only other programs implement. A flavour gives their names, numbers, tokens and
+/// ranges; their texts can be read, counted, drawn, and raced with programs. They are never
+/// simulated: code that runs control software refuses them first (`complaint_about_running`,
+/// controller.h).
 
 struct ExternalBehaviour {
   static constexpr std::string_view kId = "external";
 
-  int number = 0;              ///< in the flavour's texts
-  std::vector<double> values;  ///< of the parameters, in the flavour's order
+  int number = 0;              ///< in the texts of the flavour
+  std::vector<double> values;  ///< of the parameters, in the order of the flavour
 
   static UsedSenses uses(const Flavour& /*flavour*/) { return {}; }
   static Command act(Senses& /*senses*/, const Flavour& /*flavour*/, BehaviourMemory& /*memory*/,

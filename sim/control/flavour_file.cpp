@@ -39,9 +39,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kFiles = 
      {"chocolate-epuck-2018", kChocolateEpuck2018Flavour},
      {"maple-epuck-2018", kMapleEpuck2018Flavour}}};
 
-/// Numbers of modules and labels in texts.
+/// Limits of the numbers of modules and labels in texts.
 constexpr Limits<std::int64_t> kNumbers{0, 1000};
-constexpr int kMostDigits = 15;  ///< of a real in the search, as in [race]
+constexpr int kMostDigits = 15;  ///< of a real parameter in the search, as in [race]
 constexpr double kGrayThousandths = 1000;
 
 template <class Value, std::size_t Count>
@@ -60,8 +60,8 @@ std::optional<ColorLabel> label_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// The visitor that takes the constants out of a flavour's table and the tables in it. One that is
-/// not there keeps its value.
+/// The visitor that reads the constants from a flavour's table and its subtables. Constants that
+/// are missing in the file keep their values.
 class ConstantReader {
  public:
   explicit ConstantReader(TableReader& root) : root_(&root) {}
@@ -71,7 +71,7 @@ class ConstantReader {
     in_table_ = true;
     if (auto table = root_->table(name)) table_ = std::make_unique<TableReader>(*table);
   }
-  /// To be called after the visit, too: the last table has no next one.
+  /// Must also be called after the visit, since no next table finishes the last one.
   void finish() {
     if (table_) table_->finish();
     table_.reset();
@@ -149,7 +149,8 @@ class ConstantReader {
   std::unique_ptr<TableReader> table_;
 };
 
-/// The range of a parameter: both ends within what a machine may hold, the lower one first.
+/// The range of a parameter: both ends must be values that a machine may have, with the lower one
+/// first.
 void read_range(TableReader& table, std::string_view key, ParameterSpec& parameter) {
   const auto range = table.interval(key);
   if (!range) return;
@@ -179,7 +180,8 @@ bool is_word(std::string_view text) {
   return !text.empty() && text.size() <= 20 && std::ranges::all_of(text, is_letter);
 }
 
-/// The name of a switch or of a parameter of the search: letters alone, as numbers follow them.
+/// The name of a switch, or of a parameter of the search: only letters, because numbers follow
+/// them.
 void read_word(TableReader& table, std::string_view key, std::string& word) {
   auto text = table.text(key);
   if (!text) return;
@@ -190,7 +192,7 @@ void read_word(TableReader& table, std::string_view key, std::string& word) {
   }
 }
 
-/// token, symbol, range and digits.
+/// Reads token, symbol, range and digits.
 void read_details(TableReader& table, ParameterSpec& parameter) {
   read_word(table, "token", parameter.token);
   read_word(table, "symbol", parameter.symbol);
@@ -201,7 +203,7 @@ void read_details(TableReader& table, ParameterSpec& parameter) {
   }
 }
 
-/// One parameter of a module: its range, or a table with range, token, symbol and digits.
+/// Reads one parameter of a module: its range, or a table with range, token, symbol and digits.
 void read_parameter(TableReader& module, ParameterSpec& parameter) {
   const Node* node = module.take(parameter.name);
   if (node == nullptr) return;
@@ -219,9 +221,9 @@ void read_parameter(TableReader& module, ParameterSpec& parameter) {
   }
 }
 
-/// Switches that a state, a transition or a subtree has besides those of its module.
+/// Switches that a state, a transition or a subtree has in addition to those of its module.
 constexpr std::array<std::string_view, 5> kOwnSwitches = {"s", "n", "c", "a", "nchild"};
-/// The same as parameters of the search.
+/// The same for the parameters of the search.
 constexpr std::array<std::string_view, 13> kOwnSymbols = {
     "S",           "N",        "C",        "A",      "NumStates", "NumConnections",
     "NumSubtrees", "Selector", "Children", "Action", "Condition", "Success",
@@ -244,17 +246,17 @@ void check_tokens(TableReader& table, const std::string& id, const ModuleSpec& s
   }
 }
 
-/// A module's or a parameter's name: a word of stores, tables and campaign files.
+/// Whether the text can be the name of a module or parameter in stores, tables and campaign files.
 bool is_id(std::string_view text) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_";
   return !text.empty() && text.size() <= 60 && 'a' <= text.front() && text.front() <= 'z' &&
          text.find_first_not_of(kLetters) == std::string_view::npos;
 }
 
-/// What machines of external modules may hold: the program that runs them says what it takes.
+/// Limit of the parameters of external modules; the program that runs them checks the values.
 constexpr double kMostOfExternal = 1e9;
 
-/// One parameter of an external module: name, token, type and range.
+/// Reads one parameter of an external module: name, token, type and range.
 ParameterSpec read_external_parameter(TableReader& table) {
   static const std::vector<std::string> kTypes = {"real", "int"};
   ParameterSpec parameter{.least = -kMostOfExternal, .most = kMostOfExternal};
@@ -271,7 +273,7 @@ ParameterSpec read_external_parameter(TableReader& table) {
   } else {
     parameter.digits = 2;
   }
-  // Before the details: the usual symbol is the token in capitals.
+  // Read before the details, because the default symbol is the token in capitals.
   read_word(table, "token", parameter.token);
   parameter.symbol = parameter.token;
   for (char& letter : parameter.symbol) {
@@ -287,7 +289,7 @@ ParameterSpec read_external_parameter(TableReader& table) {
   return parameter;
 }
 
-/// A module that only other programs have.
+/// Reads a module that only other programs implement.
 void read_external(TableReader& table, bool behaviour, ModuleSpec& spec) {
   spec.module = behaviour ? external_behaviour(spec.number) : external_condition(spec.number);
   for (TableReader& item : table.tables("parameters")) {
@@ -301,7 +303,7 @@ void read_external(TableReader& table, bool behaviour, ModuleSpec& spec) {
 
 const std::vector<std::string> kExternalKind = {"external"};
 
-/// One line of [behaviours] or [conditions].
+/// Reads one line of [behaviours] or [conditions].
 std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id, bool behaviour) {
   auto table = tables.table(id);
   if (!table) return std::nullopt;
@@ -344,11 +346,11 @@ std::optional<ModuleSpec> read_module(TableReader& tables, const std::string& id
   }
   table->finish();
   check_tokens(tables, id, spec);
-  if (!number) return std::nullopt;  // other modules cannot have the same
+  if (!number) return std::nullopt;  // without a number, it cannot be compared with other modules
   return spec;
 }
 
-/// The table [behaviours] or [conditions], which replaces that of the base.
+/// Reads the table [behaviours] or [conditions], which replaces the table of the base.
 void read_modules(TableReader& root, const std::string& key, std::vector<ModuleSpec>& modules) {
   auto tables = root.table(key);
   if (!tables) return;
@@ -367,7 +369,8 @@ void read_modules(TableReader& root, const std::string& key, std::vector<ModuleS
   std::ranges::stable_sort(modules, {}, &ModuleSpec::number);
 }
 
-/// The search has one parameter a symbol, so that modules with the same must mean the same.
+/// The search has one parameter per symbol, so modules with the same symbol must mean the same
+/// parameter.
 void check_symbols(TableReader& root, const std::string& key,
                    const std::vector<ModuleSpec>& modules) {
   std::map<std::string, std::pair<const ModuleSpec*, const ParameterSpec*>> known;
@@ -386,7 +389,7 @@ void check_symbols(TableReader& root, const std::string& key,
   }
 }
 
-/// What one key of a flavour wants of others, when each of them is right.
+/// Checks the keys of a flavour against each other, after each has been checked alone.
 void check_whole(TableReader& root, const Flavour& flavour) {
   for (const auto& [key, modules] : {std::pair("behaviours", &flavour.behaviours),
                                      std::pair("conditions", &flavour.conditions)}) {
@@ -408,7 +411,7 @@ void check_whole(TableReader& root, const Flavour& flavour) {
   }
 }
 
-/// The fields of a table, over those of the flavour that `base` names.
+/// Reads the fields of a table; they override the fields of the flavour named by `base`.
 void read_fields(TableReader& table, Flavour& flavour) {
   const std::size_t before = table.complaints();
   const std::vector<std::string> names = flavour_names();
@@ -487,7 +490,7 @@ std::string range_text(const ParameterSpec& parameter) {
   return "[" + number_text(parameter.low) + ", " + number_text(parameter.high) + "]";
 }
 
-/// A parameter, its range alone where the rest is that of its kind.
+/// The text of a parameter: only its range if the rest is the default of its kind.
 std::string parameter_text(const ParameterSpec& parameter, ParameterSpec kind) {
   kind.low = parameter.low;
   kind.high = parameter.high;
@@ -524,7 +527,8 @@ std::string module_text(const ModuleSpec& spec) {
   return text + " }";
 }
 
-/// What one's own flavour must not be called: a stored "chocolate" must mean ours.
+/// A custom flavour must not have the name of a built-in one: a stored "chocolate" must mean the
+/// built-in flavour.
 bool takes_a_name_of_ours(const Flavour& flavour) {
   return built_in_flavour_text(flavour.name) != "" && !is_built_in(flavour);
 }
@@ -541,7 +545,7 @@ FlavourOrErrors read_flavour_file(const std::filesystem::path& file) {
   return flavour;
 }
 
-/// Those that the program carries, in the order of their files. None has a base.
+/// The flavours embedded in the program, in the order of their files. None of them has a base.
 const std::vector<Flavour>& built_in_flavours() {
   static const std::vector<Flavour> kFlavours = [] {
     std::vector<Flavour> flavours;
@@ -637,7 +641,8 @@ std::vector<Section> flavour_sections(const Flavour& flavour, const std::string&
 
 std::string flavour_text(const Flavour& flavour) {
   std::vector<Section> sections = flavour_sections(flavour, "");
-  sections.front().lines.front() = {"format", "1"};  // in place of the name, which is the file's
+  sections.front().lines.front() = {"format", "1"};  // replaces the name, which is the name of the
+                                                     // file
   return text_of(sections);
 }
 

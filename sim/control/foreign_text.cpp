@@ -8,7 +8,7 @@
 namespace swarmsmith {
 namespace {
 
-/// `--robots` and `-n`, but no dash, and no negative number.
+/// True for `--robots` and `-n`, but not for a dash or a negative number.
 bool is_option(std::string_view word) {
   if (word.starts_with("--")) return true;
   if (word.size() < 2 || word.front() != '-') return false;

@@ -6,13 +6,13 @@
 
 namespace swarmsmith {
 
-/// Texts of control software from other programs.
+/// Texts of control software made by other programs.
 
-/// What is wrong with what stands before a controller's text: options, which would change what the
-/// text means to the program that it was made for.
+/// The error in the words before the text of a controller: options there would change the meaning
+/// of the text for the program that made it.
 std::optional<std::string> complaint_about_name(std::string_view before);
 
-/// What holds of all texts of this kind and cannot be checked; nothing of most.
+/// A remark that applies to all texts of this kind and cannot be checked; most kinds have none.
 std::optional<std::string> remark_about(std::string_view text);
 
 }  // namespace swarmsmith

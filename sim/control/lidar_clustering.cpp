@@ -44,7 +44,7 @@ struct Cluster {
   }
 };
 
-/// Whether a reading is close to the kept one before it, `rays` earlier.
+/// Whether a reading is close to the previous kept reading, which is `rays` rays earlier.
 bool close(const Echo& echo, const Echo& before, int rays, const LidarClustering& law) {
   return std::fabs(echo.distance_m - before.distance_m) < law.distance_threshold_m &&
          rays * 360.0 / kLidarRays < law.angle_threshold_deg;

@@ -8,8 +8,8 @@
 
 namespace swarmsmith {
 
-/// The YDLIDAR X4's rays (thesis 4.2.10): the first straight ahead, the others counter-clockwise,
-/// 2 pi / 719 apart (thesis facts, section 3).
+/// The rays of the YDLIDAR X4 (thesis 4.2.10): the first points straight ahead, the others follow
+/// counter-clockwise, 2 pi / 719 apart (thesis facts, section 3).
 inline constexpr int kLidarRays = 719;
 
 struct RayDirection {
@@ -20,26 +20,27 @@ struct RayDirection {
 /// Directions of the rays, by index.
 const std::array<RayDirection, kLidarRays>& lidar_directions();
 
-/// How a scan becomes neighbours (thesis 5.1; thesis facts, section 4).
+/// The rules by which neighbours are found in a scan (thesis 5.1; thesis facts, section 4).
 struct LidarClustering {
-  /// Readings outside of these are dropped; the farther bound so that the walls of the room are not
+  /// Readings outside these bounds are dropped; the upper bound keeps walls of the room from being
   /// taken for robots.
   double least_distance_m = 0.10;
   double most_distance_m = kNeighbourRange_m;
-  /// A reading belongs to the cluster of the kept reading before it when it differs by less.
+  /// A reading belongs to the same cluster as the previous kept reading when both differences are
+  /// below these thresholds.
   double distance_threshold_m = 0.02;
   double angle_threshold_deg = 10;
-  /// Smaller clusters are dropped (rvr-automode facts, section 3.3).
+  /// Clusters with fewer points are dropped (rvr-automode facts, section 3.3).
   int fewest_points = 5;
 };
 
-/// The robots that a scan sees: consecutive readings that are close to each other are one robot, at
-/// the mean of their distances and the circular mean of their angles. The last cluster goes on in
-/// the first one when the same thresholds hold across the seam.
+/// Finds the robots in a scan: consecutive readings that are close to each other are one robot, at
+/// the mean of their distances and the circular mean of their angles. The last cluster is joined to
+/// the first one when it is within the same thresholds across the seam.
 ///
-/// `ranges_m` are kLidarRays distances from the lidar's axis; infinities are readings without an
-/// object in range. Replaces what was in `found`: the robots counter-clockwise from the head, one
-/// that lies across the seam first.
+/// `ranges_m` are kLidarRays distances from the lidar's axis; infinity means that no object is in
+/// range. The content of `found` is replaced by the robots, counter-clockwise from the robot's
+/// head; a robot that lies across the seam comes first.
 void cluster_lidar(std::span<const double> ranges_m, std::vector<Neighbour>& found,
                    const LidarClustering& law = {});
 

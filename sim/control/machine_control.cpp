@@ -9,8 +9,8 @@
 namespace swarmsmith {
 namespace {
 
-/// A colour as one number. Read byte by byte: the three were often just written one by one, and who
-/// reads two of them at once then waits.
+/// A colour as one number. It is read byte by byte, because the three bytes were often just written
+/// one by one, and code that reads two of them at once then stalls.
 std::uint32_t number_of(const Rgb& color) {
   return static_cast<std::uint32_t>(color.r) | static_cast<std::uint32_t>(color.g) << 8U |
          static_cast<std::uint32_t>(color.b) << 16U;
@@ -30,7 +30,7 @@ MachineControl::MachineControl(const Machine& machine, const Flavour& flavour, R
   }
 }
 
-/// By what each kind of condition says that it reads: the probability follows from that alone.
+/// Sorts conditions by the type of their reading: the probability depends on nothing else.
 MachineControl::Known MachineControl::known_of(const Condition& condition, const Flavour& flavour) {
   Known known;
   std::visit(
@@ -56,14 +56,14 @@ Command MachineControl::step(Senses& senses) {
   const State& current = machine_->states[static_cast<std::size_t>(state_)];
   const Command command = act(current.behaviour, senses, *flavour_, memory_, rng_);
   if (entered_) {
-    entered_ = false;  // no condition is tested in the first cycle of a state
+    entered_ = false;  // conditions are not tested in the first cycle of a state
   } else {
     take_transition(senses);
   }
   return command;
 }
 
-/// Within the loop over transitions: a call would cost more than what it does.
+/// Inlined into the loop over transitions: a call would cost more than the function itself.
 [[gnu::always_inline]] inline double MachineControl::probability_of_count(
     Known& known, const Condition& condition, Senses& senses) const {
   const auto n = static_cast<std::size_t>(senses.neighbour_count());
@@ -73,8 +73,8 @@ Command MachineControl::step(Senses& senses) {
   return probability;
 }
 
-/// Testing all and choosing uniformly among the enabled ones is, in distribution, the same as
-/// visiting them in a random order and taking the first one that is enabled.
+/// Testing all transitions and choosing uniformly among the enabled ones has the same distribution
+/// as visiting them in random order and taking the first enabled one.
 void MachineControl::take_transition(Senses& senses) {
   const std::vector<Transition>& transitions =
       machine_->states[static_cast<std::size_t>(state_)].transitions;

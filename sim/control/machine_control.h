@@ -16,9 +16,9 @@ namespace swarmsmith {
 
 /// A running state machine.
 ///
-/// A cycle (rvr-automode facts, section 6.2): a behaviour that was just entered is reset; it acts;
-/// then, from the second cycle in a state on, one of the enabled outgoing transitions, if any, is
-/// taken, each of the enabled ones with equal probability. The command is the one of the behaviour
+/// In each cycle (rvr-automode facts, section 6.2), a behaviour that was just entered is reset; it
+/// acts; then, from the second cycle in a state on, the machine takes one of the enabled outgoing
+/// transitions, if there are any, each with equal probability. The command is that of the behaviour
 /// that acted.
 class MachineControl {
  public:
@@ -32,15 +32,16 @@ class MachineControl {
   std::uint64_t drawn() const { return rng_.drawn(); }
 
  private:
-  /// What is known of a condition's probability.
+  /// The kind of reading on which a condition's probability depends.
   enum class Reads : std::uint8_t { Nothing, Floor, Neighbours, Others };
   static constexpr int kTabledNeighbours = 8;
   static constexpr std::uint32_t kNoColor = 0xffffffff;
 
-  /// A transition with what is known of its enabling probability: of a condition that reads
-  /// nothing, the probability; of one that looks at the floor, that of the colour it saw last,
-  /// since robots stay on one for a while; of one that counts neighbours, those of the counts that
-  /// turned up, -1 where none did. Any other is asked in each cycle.
+  /// A transition with the known values of its enabling probability. For a condition without
+  /// readings this is the probability; for a condition on the floor it is the probability for the
+  /// last colour seen, since robots stay on one colour for a while; for a condition on the number
+  /// of neighbours these are the probabilities for the counts seen so far, and -1 for other counts.
+  /// Other conditions are evaluated in each cycle.
   struct Known {
     Reads reads = Reads::Nothing;
     std::uint32_t color = kNoColor;

@@ -76,7 +76,7 @@ class Parser {
     return state;
   }
 
-  /// Sorts the fields of a state into its own and those of its transitions.
+  /// Sorts the fields of a state's block: some belong to the state, the others to its transitions.
   static std::optional<Error> sort(int index, std::span<const Field> fields, const Token& end,
                                    Block& own, std::vector<Block>& transitions) {
     for (const Field& field : fields) {
@@ -105,7 +105,7 @@ class Parser {
     return std::nullopt;
   }
 
-  /// Compares the number of transitions with the announced one.
+  /// Compares the number of transitions with the announced number.
   std::optional<Error> check_count(Block& own, const std::vector<Block>& transitions) const {
     const std::optional<Field> announced = own.take("n");
     const std::string name = "--n" + own.suffix();

@@ -13,11 +13,11 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kCount = kKinds<Behaviour> + kKinds<Condition>;
-/// Above the enumerators: first behaviours, then conditions.
+/// External modules come after the enumerators: first behaviours, then conditions.
 constexpr int kFirstExternal = 1000;
 static_assert(kCount < kFirstExternal);
 
-/// What `text` finds in the struct of each module, in the order of the enumerators.
+/// Applies `text` to the struct of each module, in the order of the enumerators.
 template <class Text>
 std::array<std::string_view, kCount> texts_of(const Text& text) {
   std::array<std::string_view, kCount> texts;

@@ -7,7 +7,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
-/// Sums of such weights, and their squares, are far from overflow.
+/// Sums of weights up to this, and their squares, are far from overflow.
 constexpr double kLargestWeight = 1'000'000;
 
 using Type = ParameterSpec::Type;

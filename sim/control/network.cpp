@@ -19,7 +19,7 @@ namespace {
 constexpr std::array kAllInputs = {NetworkInputs::Rvr, NetworkInputs::RvrGray, NetworkInputs::Rm12,
                                    NetworkInputs::Rm11};
 
-/// Slope of the output's sigmoid (NEAT 1.2.1; docs/methods.md).
+/// Slope of the output sigmoid (NEAT 1.2.1; docs/methods.md).
 constexpr double kSlope = 4.924273;
 
 /// Diagonals at 45, 135, 225 and 315 degrees.
@@ -28,7 +28,7 @@ constexpr std::array<Vector2, 4> kDiagonals = {{{kSqrtHalf, kSqrtHalf},
                                                 {-kSqrtHalf, -kSqrtHalf},
                                                 {kSqrtHalf, -kSqrtHalf}}};
 
-/// Fills the inputs one by one.
+/// Appends inputs one by one.
 struct InputList {
   InputValues values{};
   std::size_t count = 0;
@@ -41,7 +41,7 @@ void add_projections(const Vector2& vector, InputList& inputs) {
     inputs.add(std::max(0.0, vector.x * diagonal.x + vector.y * diagonal.y));
 }
 
-/// Shortened to length 1.
+/// The vector, shortened to length 1 if it is longer.
 Vector2 cut(const Vector2& vector) {
   const double length = std::sqrt(vector.x * vector.x + vector.y * vector.y);
   if (length <= 1) return vector;
@@ -53,7 +53,7 @@ double tanh_half(double x) {
   return 2 / (1 + exp(-x)) - 1;
 }
 
-/// tanh(n / 2) of a count of neighbours; swarms are small, so that most are worked out once.
+/// tanh(n / 2) for a number of neighbours; a table holds the values for small swarms.
 double count_input(std::size_t count) {
   static const auto kFew = [] {
     std::array<double, 32> values{};
@@ -64,7 +64,8 @@ double count_input(std::size_t count) {
   return count < kFew.size() ? kFew[count] : tanh_half(static_cast<double>(count));
 }
 
-/// The sum over neighbours of 1 / (1 + d) in their directions; its length l becomes tanh(l / 2).
+/// The sum over neighbours of 1 / (1 + d) in their directions, scaled so that its length l becomes
+/// tanh(l / 2).
 Vector2 neighbour_vector(std::span<const Neighbour> neighbours, double per_metre) {
   Vector2 sum;
   for (const Neighbour& neighbour : neighbours) {
@@ -101,7 +102,7 @@ void add_floor(NetworkInputs set, const Rgb& color, const FloorModel& model, Inp
   inputs.add(level);
 }
 
-/// The single sensors of both rings.
+/// Adds the readings of the single sensors of both rings.
 void add_strengths(Senses& senses, InputList& inputs) {
   for (const double strength : senses.proximity())
     inputs.add(strength);
@@ -109,7 +110,7 @@ void add_strengths(Senses& senses, InputList& inputs) {
     inputs.add(strength);
 }
 
-/// The inputs that all sets end with.
+/// Adds the inputs with which all sets end.
 InputValues with_neighbours(const Vector2& towards, Senses& senses, NetworkInputs set,
                             InputList& inputs) {
   inputs.add(count_input(static_cast<std::size_t>(senses.neighbour_count())));
@@ -279,8 +280,8 @@ std::string print_network(const Network& network, const Flavour& flavour) {
 InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& flavour) {
   InputList inputs;
   const std::span<const Neighbour> neighbours = senses.neighbours();
-  // Before the other sensors are read: its chain of operations is the longest.
-  // The e-puck's programs count in centimetres (docs/methods.md), ours in metres.
+  // Computed before the other sensors are read, because its chain of operations is the longest. The
+  // e-puck's programs use centimetres (docs/methods.md), the other inputs metres.
   const Vector2 towards =
       neighbour_vector(neighbours, set == NetworkInputs::Rm11 ? flavour.neighbours.per_metre : 1);
   if (set == NetworkInputs::Rm11) {

@@ -10,9 +10,9 @@
 namespace swarmsmith {
 namespace {
 
-/// 1 at `near` and below, 0 at `far` and beyond, linear between.
+/// 1 up to `near`, 0 from `far` on, linear between.
 double ramp(double value, double near, double far) {
-  const double between = (far - value) / (far - near);  // without a branch, so that loops are quick
+  const double between = (far - value) / (far - near);  // without a branch, so that loops are fast
   const double from_near = value <= near ? 1 : between;
   return value >= far ? 0 : from_near;
 }
@@ -23,8 +23,8 @@ double inverse_within(double value, double near, double far) {
   return within ? inverse : 0.0;
 }
 
-/// The sum of kProximityDirections, each times its strength, in the order of the sensors. What is
-/// not there adds 0: cheaper than eight branches that cannot be predicted.
+/// The sum of kProximityDirections, each times its strength, in the order of the sensors. Sensors
+/// without an obstacle add 0: this is cheaper than eight unpredictable branches.
 Vector2 sum_along_sensors(const std::array<double, kProximitySensors>& strengths) {
   const auto& s = strengths;
   const double left_ahead = kSqrtHalf * s[0];
@@ -45,7 +45,7 @@ Vector2 sum_along(const RingDirections& directions,
   return sum;
 }
 
-/// The light of a model that has a law or directions of its own.
+/// The light vector of a model with its own law or directions.
 Vector2 light_by_law(const LightReadings& readings, const LightModel& model) {
   std::array<double, kProximitySensors> strengths;
   for (std::size_t i = 0; i < readings.size(); ++i)
@@ -54,7 +54,7 @@ Vector2 light_by_law(const LightReadings& readings, const LightModel& model) {
   if (model.least_reading > 0 && strongest <= model.least_reading) return {};
   const Vector2 sum = sum_along(model.directions.value_or(kProximityDirections), strengths);
   if (!model.unit_vector) return sum;
-  // Readings that add up to nothing are a light ahead (epuck facts, 3.2).
+  // If the readings add up to zero, the light counts as straight ahead (epuck facts, 3.2).
   const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
   return length > 0 ? Vector2{sum.x / length, sum.y / length} : Vector2{1, 0};
 }
@@ -71,8 +71,8 @@ double obstacle_strength(double distance_m, const ObstacleModel& model) {
 
 namespace {
 
-/// Of readings that are distances. Within the sum, which steering asks for in each cycle, a call
-/// would cost a tenth of it.
+/// Strengths of readings that are distances. Inlined into the sum, which steering requests in each
+/// cycle: a call would add a tenth to its time.
 [[gnu::always_inline]] inline std::array<double, kProximitySensors> strengths_of_distances(
     const ProximityReadings& proximity, const ObstacleModel& model) {
   std::array<double, kProximitySensors> strengths;
@@ -98,7 +98,7 @@ std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings
 
 namespace {
 
-/// Of a robot whose ring has directions of its own, or gives strengths.
+/// For a robot whose ring has its own directions, or gives strengths instead of distances.
 Vector2 sum_of_ring(const ProximityReadings& proximity, const ObstacleModel& model) {
   return sum_along(model.directions.value_or(kProximityDirections),
                    obstacle_strengths(proximity, model));
@@ -158,7 +158,7 @@ std::optional<HueSaturation> hue_and_saturation(const Rgb& color) {
   const int largest = std::max({r, g, b});
   const int spread = largest - std::min({r, g, b});
   if (spread == 0) return std::nullopt;
-  // Sixths of a turn from red.
+  // The hue in sixths of a turn from red.
   double sixths = 0;
   if (largest == r) {
     sixths = static_cast<double>(g - b) / spread + (g < b ? 6 : 0);

@@ -13,10 +13,10 @@ struct FloorModel;
 struct LightModel;
 enum class ColorLabel;
 
-/// What modules make of raw readings: obstacles and light as vectors, floors as grey levels and
-/// labels.
+/// How modules convert raw readings: obstacles and light to vectors, floor colours to grey levels
+/// and labels.
 
-/// A vector of the robot's frame.
+/// A vector in the robot's frame.
 struct Vector2 {
   double x = 0;
   double y = 0;
@@ -37,19 +37,19 @@ inline constexpr std::array<Vector2, kProximitySensors> kProximityDirections = {
      {-kSqrtHalf, kSqrtHalf},
      {0, 1}}};
 
-/// Directions of a ring's sensors by index, unit vectors.
+/// Unit vectors towards the sensors of a ring, by index.
 using RingDirections = std::array<Vector2, kProximitySensors>;
 
-/// Strength of one proximity sensor's reading: prox of the reference model, in [0, 1], or the
-/// published program's inverse distance in 1/m. 0 when there is no obstacle.
+/// Strength of the reading of one proximity sensor: prox of the reference model, in [0, 1], or the
+/// inverse distance of the published program in 1/m. 0 when there is no obstacle.
 double obstacle_strength(double distance_m, const ObstacleModel& model);
 
 /// The same for all sensors.
 std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings& proximity,
                                                          const ObstacleModel& model);
 
-/// Whether nothing is met up to the distance; then all strengths are 0 for a model whose `far_m` it
-/// is.
+/// Whether no sensor measures an obstacle up to this distance; then all strengths are 0 for a model
+/// whose `far_m` is this distance.
 template <std::size_t N>
 bool nothing_within(std::span<const double, N> proximity, double far_m) {
   bool any = false;
@@ -62,19 +62,19 @@ bool nothing_within(std::span<const double, N> proximity, double far_m) {
 double neighbour_strength(double distance_m, const ObstacleModel& model);
 
 /// Vector of all obstacles: w_o of the thesis, P of the published program (rvr-automode facts,
-/// section 4.1). Pass no neighbours when the model does not take them for obstacles.
+/// section 4.1). Pass no neighbours when the model does not treat them as obstacles.
 Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model);
-/// The same before it is shortened to the model's longest: for who asks for its direction, or
-/// whether it is longer than what is shorter than that.
+/// The same vector before it is shortened to the model's longest length: for callers that need only
+/// its direction, or whether it is longer than a threshold below that length.
 Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                      const ObstacleModel& model);
 
 /// Vector of the light: w_l of the thesis (eq. 5.1), each reading as light_i in [0, 1].
 Vector2 light_vector(const LightReadings& lux, const LightModel& model);
 
-/// Colours come as references: the three bytes that make one were often just written one by one,
-/// and who reads two of them at once then waits.
+/// Colours are passed by reference: the three bytes of a colour were often just written one by one,
+/// and code that reads two of them at once then stalls.
 
 /// Grey level in thousandths of 0..255: 0.299 R + 0.587 G + 0.114 B without rounding.
 constexpr int gray_level(const Rgb& color) {
@@ -89,7 +89,7 @@ struct HueSaturation {
 /// Nothing when the three channels are equal: greys have no hue.
 std::optional<HueSaturation> hue_and_saturation(const Rgb& color);
 
-/// The label nearest in hue, if one is near enough.
+/// The label with the nearest hue, if it is near enough.
 std::optional<ColorLabel> perceived_label(const Rgb& color, const FloorModel& model);
 
 }  // namespace swarmsmith

@@ -7,14 +7,13 @@
 
 namespace swarmsmith {
 
-/// The reference model of the RVR (thesis table 5.1): what control software may read and command.
-/// It is the border between control software and whatever carries it, a simulator or a robot: both
-/// keep to the ranges below, and both give SI units. Frame: x forward, y left, angles
-/// counter-clockwise.
+/// The reference model of the RVR (thesis table 5.1): the readings and commands of control
+/// software. It is the interface between control software and a simulator or a robot; both sides
+/// keep to the ranges below and use SI units. Frame: x forward, y left, angles counter-clockwise.
 
 inline constexpr int kProximitySensors = 8;
 
-/// Its name, which flavours have for it.
+/// The name of this reference model in flavours.
 inline constexpr std::string_view kRvrModel = "rvr";
 
 /// Directions of the proximity sensors from the robot's head, in degrees, by index
@@ -22,17 +21,17 @@ inline constexpr std::string_view kRvrModel = "rvr";
 inline constexpr std::array<int, kProximitySensors> kProximityDirections_deg = {45,   0,   -45, -90,
                                                                                 -135, 180, 135, 90};
 
-/// So many of them, the first ones, look ahead; the others look to a side or back.
+/// The number of sensors that look ahead; they come first. The others look to a side or back.
 inline constexpr int kFrontSensors = 3;
 
-/// A proximity sensor cannot measure what is nearer: then prox is 1 (thesis 4.2.9).
+/// A proximity sensor cannot measure smaller distances: then prox is 1 (thesis 4.2.9).
 inline constexpr double kBlindZone_m = 0.05;
-/// R, where prox becomes 0, unless a user tunes it: a profile for its sensors, a flavour for what
-/// it expects of them (thesis facts, section 5).
+/// R, the distance at which prox becomes 0 by default. A profile may set another range for its
+/// sensors, and a flavour for the sensors that it expects (thesis facts, section 5).
 inline constexpr double kProximityRange_m = 0.4;
-/// Of a light sensor (thesis 4.2.6).
+/// The highest reading of a light sensor (thesis 4.2.6).
 inline constexpr double kMostLight_lux = 16'000;
-/// Robots nearer than this are neighbours: beyond it the lidar may see walls of the room (thesis
+/// Robots nearer than this are neighbours: farther away the lidar may see walls of the room (thesis
 /// 5.1). Table 5.1 has 10 m, the range of the variable.
 inline constexpr double kNeighbourRange_m = 0.75;
 
@@ -47,8 +46,8 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// Another robot, as seen from this one: distance of its centre (by lidar, of its turret's near
-/// side), and the unit vector towards it in the robot's frame.
+/// Another robot, as this robot sees it: the distance of its centre (from a lidar, of the near side
+/// of its turret), and the unit vector towards it in the robot's frame.
 struct Neighbour {
   double distance_m = 0;
   double direction_x = 1;
@@ -56,24 +55,24 @@ struct Neighbour {
 };
 
 /// Distances to the nearest obstacle along the eight directions, in metres from the sensor:
-/// -infinity closer than `kBlindZone_m`, +infinity beyond the range R or with nothing there. prox
-/// of table 5.1 is what a flavour makes of them (`obstacle_strength`).
+/// -infinity if closer than `kBlindZone_m`, +infinity beyond the range R or without an obstacle. A
+/// flavour computes prox of table 5.1 from them (`obstacle_strength`).
 using ProximityReadings = std::array<double, kProximitySensors>;
 
-/// Those of the sensors that look ahead.
+/// The distances of the sensors that look ahead.
 using FrontProximity = std::span<const double, kFrontSensors>;
 
-/// Lux at the eight directions of the proximity sensors, up to `kMostLight_lux`; a ring of sensors
-/// that the RVR lacks and `chocolate` wants (thesis facts, section 6.1).
+/// Lux along the eight directions of the proximity sensors, up to `kMostLight_lux`. The RVR does
+/// not have this ring of sensors; `chocolate` needs it (thesis facts, section 6.1).
 using LightReadings = std::array<double, kProximitySensors>;
 
-/// Readings of the current cycle. A source computes what is asked for, so a sensor that no module
-/// asks for costs nothing; asking twice in a cycle gives the same reading.
+/// Readings of the current cycle. They are computed on request, so that a sensor that no module
+/// uses costs nothing; two requests in the same cycle give the same reading.
 class Senses {
  public:
   virtual ~Senses() = default;
   virtual const ProximityReadings& proximity() = 0;
-  /// The same to the front alone, for who needs no more: a source may have less to do.
+  /// The same for the front alone; it may be cheaper to compute than all eight.
   virtual FrontProximity front_proximity() {
     return FrontProximity(proximity().data(), kFrontSensors);
   }
@@ -81,17 +80,18 @@ class Senses {
   virtual const Rgb& ground_color() = 0;
   /// The robots nearer than `kNeighbourRange_m` (thesis 5.1, lidar clustering), in a fixed order.
   virtual std::span<const Neighbour> neighbours() = 0;
-  /// How many robots were seen or heard in this very cycle; `neighbours` may know older ones, too.
+  /// The number of robots seen or heard in this cycle; `neighbours` may also include robots from
+  /// earlier cycles.
   virtual int neighbour_count() { return static_cast<int>(neighbours().size()); }
   virtual const LightReadings& light() = 0;
-  /// Time since the start as the robot's clock has it, seconds.
+  /// Time since the start by the robot's clock, in seconds.
   virtual double time_s() = 0;
 };
 
 /// Two in front, one on each side, one at the back (thesis 3.1); black is off.
 using Leds = std::array<Rgb, 5>;
 
-/// Speeds of the treads over ground, metres per second, and what the LEDs show.
+/// Speeds of the treads over the ground in metres per second, and the colours of the LEDs.
 struct Command {
   double left_mps = 0;
   double right_mps = 0;
@@ -100,13 +100,13 @@ struct Command {
   friend bool operator==(const Command&, const Command&) = default;
 };
 
-/// Wheels go up to 155 cm/s, either way (thesis table 5.1; thesis facts, section 5).
+/// Wheels go up to 155 cm/s, in both directions (thesis table 5.1; thesis facts, section 5).
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
-/// As far as files of robots and flavours may go.
+/// The highest speed that files of robots and flavours may give.
 inline constexpr double kFastestWheel_mps = 10;
 
-/// A speed within the wheels' range.
+/// The speed, limited to the range of the wheels.
 constexpr double within_wheel_speed(double speed_mps, double most_mps = kMaxWheelSpeed_mps) {
   if (speed_mps > most_mps) return most_mps;
   return speed_mps < -most_mps ? -most_mps : speed_mps;
@@ -116,15 +116,15 @@ constexpr double within_wheel_speed(double speed_mps, double most_mps = kMaxWhee
 struct ReferenceEntry {
   std::string_view device;
   std::string_view variable;
-  std::string_view unit;  ///< empty for a pure number
+  std::string_view unit;  ///< empty for a number without a unit
   double least = 0;
   double most = 0;
-  bool below_most = false;  ///< `most` itself is left out
-  int count = 0;            ///< 0: one a neighbour
+  bool below_most = false;  ///< `most` itself is excluded
+  int count = 0;            ///< 0: one per neighbour
 };
 
-/// Table 5.1 as the code above has it: wheels turn both ways (thesis facts, section 5), light is
-/// the ring's, and the LEDs, which the table leaves out, stand at its end.
+/// Table 5.1 as the code above implements it: wheels turn both ways (thesis facts, section 5), the
+/// light is the ring's, and the LEDs, which the table leaves out, come last.
 std::span<const ReferenceEntry> reference_model();
 
 }  // namespace swarmsmith

@@ -21,9 +21,9 @@ constexpr int kSelector = 0;
 constexpr int kSequenceWithMemory = 3;
 constexpr int kAction = 5;
 constexpr int kCondition = 6;
-constexpr int kOldSequenceWithMemory = 0;  ///< as a root of the older form
+constexpr int kOldSequenceWithMemory = 0;  ///< as the root in the older form
 
-/// Takes a field that can have one value alone in Maple's trees.
+/// Takes a field that can have only one value in Maple's trees.
 std::optional<Error> need_value(Block& block, std::string_view stem, int value,
                                 const std::string& meaning) {
   const Expected<Field> field = block.need(stem);
@@ -34,7 +34,7 @@ std::optional<Error> need_value(Block& block, std::string_view stem, int value,
                                     ", " + meaning + ": only Maple's trees can be read");
 }
 
-/// The fields of a subtree, sorted into its own and those of its children.
+/// The fields of a subtree, sorted: some belong to the subtree, the others to its children.
 struct SubtreeBlocks {
   Block own;
   std::vector<Block> children;
@@ -62,7 +62,7 @@ Expected<SubtreeBlocks> blocks_of(const std::string& name, std::span<const Field
   return blocks;
 }
 
-/// The condition that `--c` names.
+/// Reads the condition selected by `--c`.
 Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
   const Expected<Field> selector = block.need("c");
   if (!selector) return Unexpected(selector.error());
@@ -74,7 +74,7 @@ Expected<Condition> read_condition(Block& block, const Flavour& flavour) {
   return make_condition((*spec)->module, *values);
 }
 
-/// The action that `--a` names; `last` takes what stands behind its parameters.
+/// Reads the action selected by `--a`; `last` takes the fields after its parameters.
 template <class Last>
 Expected<Behaviour> read_action(Block& block, const Flavour& flavour, const Last& last) {
   const Expected<Field> selector = block.need("a");
@@ -109,7 +109,7 @@ Expected<Subtree> read_subtree(int index, std::span<const Field> fields, const T
   return Subtree{*condition, *action};
 }
 
-/// In the form of 2018: `--nc0 1` condition `--c0x0`, then the action `--a0`.
+/// Reads a subtree in the form of 2018: `--nc0 1` with condition `--c0x0`, then the action `--a0`.
 Expected<Subtree> read_old_subtree(int index, std::span<const Field> fields, const Token& end,
                                    const Flavour& flavour) {
   const std::string name = std::to_string(index);
@@ -131,7 +131,7 @@ Expected<Subtree> read_old_subtree(int index, std::span<const Field> fields, con
   return Subtree{*condition, *action};
 }
 
-/// What the two forms differ in, besides their subtrees.
+/// The differences between the two forms, apart from their subtrees.
 struct Form {
   std::string_view root;
   int root_kind;

@@ -15,10 +15,10 @@ namespace swarmsmith {
 
 struct Flavour;
 
-/// Bound of the search space (Kuckling et al., ANTS 2018; docs/methods.md).
+/// Limit of the search space (Kuckling et al., ANTS 2018; docs/methods.md).
 inline constexpr int kMaxSubtrees = 4;
 
-/// A selector: while its condition does not hold, its action acts.
+/// A selector: as long as its condition does not hold, its action acts.
 struct Subtree {
   Condition condition;
   Behaviour action;
@@ -26,32 +26,35 @@ struct Subtree {
   friend bool operator==(const Subtree&, const Subtree&) = default;
 };
 
-/// AutoMoDe-Maple's behaviour tree: a sequence with memory of one to four selectors. Action i acts
-/// until condition i holds, then subtree i + 1 is next; after the last one the first.
+/// The behaviour tree of AutoMoDe-Maple: a sequence with memory of one to four selectors. Action i
+/// acts until condition i holds, then subtree i + 1 is next; after the last subtree comes the
+/// first.
 struct Tree {
   std::vector<Subtree> subtrees;
 
   friend bool operator==(const Tree&, const Tree&) = default;
 };
 
-/// What is wrong with the tree, if anything; `where` names the subtree.
+/// The error in the tree, if there is one; `where` names the subtree.
 std::optional<Error> check(const Tree& tree, const Flavour& flavour);
 
-/// Reads the text of a tree as AutoMoDe-Maple's programs write it:
+/// Reads the text of a tree in the format of AutoMoDe-Maple's programs:
 ///
 ///     --nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 --a01 1 --p01 0
 ///
-/// Numbers of modules are those of the flavour's tables. A leading `--bt-config` is skipped. Only
-/// Maple's trees are read: any other kind of node is an error. `where` is as of parse_machine.
+/// The numbers of modules are the numbers in the flavour's tables. A leading `--bt-config` is
+/// skipped. Only Maple's trees are accepted: any other kind of node is an error. `where` is as in
+/// parse_machine.
 Expected<Tree> parse_tree(std::string_view text, const Flavour& flavour);
 
 /// The canonical text. Throws std::invalid_argument when the tree does not fit the flavour.
 std::string print_tree(const Tree& tree, const Flavour& flavour);
 
-/// A running tree. A tick goes on with the subtree that acted last. A condition that holds, with
-/// its probability, ends its subtree, and the next one is ticked in the same cycle; when the last
-/// one ends, the robot stands still in that cycle. Actions go on where they were: Exploration keeps
-/// a turn that it was in (AutoMoDe-private, branch BehaviorTree @ dd7167c; docs/methods.md).
+/// A running tree. A tick starts at the subtree that acted last. A condition that holds, with its
+/// probability, ends its subtree, and the next one is ticked in the same cycle; when the last one
+/// ends, the robot stands still in that cycle. Actions keep their memory between ticks: Exploration
+/// continues an interrupted turn (AutoMoDe-private, branch BehaviorTree @ dd7167c;
+/// docs/methods.md).
 class TreeControl {
  public:
   /// `tree` and `flavour` must outlive the object.

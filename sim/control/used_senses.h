@@ -5,9 +5,9 @@
 
 namespace swarmsmith {
 
-/// What a controller may ask for in some cycle or other: what a robot must have to run it, and what
-/// must travel if it runs elsewhere. It never asks for anything else but the time. States to which
-/// no transition leads ask for nothing.
+/// The readings that a controller may request in any cycle: the sensors that a robot must have to
+/// run it, and the readings that must be sent if it runs elsewhere. Apart from the time it never
+/// requests others. Unreachable states do not count.
 UsedSenses senses_used_by(const Controller& controller, const Flavour& flavour);
 
 }  // namespace swarmsmith

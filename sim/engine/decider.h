@@ -8,49 +8,49 @@
 
 namespace swarmsmith {
 
-/// What decides for the simulated robots in place of their control software: programs on the other
-/// side of a wire, say.
+/// Decides for the simulated robots instead of their control software; for example, programs at the
+/// other end of a connection.
 ///
-/// At an instant at which robots are due for a control cycle, the engine says so (`begin`), asks
-/// about each of them (`ask`), and then takes the answers in the same order (`answer`); once more
-/// for those whose period is shorter than 10 ms. Readings do
-/// not depend on commands of the same instant, so that a decider that answers as ControlSoftware
-/// with control_stream would gets the bits of a run without a decider. The engine waits for
-/// every call: a decider that has to wait for somebody blocks in `begin` or `answer`. What it
-/// throws ends the run, and comes out of simulate().
+/// At an instant when robots are due for a control cycle, the engine announces it (`begin`), asks
+/// about each of these robots (`ask`), and then takes the answers in the same order (`answer`). For
+/// robots with a period below 10 ms it asks again at the same instant. Readings do not depend on
+/// commands of the same instant, so a decider that answers like ControlSoftware with control_stream
+/// gives the same bits as a run without a decider. The engine waits for every call: a decider that
+/// has to wait for others blocks in `begin` or `answer`. An exception from a decider ends the run
+/// and leaves simulate().
 class Decider {
  public:
-  /// A control cycle of a robot.
+  /// One control cycle of a robot.
   struct Question {
     int robot = 0;
-    std::int64_t cycle = 0;  ///< of this robot, counts from 1
-    double time_s = 0;       ///< since the start: the double that Senses::time_s gives
-    /// Good until the robot's next question or the next `begin`. Each sensor is computed when first
-    /// asked for; what is asked for changes nothing else. For what a controller may ask:
-    /// senses_used_by.
+    std::int64_t cycle = 0;  ///< of this robot, counted from 1
+    double time_s = 0;       ///< since the start; the same double as Senses::time_s
+    /// Valid until the robot's next question or the next `begin`. Each sensor is computed when
+    /// first requested; requests have no other effect. For the readings that a controller may
+    /// request: senses_used_by.
     SimulatedSenses& senses;
   };
 
   struct Answer {
-    Command command;  ///< finite; speeds beyond those of the wheels are cut
-    int state = 0;    ///< ControlSoftware::state after the cycle; goes into the state digest
+    Command command;  ///< finite; speeds beyond the range of the wheels are clipped
+    int state = 0;    ///< ControlSoftware::state after the cycle; part of the state digest
   };
 
   virtual ~Decider() = default;
 
-  /// The simulated time has come to `time_s`. Comes before what is asked at it; a world that is to
-  /// run in real time waits here.
+  /// The simulated time has reached `time_s`. Called before the questions at this time; a world
+  /// that runs in real time waits here.
   virtual void begin(double /*time_s*/) {}
 
   virtual void ask(const Question& question) = 0;
 
-  /// The newest decision for a robot that was not given before. Nothing: the treads go on as they
-  /// are. A decision acts from this instant on, or as much later as the profile's delays say.
+  /// The newest decision for a robot, if it was not yet returned. Nothing: the treads keep their
+  /// speeds. A decision acts from this instant on, or later by the delays of the profile.
   virtual std::optional<Answer> answer(int robot) = 0;
 
-  /// Whether every step of 10 ms is an instant, with `begin`, and `answer` for every robot whether
-  /// it was asked about or not: for answers that come when they come. Rounding then differs from a
-  /// run without. Is asked once, before the start.
+  /// Whether `begin` is called at every step of 10 ms, and `answer` for every robot, with or
+  /// without a question: for answers that arrive at any time. The rounding then differs from a run
+  /// without a decider. Called once, before the start.
   virtual bool wants_every_step() const { return false; }
 };
 

@@ -22,7 +22,7 @@ bool gives_strengths(const Robot& robot) {
   return kOfStrengths.acts_on(robot);
 }
 
-/// The reference models that the robot's senses are (docs/flavours.md).
+/// The reference models that the robot's senses can serve (docs/flavours.md).
 std::span<const std::string_view> models_of(const Robot& robot) {
   static constexpr std::array<std::string_view, 1> kOfDistances = {kRvrModel};
   static constexpr std::array<std::string_view, 3> kOfStrengths = {"rm1.1", "rm1.2", "rm1-2018"};
@@ -110,7 +110,8 @@ Flavour fitted(const Flavour& flavour, const Robot& robot) {
     result.light.directions = *labels;
   }
   result.speed_mps = std::min(flavour.speed_mps, robot.drive.max_speed_mps);
-  // The RVR's treads skid: a flavour may know better than the robot what distance turns it.
+  // The RVR's treads skid: a flavour may have a better effective distance between them than the
+  // robot.
   if (robot.drive.track_m != kTreadDistance_m) result.exploration.track_m = robot.drive.track_m;
   return result;
 }

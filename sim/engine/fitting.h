@@ -11,24 +11,24 @@
 
 namespace swarmsmith {
 
-/// Why modules of the flavour cannot run on the robot, as a sentence; nothing when they can: they
-/// take distances, or strengths, as the robot's sensors give them, and its reference model is one
-/// that the robot is simulated with.
+/// The reason, as a sentence, why modules of the flavour cannot run on the robot; nothing when they
+/// can. They must take distances or strengths, whichever the robot's sensors give, and the
+/// flavour's reference model must be one that this robot can be simulated with.
 std::optional<std::string> misfit(const Flavour& flavour, const Robot& robot);
 
-/// Why the profile cannot be one of the robot, as a sentence; nothing when it can: what does not
-/// act on the robot is as in an ideal profile.
+/// The reason, as a sentence, why the profile cannot be used for the robot; nothing when it can:
+/// fields that have no effect on the robot must be as in an ideal profile.
 std::optional<std::string> misfit(const Profile& profile, const Robot& robot);
 
-/// Why networks with these inputs cannot run on the robot, as a sentence; nothing when they can:
-/// its rings have the single sensors that are read.
+/// The reason, as a sentence, why networks with these inputs cannot run on the robot; nothing when
+/// they can: its rings must have the single sensors that the network reads.
 std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot);
 
-/// The points of its ground sensor that are outside of the robot's body.
+/// The points of the robot's ground sensor that are outside its body.
 std::vector<Point> ground_points_outside(const Robot& robot);
 
-/// The flavour as it runs on the robot: with the directions that its sensors are taken for, the
-/// distance of its wheels, and no faster than it can go.
+/// The flavour as it runs on the robot: with the robot's sensor directions, the distance between
+/// its wheels, and a speed no higher than its maximum.
 Flavour fitted(const Flavour& flavour, const Robot& robot);
 
 }  // namespace swarmsmith

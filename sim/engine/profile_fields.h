@@ -10,11 +10,11 @@
 namespace swarmsmith {
 
 inline constexpr FieldLimits kRate{0, 1};
-/// How much of a command a robot does.
+/// Limits of the fraction of a command that a robot carries out.
 inline constexpr FieldLimits kGrip{0, 2};
 /// Delays of commands and beats of devices are whole sub-steps of 10 ms, up to ten seconds.
 inline constexpr int kLongestDelay = 1000;
-/// Of the control period, as a factor on 0.1 s.
+/// Limits of the control period, as a factor on 0.1 s.
 inline constexpr FieldLimits kPeriodFactor{0.01, 10};
 
 inline constexpr FieldChoices<ContactModel> kContactModels = {
@@ -25,15 +25,17 @@ inline constexpr FieldChoices<bool> kWires = {{{"float64", false}, {"float32", t
 inline constexpr FieldChoices<bool> kTouches = {{{"obstacle", false}, {"nothing", true}}};
 inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", true}}};
 
-/// The fields of a profile, in the order of its file, each with its key and limits. Whatever reads,
-/// writes or sends profiles visits them here, so that a new field is one line for all.
+/// Visits the fields of a profile in the order of its file, each with its key and limits. All code
+/// that reads, writes or sends profiles uses this function, so that a new field needs only one
+/// line.
 ///
-/// A visitor has `device(name)`, which the fields after it belong to, and for fields `number(key,
+/// A visitor has `device(name)`, the device of the fields that follow, and for fields `number(key,
 /// value, limits)`, `flag(key, value)`, `choice(key, value, choices)`, `colors(key, list)`,
 /// `delays(key, list)`, `beat(key, sub_steps)`, `period(key, least, most)` and `point(key, value,
-/// limits)`. Fields that came later are visited by `later(is_ideal, visit)`: a writer leaves
-/// out those that are ideal, so that the texts of older profiles, and the digests of campaigns with
-/// them, stay as they were. Those that do not act on all robots are visited by `only(use, visit)`.
+/// limits)`. Fields that were added later are visited through `later(is_ideal, visit)`: a writer
+/// leaves them out if they are ideal, so that the texts of older profiles, and the digests of
+/// campaigns with them, do not change. Fields that do not apply to all robots are visited through
+/// `only(use, visit)`.
 template <class AnyProfile, class Visitor>
 void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.choice("contacts", profile.contacts, kContactModels);
@@ -114,8 +116,8 @@ void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.choice("score_point", profile.tracking.scores_tag, kScorePoints);
 }
 
-/// Whether the probabilities are some and sum to 1; so do those of no delays at all, which means
-/// "at once". Decimal fractions need not sum to the last bit.
+/// Whether the probabilities sum to 1. An empty list, which means no delay, counts as a
+/// distribution, too. The sum need not be exact, because decimal fractions are rounded.
 inline bool is_distribution(std::span<const ControlTiming::Delay> delays) {
   double sum = delays.empty() ? 1 : 0;
   for (const ControlTiming::Delay& delay : delays) {

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// What the robot's sensors can say (thesis 4.2), one bit each.
+/// The sensors of the robot (thesis 4.2), one bit each.
 enum class Sensor : unsigned {
   GroundColor = 1U << 0U,
   Velocity = 1U << 1U,
@@ -73,8 +73,8 @@ struct Orientation {
   friend bool operator==(const Orientation&, const Orientation&) = default;
 };
 
-/// One robot's readings of one control cycle: those of the sensors that were asked for; the others
-/// keep what they had.
+/// The readings of one robot in one control cycle. Sensors that were not requested keep their
+/// earlier readings.
 struct Readings {
   Rgb ground_color;                   ///< thesis 4.2.1
   Vector3 velocity_mps;               ///< eq. 4.3, in axes fixed at the start pose
@@ -88,17 +88,18 @@ struct Readings {
   ProximityReadings proximity_m{};    ///< thesis 4.2.9
   std::vector<double> lidar_m;        ///< thesis 4.2.10, 719 rays, counter-clockwise from the head
   std::vector<Neighbour> neighbours;  ///< thesis 5.1
-  int neighbour_count = 0;            ///< those that were seen or heard in this very cycle
+  int neighbour_count = 0;            ///< neighbours that were seen or heard in this cycle
 };
 
-/// What a simulated robot senses in a control cycle: what control software may ask for, and all the
-/// rest. Each sensor is computed when first asked for.
+/// The sensors of a simulated robot in a control cycle: those that control software may use, and
+/// all others. Each sensor is computed when first requested.
 class SimulatedSenses : public Senses {
  public:
-  /// The sensors' readings of this cycle; what was asked for before is not read again.
+  /// The readings of these sensors in this cycle; sensors that were already read are not read
+  /// again.
   ///
-  /// The accelerometer and the gyroscope compare with their reading before: ask for them in every
-  /// cycle or in none.
+  /// The accelerometer and the gyroscope use the difference from their previous reading: request
+  /// them in every cycle or in none.
   virtual const Readings& read(Sensors sensors) = 0;
 };
 

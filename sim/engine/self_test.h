@@ -6,12 +6,12 @@
 
 namespace swarmsmith {
 
-/// Digest of a few short fixed simulations, of a machine, a tree and a network. A program with
-/// another compiler, library or engine whose scores could differ has another one: coordinator and
-/// workers compare theirs.
+/// Digest of a few short fixed simulations with a machine, a tree and a network. It differs for
+/// programs with another compiler, library or engine whose scores could differ; coordinator and
+/// workers compare their digests.
 std::string self_test_digest();
 
-/// The part of it with one machine, tree or network: what differs says more.
+/// The part of the digest for one architecture, which helps to locate a difference.
 std::string self_test_digest(Architecture architecture);
 
 }  // namespace swarmsmith

@@ -33,19 +33,19 @@ struct LateCommand {
   Command command;
 };
 
-/// The treads' part of `to` becomes that of `from`. Part by part: after a copy in one piece,
-/// the next read of a part waits for all of it.
+/// Copies the treads' part of `from` to `to`. It copies member by member: after a copy in one
+/// piece, the next read of a member would stall.
 void renew_treads(Command& to, const Command& from) {
   to.left_mps = from.left_mps;
   to.right_mps = from.right_mps;
 }
 
-/// How much of a command a robot drives and turns.
+/// The fractions of a command that a robot really drives and turns.
 struct Grip {
   double way = 1;
   double turn = 1;
 
-  /// The speeds of treads without slip that move it as these do.
+  /// The speeds of treads without slip that would move the robot in the same way.
   Command of(const Command& command) const {
     const double ahead_mps = way * (command.left_mps + command.right_mps) / 2;
     const double turning_mps = turn * (command.right_mps - command.left_mps) / 2;
@@ -60,7 +60,7 @@ bool slips(const Treads& treads) {
   return treads.way != 1 || treads.turn != 1 || treads.way_sd > 0 || treads.turn_sd > 0;
 }
 
-/// Whether a number of the profile whose name begins so is a range.
+/// Whether a number of the profile whose name begins with this text is a range.
 bool has_range(const Profile& profile, std::string_view begin) {
   return std::ranges::any_of(
       profile.ranges, [&](const FieldRange& range) { return range.field.starts_with(begin); });
@@ -73,13 +73,13 @@ Grip grip_of_run(const Treads& treads, const Rng& run, int robot) {
           .turn = std::max(0.0, turn.normal(treads.turn, treads.turn_sd))};
 }
 
-/// In place of a controller where a decider decides.
+/// Replaces the controller when a decider decides.
 const Controller& idle() {
   static const Controller kIdle = Machine{.states = {{.behaviour = Stop{}, .transitions = {}}}};
   return kIdle;
 }
 
-/// All that the robots may be asked for in this run.
+/// All sensors that may be requested in this run.
 Sensors sensors_of_run(const SimulationSetup& setup, const Recorder& recorder,
                        const Decider* decider) {
   if (decider != nullptr) return Sensors::all();
@@ -90,19 +90,20 @@ Sensors sensors_of_run(const SimulationSetup& setup, const Recorder& recorder,
   return sensors;
 }
 
-/// A robot with what it needs to act on its own clock.
+/// A robot with the parts it needs to act on its own clock.
 struct Agent {
   RobotSenses senses;
   ControlSoftware control;
   RobotClock clock;
-  int state = 0;                       ///< a decider's last answer's
-  std::int64_t cycle = 0;              ///< control cycles done
-  Command command{};                   ///< the last one computed
-  Command acting{};                    ///< what the drive follows; the treads' part alone
+  int state = 0;                       ///< from the last answer of a decider
+  std::int64_t cycle = 0;              ///< control cycles so far
+  Command command{};                   ///< the last command computed
+  Command acting{};                    ///< the command that the drive follows; only the treads'
+                                       ///< part
   std::deque<LateCommand> late{};      ///< oldest first
-  const Readings* readings = nullptr;  ///< what the recorder asked for
+  const Readings* readings = nullptr;  ///< the readings that the recorder requested
 
-  /// Sub-step at which something happens to it next.
+  /// The next sub-step at which something happens to this robot.
   std::int64_t next_event() const {
     return late.empty() ? clock.next() : std::min(clock.next(), late.front().from);
   }
@@ -180,7 +181,7 @@ class Run {
 
   int index_of(const Agent& agent) const { return static_cast<int>(&agent - agents_.data()); }
 
-  /// Sensors, scores and digests would go on with NaN, and say nothing of it.
+  /// Without this check, sensors, scores and digests would silently continue with NaN.
   void check(std::int64_t now) const {
     const int unsound = world_.find_unsound();
     if (unsound >= 0) [[unlikely]]
@@ -199,11 +200,11 @@ class Run {
                              "profile");
   }
 
-  /// What is due for a robot at this sub-step: its control cycle, then late commands.
+  /// Handles the events of a robot at this sub-step: its control cycle, then late commands.
   void serve(int robot, std::int64_t now) {
     Agent& agent = agents_[static_cast<std::size_t>(robot)];
     bool acts = false;
-    while (agent.clock.next() == now) {  // again for a period shorter than a sub-step
+    while (agent.clock.next() == now) {  // repeated for a period shorter than a sub-step
       decide(agent, now);
       agent.clock.next_cycle();
       acts = true;
@@ -214,16 +215,16 @@ class Run {
       agent.late.pop_front();
       arrived = true;
     }
-    // Also an old command is renewed: its direction follows the heading, cycle by cycle.
+    // An old command is renewed, too: its direction follows the heading, cycle by cycle.
     if (acts || arrived) drive(robot, agent.acting);
     next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
   }
 
   static double time_s_at(std::int64_t now) { return kSubStep_s * static_cast<double>(now); }
 
-  /// One control cycle: read, decide, and send the command on its way. A command without latency
-  /// acts from the instant on at which its readings were taken: in the original's terms, what tick
-  /// t computes moves the robot during tick t+1.
+  /// One control cycle: read, decide, and send the command. A command without latency acts from the
+  /// instant at which its readings were taken: in terms of the original simulator, the result of
+  /// tick t moves the robot during tick t+1.
   void decide(Agent& agent, std::int64_t now) {
     begin_cycle(agent, now);
     accept(agent, agent.control.step(agent.senses), now);
@@ -243,7 +244,7 @@ class Run {
     agent.command.right_mps = within_wheel_speed(command.right_mps, most_mps);
     if (distorts_commands_) [[unlikely]]
       distort(agent.command, profile_of(index_of(agent)));
-    if (recorder_.observe) agent.command.leds = command.leds;  // only it sees them
+    if (recorder_.observe) agent.command.leds = command.leds;  // only the recorder sees LEDs
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (!wheel_noises_.empty()) [[unlikely]]
       return send(agent, disturbed(agent), arrival, now);
@@ -260,7 +261,7 @@ class Run {
     }
   }
 
-  /// The command with the noise of the wheels, each by itself.
+  /// The command with independent noise on each wheel.
   [[gnu::noinline]] Command disturbed(const Agent& agent) const {
     const int robot = index_of(agent);
     const auto first = 2 * static_cast<std::uint64_t>(agent.cycle);
@@ -272,7 +273,7 @@ class Run {
     return command;
   }
 
-  /// What becomes of a command on its way to the treads.
+  /// Applies the errors of a command on its way to the treads.
   [[gnu::noinline]] void distort(Command& command, const Profile& profile) const {
     for (double* speed_mps : {&command.left_mps, &command.right_mps}) {
       if (profile.float32_wire) *speed_mps = as_float32(*speed_mps);
@@ -283,8 +284,8 @@ class Run {
     }
   }
 
-  /// The next sub-step, up to `end`, at which `attend` has something to do besides what is due for
-  /// the robots.
+  /// The next sub-step, up to `end`, at which `attend` has work in addition to the events of the
+  /// robots.
   [[gnu::noinline]] std::int64_t next_stop(std::int64_t now, std::int64_t end) const {
     std::int64_t next = every_step_ ? now + 1 : end;
     for (const Agent& agent : agents_)
@@ -292,15 +293,15 @@ class Run {
     return next;
   }
 
-  /// Readings that are held, and the decider, come before what is due for the robots.
+  /// Readings that are held, and the decider, come before the events of the robots.
   [[gnu::noinline]] void attend(std::int64_t now) {
     for (Agent& agent : agents_)
       agent.senses.read_at_beat(now);
     if (decider_ != nullptr) consult(now);
   }
 
-  /// The control cycles of all robots at this sub-step, with a decider: asks about those that are
-  /// due, then takes what was decided.
+  /// The control cycles of all robots at this sub-step, with a decider: asks about the robots that
+  /// are due, then takes the answers.
   void consult(std::int64_t now) {
     find_due(now);
     if (due_.empty() && !every_step_) return;
@@ -313,7 +314,7 @@ class Run {
       end_cycles();
       find_due(now);
     }
-    for (; !due_.empty(); find_due(now)) {  // again for a period shorter than a sub-step
+    for (; !due_.empty(); find_due(now)) {  // repeated for a period shorter than a sub-step
       for (const int robot : due_)
         ask(robot, now);
       for (const int robot : due_)
@@ -322,7 +323,7 @@ class Run {
     }
   }
 
-  /// The robots that have a control cycle at this sub-step, or one more of them.
+  /// Finds the robots that have a control cycle, or another one, at this sub-step.
   void find_due(std::int64_t now) {
     due_.clear();
     for (int i = 0; i < world_.robots(); ++i) {
@@ -337,7 +338,7 @@ class Run {
     }
   }
 
-  /// The treads turn by the command that acts.
+  /// The drive follows the acting command.
   void follow(int robot) {
     const Agent& agent = agents_[static_cast<std::size_t>(robot)];
     drive(robot, agent.acting);
@@ -379,7 +380,7 @@ class Run {
     return decider_ == nullptr ? agent.control.state() : agent.state;
   }
 
-  /// Where the score looks for a robot.
+  /// The point of a robot that the score uses.
   Point scored_point(const Body& body) const {
     const TrackedPoint& tracking = setup_.profile.tracking;
     if (!tracking.scores_tag) return {body.x, body.y};
@@ -429,23 +430,23 @@ class Run {
   const SimulationSetup& setup_;
   const Recorder& recorder_;
   Decider* decider_;  ///< null: the controller decides
-  bool every_step_;   ///< the decider wants to look at each
-  bool stops_more_;   ///< there is something to attend to
+  bool every_step_;   ///< whether the decider takes part in every sub-step
+  bool stops_more_;   ///< whether `attend` has anything to do
   bool distorts_commands_;
   bool slips_;
   bool disturbs_;
-  std::vector<Profile> profiles_;  ///< of the robots, where they differ
+  std::vector<Profile> profiles_;  ///< of the robots, if they differ
   Flavour flavour_;
   Arena arena_;
   World world_;
   Scorer scorer_;
   std::vector<Agent> agents_;
-  std::vector<std::int64_t> next_events_;  ///< of the agents
-  std::vector<Grip> grips_;                ///< of the robots; empty where none slips
+  std::vector<std::int64_t> next_events_;  ///< next event of each agent
+  std::vector<Grip> grips_;                ///< of the robots; empty if none slips
   std::vector<NoiseStream> wheel_noises_;  ///< of the robots; empty without noise
   std::vector<Point> positions_;
   std::vector<Point> object_positions_;
-  std::vector<int> due_;  ///< robots, for a decider
+  std::vector<int> due_;  ///< due robots, for a decider
   std::vector<RobotRecord> records_;
   std::vector<Pose> objects_;
 };

@@ -21,7 +21,7 @@ constexpr std::string_view kHeadSign = "#:";
 constexpr std::string_view kGenomeStart = "genomestart";
 constexpr std::string_view kGenomeEnd = "genomeend";
 
-/// Without blanks, and without a colon or comma between name and machine.
+/// Removes blanks, and a colon or comma between name and machine.
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r:,";
   const std::size_t first = text.find_first_not_of(kBlanks);
@@ -36,7 +36,7 @@ TurnClock read_turn_clock(TableReader& root) {
                                                             : TurnClock::Cycles;
 }
 
-/// Whether the key names something that is built in, rather than say all of it in a table.
+/// Whether the key gives the name of a built-in value, instead of a table with its fields.
 bool is_name_there(TableReader& root, std::string_view key) {
   const Node* node = root.take(key);
   return node != nullptr && std::holds_alternative<std::string>(node->value);
@@ -85,7 +85,7 @@ void read_flavour(TableReader& root, MachineHead& head) {
   if (root.complaints() == before) head.own_flavour = kept_flavour(std::move(flavour));
 }
 
-/// `toml` has the head's lines at their places in the file.
+/// `toml` has the lines of the head at their positions in the file.
 MachineHead read_head(std::string_view toml, const std::string& file, std::vector<Error>& errors) {
   MachineHead head;
   const auto document = parse_document(toml, file);
@@ -111,7 +111,7 @@ MachineHead read_head(std::string_view toml, const std::string& file, std::vecto
   return head;
 }
 
-/// Takes a file apart, line by line.
+/// Reads a file line by line.
 class Reader {
  public:
   explicit Reader(std::string file) : file_(std::move(file)) {}
@@ -120,7 +120,7 @@ class Reader {
     ++number_;
     const std::string_view text = trimmed(line);
     const bool is_head = line.starts_with(kHeadSign);
-    // Blank where the head does not stand, so that its errors have the file's lines and columns.
+    // Blank outside the head, so that errors in the head have the lines and columns of the file.
     toml_ += is_head ? "  " + std::string(line.substr(kHeadSign.size())) : "";
     toml_ += '\n';
     has_head_ = has_head_ || is_head;
@@ -153,7 +153,8 @@ class Reader {
     return text.starts_with("/*") && text.ends_with("*/");
   }
 
-  /// Of the present line. A complaint about several lines is one error.
+  /// Complains about the present line. Complaints with the same text about several lines become one
+  /// error.
   void complain(const std::string& message) {
     const auto [known, is_new] = repeated_.emplace(message, std::pair(errors_.size(), 0));
     if (!is_new) {
@@ -192,11 +193,11 @@ class Reader {
   bool in_genome_ = false;
   std::vector<FiledMachine> machines_;
   std::vector<Error> errors_;
-  /// Complaints by their words: which error it is, and how many more lines it is about.
+  /// For each complaint text, the index of its error and the number of further lines with it.
   std::map<std::string, std::pair<std::size_t, std::size_t>> repeated_;
 };
 
-/// The lines of what is not built in.
+/// The tables of values that are not built in.
 std::vector<Section> tables_of(const MachineHead& head, Section& top) {
   std::vector<Section> tables;
   if (head.own_flavour != nullptr) tables = flavour_sections(*head.own_flavour, "flavour");

@@ -17,16 +17,17 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kLongest_s = 86'400;
-/// Enough to find a swarm that fits only now and then.
+/// Enough trials to find a swarm that fits only sometimes.
 constexpr int kPlacementTrials = 20;
 
-/// Where files that a mission names are, and whether it may begin with another mission's.
+/// The source of files that a mission names, and whether it may use another mission's file as
+/// preset.
 struct ReadingPlace {
   ImageSource images;
   bool takes_files = false;
 };
 
-/// [mission.instances]: what designs are tried on, and then judged on.
+/// Reads [mission.instances]: placement and number of tests.
 void read_instances(TableReader& instances, MissionEntry& mission) {
   read_placement(instances, mission.mission);
   if (auto test = instances.table("test")) {
@@ -36,12 +37,12 @@ void read_instances(TableReader& instances, MissionEntry& mission) {
   instances.finish();
 }
 
-/// What a mission begins with when nothing is said.
+/// The mission with which a file without a preset begins.
 MissionEntry empty_mission(const std::string& name) {
   return {{.name = name, .arena = dodecagon_of_the_thesis(), .shuffled = {}, .rule = RobotsOn{}}};
 }
 
-/// A preset in a file of its own.
+/// Reads a preset from a separate file.
 std::optional<MissionEntry> read_preset_file(TableReader& table, const std::string& preset,
                                              const ReadingPlace& place) {
   if (!place.takes_files) {
@@ -56,8 +57,8 @@ std::optional<MissionEntry> read_preset_file(TableReader& table, const std::stri
   return std::nullopt;
 }
 
-/// The mission that the file's keys change: a built-in one, one of another file, or an empty arena.
-/// Nothing after a complaint that makes others useless.
+/// The mission that the keys of the file change: a built-in one, one from another file, or an empty
+/// arena. Nothing after a complaint that makes further ones useless.
 std::optional<MissionEntry> read_base(TableReader& table, const std::string& name,
                                       const ReadingPlace& place) {
   const auto given = table.text("preset");
@@ -80,7 +81,7 @@ std::optional<MissionEntry> read_base(TableReader& table, const std::string& nam
   return empty_mission(name);
 }
 
-/// `robot`: a name or a file; or a table with the outline alone, or with what a robot has.
+/// Reads `robot`: a name, a file, or a table with only the outline or with the fields of a robot.
 void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission) {
   const auto& folder = place.images.folder;
   const std::filesystem::path* from = folder ? &*folder : nullptr;
@@ -124,7 +125,7 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
   robot->finish();
 }
 
-/// People say seconds, the engine counts control cycles.
+/// Files give seconds, the engine counts control cycles.
 void read_duration(TableReader& table, Mission& mission) {
   const auto duration = table.seconds("duration", {kControlPeriod_s, kLongest_s});
   if (!duration) return;
@@ -135,7 +136,7 @@ void read_duration(TableReader& table, Mission& mission) {
   }
 }
 
-/// Tries some placements, so that a swarm that does not fit is found before the campaign.
+/// Tries some placements, to find a swarm that does not fit before the campaign starts.
 void check_room(TableReader& table, const Mission& mission) {
   for (int seed = 1; seed <= kPlacementTrials; ++seed) {
     const auto instance = instance_of(mission, seed);
@@ -146,7 +147,7 @@ void check_room(TableReader& table, const Mission& mission) {
   }
 }
 
-/// The keys of a mission over those of its preset.
+/// Reads the keys of a mission; they override the keys of its preset.
 void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entry) {
   Mission& mission = entry.mission;
   read_duration(table, mission);
@@ -164,7 +165,7 @@ void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entr
   table.finish();
 }
 
-/// The name of a preset's file serves a mission without a name.
+/// The name of a preset's file is the default name of a mission.
 std::string default_name(TableReader& table) {
   const Node* preset = table.take("preset");
   const auto* text = preset == nullptr ? nullptr : std::get_if<std::string>(&preset->value);
@@ -172,7 +173,7 @@ std::string default_name(TableReader& table) {
   return std::filesystem::path(*text).stem().string();
 }
 
-/// One [[mission]]; `taken` are the names of those before it.
+/// Reads one [[mission]]; `taken` holds the names of the missions before it.
 MissionEntry read_mission(TableReader& table, const std::vector<std::string>& taken,
                           const ReadingPlace& place) {
   const std::string name =
@@ -185,7 +186,7 @@ MissionEntry read_mission(TableReader& table, const std::vector<std::string>& ta
   return std::move(*entry);
 }
 
-/// The [[mission]] tables.
+/// Reads the [[mission]] tables.
 std::vector<MissionEntry> read_missions(TableReader& root, const ReadingPlace& place) {
   std::vector<MissionEntry> missions;
   std::vector<std::string> names;
@@ -214,7 +215,7 @@ std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem
 }
 
 std::vector<MissionEntry> read_sent_missions(TableReader& root) {
-  // Those of the scenario that was there before may be in use still.
+  // Twice the limit, because the images of the previous scenario may still be in use.
   return read_missions(root, {{std::nullopt, 2 * Picture::kMostPixelsInUse}, false});
 }
 

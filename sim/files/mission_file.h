@@ -13,10 +13,10 @@
 
 namespace swarmsmith {
 
-/// Missions as TOML (docs/missions.md): a [[mission]] of a campaign file, or a file of its own with
-/// the same keys at its top.
+/// Missions as TOML (docs/missions.md): a [[mission]] table of a campaign file, or a separate file
+/// with the same keys at its top level.
 
-/// A mission and how its designs are judged.
+/// A mission, with the number of tests for its designs.
 struct MissionEntry {
   Mission mission;
   std::int64_t test_count = 100;  ///< fresh seeds on which each winner is scored after its race
@@ -24,34 +24,35 @@ struct MissionEntry {
   friend bool operator==(const MissionEntry&, const MissionEntry&) = default;
 };
 
-/// A mission, or everything that is wrong with its file: `where` is file:line:column.
+/// A mission, or all errors in its file; `where` of each is file:line:column.
 using MissionOrErrors = tl::expected<MissionEntry, std::vector<Error>>;
 
-/// A mission file; images that it names are relative to its folder.
+/// Reads a mission file; names of image files in it are relative to its folder.
 MissionOrErrors read_mission_file(const std::filesystem::path& file);
 
-/// The same for a text; `file` gives the name for errors and the folder, and is not read.
+/// The same for a text; `file` only gives the name in error messages and the folder, and is not
+/// opened.
 MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path& file);
 
-/// Those of the built-in missions.
+/// The names of the built-in missions.
 const std::vector<std::string>& mission_names();
 
-/// `word` is the name of a built-in mission, or a file: what ends in .toml, or has a slash;
-/// relative to `folder`.
+/// `word` is the name of a built-in mission or a file: a word that ends in .toml or contains a
+/// slash is a file, relative to `folder`.
 MissionOrErrors find_mission(const std::string& word, const std::filesystem::path& folder);
 
-/// The [[mission]] tables of a campaign file in `folder`. What is wrong goes to the readers'
+/// Reads the [[mission]] tables of a campaign file in `folder`. Errors are added to the readers'
 /// complaints.
 std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem::path& folder);
 
-/// The same of a text that came from another process: it may name no file.
+/// The same for a text that came from another process: it must not name files.
 std::vector<MissionEntry> read_sent_missions(TableReader& root);
 
-/// The lines of a [[mission]], whole: a preset may change in a later version, a stored text must
-/// not. Reads back to the same bits.
+/// The complete lines of a [[mission]]: a preset may change in a later version, but a stored text
+/// must not. They read back to the same bits.
 std::vector<Section> mission_sections(const MissionEntry& entry);
 
-/// The mission as a file of its own that says everything: parse_mission reads the same bits back.
+/// The mission as a complete separate file: parse_mission reads it back to the same bits.
 std::string mission_text(const MissionEntry& entry);
 
 }  // namespace swarmsmith

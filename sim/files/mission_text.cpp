@@ -13,7 +13,7 @@
 namespace swarmsmith {
 namespace {
 
-/// A parameter as TOML.
+/// Writes a parameter as TOML.
 struct ValueText {
   std::string operator()(double value) const { return number_text(value); }
   std::string operator()(int value) const { return std::to_string(value); }
@@ -22,7 +22,7 @@ struct ValueText {
   std::string operator()(When value) const { return quoted_text(name_of(value)); }
   std::string operator()(const std::string& value) const { return quoted_text(value); }
 
-  /// An inline table, in the rule's own order.
+  /// An inline table, in the order of the rule.
   std::string operator()(const std::vector<Reward>& value) const {
     std::string text;
     for (const Reward& reward : value) {
@@ -64,7 +64,8 @@ std::string placement_text(const Placement& placement) {
       placement);
 }
 
-/// The RVR as its outline alone, as texts always had it; another robot whole.
+/// The RVR is written only as its outline, as in all earlier texts; other robots are written
+/// completely.
 void add_robot(const Mission& mission, const std::string& prefix, std::vector<Section>& sections) {
   const Robot& robot = mission.robot;
   if (robot == rvr_with(robot.body.outline)) {

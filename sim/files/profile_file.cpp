@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kFiles = 
      {"epuck-ideal", kEpuckIdealProfile},
      {"epuck-pseudo-reality", kEpuckPseudoRealityProfile}}};
 
-/// The fields of a table, over those of the profile that `base` names.
+/// Reads the fields of a table; they override the fields of the profile named by `base`.
 void read_fields(TableReader& table, Profile& profile) {
   const std::vector<std::string> names = profile_names();
   if (const auto base = table.choice("base", names)) {
@@ -41,7 +41,8 @@ void read_fields(TableReader& table, Profile& profile) {
   read_profile_fields(table, profile);
 }
 
-/// Names that a user's profile may not have: a stored "rvr" must mean ours.
+/// Whether a user's profile has the name of a built-in one: a stored "rvr" must mean the built-in
+/// profile.
 bool takes_a_name_of_ours(const Profile& profile) {
   const auto ours = built_in_profile(profile.name);
   return ours && *ours != profile;

@@ -13,10 +13,11 @@
 
 namespace swarmsmith {
 
-/// Simulator profiles as TOML (docs/profiles.md). The built-in ones are files, too, which the
-/// program carries: `rvr` (thesis 4.2: noise on), `argos3` (as the published files: noise off),
-/// `pseudo-reality` (thesis 7.1), `thesis-robots` (the published programs of the robots), and for
-/// the e-puck `epuck` (as published), `epuck-ideal` (noise off) and `epuck-pseudo-reality`.
+/// Simulator profiles as TOML (docs/profiles.md). The built-in profiles are such files, too,
+/// embedded in the program: `rvr` (thesis 4.2: noise on), `argos3` (as in the published files:
+/// noise off), `pseudo-reality` (thesis 7.1), `thesis-robots` (the published programs of the
+/// robots), and for the e-puck `epuck` (as published), `epuck-ideal` (noise off) and
+/// `epuck-pseudo-reality`.
 
 std::vector<std::string> profile_names();
 
@@ -26,26 +27,26 @@ Expected<Profile> built_in_profile(std::string_view name);
 /// The file of a built-in profile, comments included; empty for an unknown name.
 std::string_view built_in_profile_text(std::string_view name);
 
-/// A profile, or everything that is wrong with its file: `where` is file:line:column.
+/// A profile, or all errors in its file; `where` of each is file:line:column.
 using ProfileOrErrors = tl::expected<Profile, std::vector<Error>>;
 
-/// `word` is the name of a built-in profile, or a file: what ends in .toml, or has a slash;
-/// relative to `folder`.
+/// `word` is the name of a built-in profile or a file: a word that ends in .toml or contains a
+/// slash is a file, relative to `folder`.
 ProfileOrErrors find_profile(const std::string& word, const std::filesystem::path& folder);
 
-/// A profile as the text of a file; `file` gives its name (a profile has the name of its file,
-/// without the ending) and is not read.
+/// Parses a profile from the text of a file. `file` only gives the names of the file and of the
+/// profile (the file name without its ending); it is not opened.
 ProfileOrErrors parse_profile(std::string_view text, const std::filesystem::path& file);
 
-/// All fields as a file of the profile's name. It reads back to the same profile.
+/// All fields as the text of a file with the profile's name. It reads back to the same profile.
 std::string profile_text(const Profile& profile);
 
-/// The keys of a profile in a table of another file, `name` among them. What is wrong goes to the
-/// table's complaints.
+/// Reads the keys of a profile, `name` included, from a table of another file. Errors are added to
+/// the table's complaints.
 Profile read_profile_table(TableReader& table);
 
-/// All fields as lines; `header` is the name of the table they are in, "simulator.profile", which
-/// may be one of a list of tables.
+/// All fields as lines; `header` is the name of the table that holds them, such as
+/// "simulator.profile", which may be one of a list of tables.
 std::vector<Section> profile_sections(const Profile& profile, const std::string& header,
                                       bool in_list = false);
 

@@ -17,7 +17,7 @@ Point need_point(TableReader& table) {
 
 double read_heading(TableReader& table) {
   const auto angle_deg = table.number("angle", {-36'000, 36'000});
-  // Degrees would not read back to the same bits: what the program writes is in radians.
+  // The program writes radians, because degrees would not read back to the same bits.
   const auto theta = table.number("theta", {-1000, 1000});
   if (angle_deg && theta) {
     table.complain("theta", "`angle` (degrees) and `theta` (radians) say the same; give one");

@@ -51,7 +51,7 @@ double inradius_of(const Outline& outline) {
       outline);
 }
 
-/// What no single field shows to be wrong.
+/// Checks for errors that no single field shows.
 void check_robot(TableReader& table, const Robot& robot) {
   const ProximityRing& ring = robot.proximity;
   const auto number = [](double value) { return number_text(value); };
@@ -90,7 +90,7 @@ void check_robot(TableReader& table, const Robot& robot) {
   }
 }
 
-/// An error about a name is the key's own.
+/// An error without a place belongs to the key.
 void complain_of(TableReader& table, std::string_view key, const Error& error) {
   if (error.where.empty()) {
     table.complain(key, error.message);
@@ -101,11 +101,11 @@ void complain_of(TableReader& table, std::string_view key, const Error& error) {
 
 constexpr int kMostBases = 16;
 
-/// `depth`: how many files have led here, each by its base.
+/// `depth` is the number of files read so far, each as base of the one before.
 RobotOrErrors robot_of_word(const std::string& word, const std::filesystem::path& folder,
                             int depth);
 
-/// `depth` is that of the file with the table.
+/// `depth` is the depth of the file with the table.
 void read_base(TableReader& table, const std::filesystem::path* folder, int depth, Robot& robot) {
   if (const auto base = table.text("base")) {
     if (names_a_file(*base) && folder == nullptr) {
@@ -122,8 +122,8 @@ void read_base(TableReader& table, const std::filesystem::path* folder, int dept
   }
 }
 
-/// What does not act on the robot may stand there with the base's value. Its robot then has the
-/// value of one that says nothing of it, so that its text can be read back.
+/// Fields that have no effect on the robot may be present with the base's value. The robot then
+/// gets the value of a robot without these fields, so that its text can be read back.
 void settle_idle_fields(TableReader& table, const Robot& base, Robot& robot) {
   const auto settle = [&robot](const Robot& from) {
     IdleFields fields(robot);

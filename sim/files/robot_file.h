@@ -12,30 +12,31 @@
 
 namespace swarmsmith {
 
-/// Robots as TOML (docs/robots.md). The built-in ones are files, too, which the program carries:
-/// `rvr` (the thesis') and `epuck` (the DEMIURGE project's).
+/// Robots as TOML (docs/robots.md). The built-in robots are such files, too, embedded in the
+/// program: `rvr` (the robot of the thesis) and `epuck` (the robot of the DEMIURGE project).
 
 std::vector<std::string> robot_names();
 
 /// The file of a built-in robot, comments included; empty for an unknown name.
 std::string_view built_in_robot_text(std::string_view name);
 
-/// A robot, or everything that is wrong with its file: `where` is file:line:column.
+/// A robot, or all errors in its file; `where` of each is file:line:column.
 using RobotOrErrors = tl::expected<Robot, std::vector<Error>>;
 
-/// `word` is the name of a built-in robot, or a file: what ends in .toml, or has a slash; relative
-/// to `folder`.
+/// `word` is the name of a built-in robot or a file: a word that ends in .toml or contains a slash
+/// is a file, relative to `folder`.
 RobotOrErrors find_robot(const std::string& word, const std::filesystem::path& folder);
 
-/// A robot as the text of a file, which gives its name as for profiles and is not read.
+/// Parses a robot from the text of a file. `file` gives the names as for profiles; it is not
+/// opened.
 RobotOrErrors parse_robot(std::string_view text, const std::filesystem::path& file);
 
-/// The keys of a robot in a table of another file: a `base` in place of `robot`, which may be a
-/// file where `folder` is given, a `name`, and what is other than the base's. What is wrong goes to
-/// the table's complaints.
+/// Reads the keys of a robot from a table of another file: a `base` that replaces `robot` and may
+/// be a file if `folder` is given, a `name`, and the fields that differ from the base. Errors are
+/// added to the table's complaints.
 Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot);
 
-/// All fields as lines; `header` is the name of the table they are in, "mission.robot".
+/// All fields as lines; `header` is the name of the table that holds them, such as "mission.robot".
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header);
 
 }  // namespace swarmsmith

@@ -49,7 +49,7 @@ std::optional<Rgb> color_at(const Patch& patch, Point point) {
 
 Rgb floor_at(const Arena& arena, Point point) {
   for (auto patch = arena.patches.rbegin(); patch != arena.patches.rend(); ++patch) {
-    // Without a detour over what may not be a colour: that would be most of the work.
+    // Handled directly, without std::optional, which would take most of the time.
     if (const auto* disc = std::get_if<Disc>(&patch->shape)) {
       if (covers(*disc, point)) return patch->color;
     } else if (const auto* box = std::get_if<Rectangle>(&patch->shape)) {
@@ -62,8 +62,9 @@ Rgb floor_at(const Arena& arena, Point point) {
 }
 
 Arena dodecagon_of_the_thesis() {
-  // Centres of walls 0 to 2 of the program's table, side by side from the x axis; the others are
-  // theirs turned by quarters, since the table is rounded alike in all quarters.
+  // Centres of walls 0 to 2 in the program's table, counter-clockwise from the x axis. The other
+  // walls are these turned by quarters, since the rounding in the table is the same in all
+  // quarters.
   const std::array<Point, 3> centres = {{{1.231, 0}, {1.066, 0.615}, {0.615, 1.066}}};
   std::array<Line, kSides> lines;
   for (int k = 0; k < kSides; ++k) {
@@ -76,7 +77,7 @@ Arena dodecagon_of_the_thesis() {
 }
 
 std::vector<Wall> walls_around(std::vector<Point> corners) {
-  // The first corner stays the first, so that a text of them reads back to the same walls.
+  // The first corner stays first, so that the text of the corners reads back to the same walls.
   if (signed_area(corners) < 0) std::reverse(corners.begin() + 1, corners.end());
   std::vector<Wall> walls;
   for (std::size_t i = 0; i < corners.size(); ++i)

@@ -36,21 +36,21 @@ struct Rectangle {
   friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
 
-/// A picture that is stretched over a rectangle of the floor; see pixel_at for its borders.
+/// A picture stretched over a rectangle of the floor; for the borders of pixels see pixel_at.
 struct FloorImage {
   Rectangle area;
   std::shared_ptr<const Picture> picture;  ///< never null
 
-  /// The same place and the same file.
+  /// Equal when the area and the PNG file are equal.
   friend bool operator==(const FloorImage& a, const FloorImage& b) {
     return a.area == b.area && a.picture->png() == b.picture->png();
   }
 };
 
-/// A coloured part of the floor; borders belong to it.
+/// A coloured part of the floor, its border included.
 struct Patch {
   std::variant<Disc, Rectangle, FloorImage> shape;
-  Rgb color;  ///< not of an image
+  Rgb color;  ///< not used for an image
 
   friend bool operator==(const Patch&, const Patch&) = default;
 };
@@ -58,7 +58,7 @@ struct Patch {
 /// The patch's colour at a point, if it covers the point.
 std::optional<Rgb> color_at(const Patch& patch, Point point);
 
-/// Where robots live: walls and floor are data that sensors, contacts and scores all read.
+/// The place where robots act: its walls and floor are data for sensors, contacts and scores.
 struct Arena {
   /// Closed polygon, counter-clockwise, without crossings; it need not be convex.
   std::vector<Wall> walls;
@@ -73,18 +73,18 @@ struct Arena {
   friend bool operator==(const Arena&, const Arena&) = default;
 };
 
-/// Colour of the floor at a point; the base colour goes on outside the walls.
+/// Colour of the floor at a point; the base colour continues outside the walls.
 Rgb floor_at(const Arena& arena, Point point);
 
-/// The thesis' arena as its program built it: twelve walls whose tabulated centres, rounded to
-/// millimetres, put the inner faces at 1.226 m on the axes and 1.22568 m elsewhere
-/// (rvr-automode facts, section 7; simulator facts, section 3.1).
+/// The arena of the thesis as its program built it: twelve walls whose tabulated centres, rounded
+/// to millimetres, put the inner faces at 1.226 m on the axes and 1.22568 m elsewhere (rvr-automode
+/// facts, section 7; simulator facts, section 3.1).
 Arena dodecagon_of_the_thesis();
 
-/// Walls around a polygon that has no flaw (sim/mission/polygon.h), in either direction.
+/// Walls around a polygon without flaws (sim/mission/polygon.h), given in either direction.
 std::vector<Wall> walls_around(std::vector<Point> corners);
 
-/// A regular dodecagon of the given area in square metres, a wall's middle on the x axis.
+/// A regular dodecagon of the given area in square metres; the middle of a wall is on the x axis.
 Arena regular_dodecagon(double area_m2);
 
 /// The corners of the walls, counter-clockwise.

@@ -13,7 +13,7 @@ std::optional<Rgb> color_from_name(std::string_view name) {
   return std::nullopt;
 }
 
-/// Names first: there is no name that begins with #.
+/// Names are tried first: no name begins with #.
 std::optional<Rgb> parse_color(std::string_view text) {
   if (text == "grey") return parse_color("gray");
   if (const auto named = color_from_name(text)) return named;

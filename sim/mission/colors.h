@@ -9,13 +9,14 @@
 
 namespace swarmsmith {
 
-/// A floor colour that files call by name.
+/// A floor colour with a name that files use.
 struct NamedColor {
   std::string_view name;
   Rgb color;
 };
 
-/// The labeler's colours (thesis facts, section 4): full or no light a channel, and the base floor.
+/// The colours of the labeler (thesis facts, section 4), each channel fully on or off, and of the
+/// base floor.
 inline constexpr std::array<NamedColor, 7> kNamedColors = {{{"black", {0, 0, 0}},
                                                             {"gray", {127, 127, 127}},
                                                             {"white", {255, 255, 255}},
@@ -24,13 +25,13 @@ inline constexpr std::array<NamedColor, 7> kNamedColors = {{{"black", {0, 0, 0}}
                                                             {"blue", {0, 0, 255}},
                                                             {"yellow", {255, 255, 0}}}};
 
-/// The colour of that name, if it has one.
+/// The colour with this name, if there is one.
 std::optional<Rgb> color_from_name(std::string_view name);
 
-/// A colour's name, `grey` for `gray`, or "#rrggbb".
+/// Parses a colour's name, `grey` for `gray`, or "#rrggbb".
 std::optional<Rgb> parse_color(std::string_view text);
 
-/// The name when the colour has one, else "#rrggbb".
+/// The name of the colour if it has one, else "#rrggbb".
 std::string color_text(Rgb color);
 
 }  // namespace swarmsmith

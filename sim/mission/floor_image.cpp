@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// libpng's own state, which it wants freed.
+/// libpng's state, which must be freed.
 struct PngImage : png_image {
   PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
   PngImage(const PngImage&) = delete;
@@ -18,11 +18,11 @@ struct PngImage : png_image {
   ~PngImage() { png_image_free(this); }
 };
 
-/// The pictures that are in use: a mission may show one in forty places, and a coordinator has many
-/// campaigns.
+/// The pictures in use, kept to share them: a mission may show one in forty places, and a
+/// coordinator has many campaigns.
 class Known {
  public:
-  /// One made of the same bytes; null when there is none.
+  /// The picture made from the same bytes; null if there is none.
   std::shared_ptr<const Picture> find(const std::string& png) {
     const std::scoped_lock lock(mutex_);
     std::erase_if(pictures_, [](const auto& picture) { return picture.expired(); });
@@ -80,9 +80,9 @@ Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes,
                      " million pixels together: make them smaller");
   }
   image.format = PNG_FORMAT_RGBA;
-  // Else files with 16 bits a channel would be taken for linear light.
+  // Otherwise libpng would treat files with 16 bits per channel as linear light.
   image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-  // shared, since an arena is copied for each run and its pictures need not be.
+  // Shared, because an arena is copied for each run but its pictures need not be.
   std::shared_ptr<Picture> picture(new Picture);
   picture->width_ = static_cast<int>(image.width);
   picture->height_ = static_cast<int>(image.height);

@@ -43,7 +43,7 @@ bool gap_between(Footprint::Extent a, Footprint::Extent b) {
   return a.most <= b.least || b.most <= a.least;
 }
 
-/// Separating axis test: whether a side of `a` has all of `b` before it.
+/// Separating axis test: whether all of `b` lies beyond a side of `a`.
 bool side_separates(const Footprint& a, const Footprint& b) {
   const auto corners = a.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -104,7 +104,8 @@ bool crosses(const Footprint& solid, const Wall& wall) {
   const double length = distance(wall.from, wall.to);
   const double x = (wall.to.x - wall.from.x) / length;
   const double y = (wall.to.y - wall.from.y) / length;
-  // Across the wall first: nearly all solids are clear of nearly all walls by that.
+  // Perpendicular to the wall first: this test already excludes nearly all pairs of solids and
+  // walls.
   const Footprint::Extent across = solid.along(-y, x);
   const double face = wall.from.y * x - wall.from.x * y;
   if (across.least >= face || across.most <= face) return false;

@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// A solid at its place: the ground that it covers, convex.
+/// The ground that a solid covers at its pose; convex.
 class Footprint {
  public:
   Footprint(const Outline& outline, const Pose& pose);
@@ -18,9 +18,10 @@ class Footprint {
   Point centre() const { return centre_; }
   /// Counter-clockwise; empty for a circle.
   std::span<const Point> corners() const { return {corners_.data(), count_}; }
-  double radius_m() const { return radius_m_; }  ///< of a circle, else 0
+  double radius_m() const { return radius_m_; }  ///< for a circle, else 0
 
-  /// Extent along the unit vector (x, y): its points p have p . (x, y) from `least` to `most`.
+  /// Extent along the unit vector (x, y): p . (x, y) is between `least` and `most` for all its
+  /// points p.
   struct Extent {
     double least;
     double most;
@@ -36,10 +37,10 @@ class Footprint {
   double radius_m_ = 0;
 };
 
-/// Whether two solids share ground.
+/// Whether two solids overlap.
 bool overlap(const Footprint& a, const Footprint& b);
 
-/// Whether a solid stands in the way of a wall's face.
+/// Whether a solid crosses the face of a wall.
 bool crosses(const Footprint& solid, const Wall& wall);
 
 }  // namespace swarmsmith

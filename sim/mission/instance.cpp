@@ -14,9 +14,8 @@ namespace {
 
 constexpr int kTriesPerRobot = 1000;
 
-/// Law of the program's placement (rvr-automode facts, section 7): of two uniform numbers the
-/// larger one gives the radius, their ratio the angle, which makes the disc's points equally
-/// likely.
+/// The program's placement (rvr-automode facts, section 7): the larger of two uniform numbers gives
+/// the radius, their ratio the angle; the result is uniform in the disc.
 Point draw_in_disc(Rng& rng, const PlaceInDisc& disc) {
   const double u1 = rng.uniform();
   const double u2 = rng.uniform();
@@ -33,8 +32,8 @@ Point draw_in_rectangle(Rng& rng, const Rectangle& area) {
   return {area.centre.x + x * area.width_m, area.centre.y + y * area.height_m};
 }
 
-/// Points are drawn anew until they lie within the walls: those of the smallest rectangle around
-/// them are not places yet, so that they do not count as tries.
+/// Draws points until one lies within the walls. Points of the bounding rectangle outside the walls
+/// do not count as tries.
 Point draw_anywhere(Rng& rng, const Arena& arena, const Rectangle& bounds) {
   Point point;
   int draws = 0;
@@ -44,7 +43,7 @@ Point draw_anywhere(Rng& rng, const Arena& arena, const Rectangle& bounds) {
   return point;
 }
 
-/// What is in the way of a robot that a file has placed.
+/// The error for a robot whose place in a file is blocked.
 Unexpected misplaced(const Mission& mission, std::size_t robot, const std::string& by) {
   return bad_input("robot " + std::to_string(robot + 1) + " at " +
                        point_text(std::get<PlaceAt>(mission.placement).poses[robot].position()) +
@@ -52,7 +51,7 @@ Unexpected misplaced(const Mission& mission, std::size_t robot, const std::strin
                    mission.name);
 }
 
-/// The poses that the mission gives, each with room.
+/// The poses given by the mission, each checked for room.
 Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) {
   const std::vector<Pose>& poses = std::get<PlaceAt>(mission.placement).poses;
   if (poses.size() != static_cast<std::size_t>(mission.robots)) {
@@ -107,7 +106,7 @@ Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
   return starts;
 }
 
-/// Colour after colour, each patch on a place drawn from those still free.
+/// Colour by colour, puts each patch on a place drawn from the free places.
 Expected<std::vector<Patch>> draw_patches(const ShuffledPatches& shuffled, Rng rng) {
   std::vector<Rectangle> free = shuffled.places;
   std::vector<Patch> patches;

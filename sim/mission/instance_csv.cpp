@@ -17,12 +17,13 @@
 namespace swarmsmith {
 namespace {
 
-/// Centres in files are rounded; a place is meant when they differ by less.
+/// Centres in files are rounded; a centre matches a place when they differ by less than this.
 constexpr double kSamePlace_m = 1e-3;
-/// As in mission files: of many more turns, a number's last digits are not the angle's any more.
+/// As in mission files: beyond many turns the last digits of a number no longer give the angle.
 constexpr double kMostHeading_rad = 1000;
 
-/// A row's cells, its header and its line number: enough to read a cell or say what is wrong.
+/// The cells of a row, its header and its line number: enough to read a cell or report an error in
+/// it.
 struct Row {
   std::span<const std::string_view> columns;
   std::vector<std::string> cells;
@@ -55,7 +56,7 @@ struct Row {
   }
 };
 
-/// Where each wanted column is in the header.
+/// The position of each wanted column in the header.
 Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> columns,
                                              std::span<const std::string> header) {
   std::vector<std::size_t> places;
@@ -73,8 +74,8 @@ Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> c
   return places;
 }
 
-/// The rows below the header, with the cells of `columns` in their order, whatever it is in the
-/// text; other columns are left out, and blank lines.
+/// The rows below the header, each with the cells of `columns` in that order, whatever the order in
+/// the text. Other columns and blank lines are ignored.
 Expected<std::vector<Row>> rows_of(std::string_view text,
                                    std::span<const std::string_view> columns) {
   CsvReader reader(text);
@@ -221,7 +222,8 @@ std::string patches_csv(const std::map<std::int64_t, Instance>& instances) {
 
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
                                const ExplicitInstances& given) {
-  // Parts that are given are not drawn, so that an arena too small for random placement will do.
+  // Parts that are given are not drawn, so that an arena too small for random placement is
+  // accepted.
   Mission drawn = mission;
   if (given.starts) drawn.robots = 0;
   Expected<Instance> instance = instance_of(drawn, seed);

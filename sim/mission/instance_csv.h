@@ -12,10 +12,11 @@
 
 namespace swarmsmith {
 
-/// Instances written down in files instead of drawn: to compare with another simulator, or to
-/// repeat a real run.
+/// Instances given in files instead of drawn, to compare with another simulator or to repeat a real
+/// run.
 
-/// A coloured patch by its centre; its size is that of the mission's place there.
+/// A coloured patch, given by its centre; its size is the size of the mission's place at this
+/// centre.
 struct PatchPlacement {
   Point centre;
   Rgb color;
@@ -26,26 +27,28 @@ struct PatchPlacement {
 using StartsBySeed = std::map<std::int64_t, std::vector<Pose>>;
 using PatchesBySeed = std::map<std::int64_t, std::vector<PatchPlacement>>;
 
-/// Reads `seed,robot,x,y,theta` (metres, radians), columns in any order, one row a robot, robots of
-/// a seed counted from 0 in order. `where` of an error is the line, from 1.
+/// Reads `seed,robot,x,y,theta` (metres, radians), with columns in any order and one row per robot;
+/// the robots of a seed are numbered from 0 and come in order. `where` of an error is the line,
+/// counted from 1.
 Expected<StartsBySeed> parse_starts_csv(std::string_view text);
 
-/// Reads `seed,x,y,color` (metres; colours as in sim/mission/colors.h), one row a patch.
+/// Reads `seed,x,y,color` (metres; colours as in sim/mission/colors.h), one row per patch.
 Expected<PatchesBySeed> parse_patches_csv(std::string_view text);
 
-/// The tables that these two read, of instances by their seeds; numbers read back to the same bits.
+/// The tables that these two functions read, for instances by their seeds; numbers read back to the
+/// same bits.
 std::string starts_csv(const std::map<std::int64_t, Instance>& instances);
 std::string patches_csv(const std::map<std::int64_t, Instance>& instances);
 
-/// What is given explicitly; the rest is drawn from the seed.
+/// The explicitly given parts; the others are drawn from the seed.
 struct ExplicitInstances {
   std::optional<StartsBySeed> starts;
-  std::optional<PatchesBySeed> patches;  ///< not looked at by a mission without shuffled patches
+  std::optional<PatchesBySeed> patches;  ///< ignored for a mission without shuffled patches
 };
 
-/// Like `instance_of(mission, seed)`, with explicit starts and patches where given. A seed without
-/// a row, another number of robots, a start outside of the walls, and a patch where the mission has
-/// no place for one (to the millimetre), or a second one, are errors.
+/// Like `instance_of(mission, seed)`, with explicit starts and patches if they are given. Errors: a
+/// seed without a row, a wrong number of robots, a start outside the walls, a patch where the
+/// mission has no place for one (to the millimetre), and a second patch on the same place.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
                                const ExplicitInstances& given);
 

@@ -16,8 +16,8 @@
 
 namespace swarmsmith {
 
-/// Colours that are laid on patches anew for each instance: `count` patches of each colour, the
-/// rest of `places` stays floor. Empty for fixed floors.
+/// Colours that are distributed over places for each instance: `count` patches of each colour; the
+/// remaining `places` keep the colour of the floor. Empty for missions with fixed floors.
 struct ShuffledPatches {
   struct Share {
     Rgb color;
@@ -31,10 +31,10 @@ struct ShuffledPatches {
   friend bool operator==(const ShuffledPatches&, const ShuffledPatches&) = default;
 };
 
-/// Where robots may start, with any heading unless said; always clear of walls, obstacles, objects
-/// and each other.
+/// The area in which robots may start, with any heading unless stated; starts are always clear of
+/// walls, obstacles, objects and each other.
 
-/// Uniform in a disc (law of radius and angle: rvr-automode facts, section 7).
+/// Uniform in a disc (formula for radius and angle: rvr-automode facts, section 7).
 struct PlaceInDisc {
   Point centre;
   double radius_m = 1.2;
@@ -54,7 +54,7 @@ struct PlaceAnywhere {
   friend bool operator==(const PlaceAnywhere&, const PlaceAnywhere&) = default;
 };
 
-/// The same poses in each run, one a robot.
+/// The same poses in each run, one per robot.
 struct PlaceAt {
   std::vector<Pose> poses;
 
@@ -63,13 +63,13 @@ struct PlaceAt {
 
 using Placement = std::variant<PlaceInDisc, PlaceInRectangle, PlaceAnywhere, PlaceAt>;
 
-/// A task and the place where it is done.
+/// A task, with its arena and score.
 struct Mission {
   std::string name;
   Arena arena;
   ShuffledPatches shuffled;
   int robots = 3;
-  Robot robot = rvr();  ///< what each of them is
+  Robot robot = rvr();  ///< the model of each of them
   int cycles = 1200;    ///< duration in control cycles of 0.1 s
   Placement placement = PlaceInDisc{};
   ScoreRule rule;
@@ -77,10 +77,10 @@ struct Mission {
   friend bool operator==(const Mission&, const Mission&) = default;
 };
 
-/// What one run starts from, a pure function of mission and seed, or given explicitly.
+/// The start of one run: a pure function of mission and seed, or given explicitly.
 struct Instance {
-  std::vector<Pose> starts;    ///< one a robot
-  std::vector<Patch> patches;  ///< laid over the arena's own
+  std::vector<Pose> starts;    ///< one per robot
+  std::vector<Patch> patches;  ///< in addition to the arena's own patches
 
   friend bool operator==(const Instance&, const Instance&) = default;
 };
@@ -89,13 +89,13 @@ struct Instance {
 /// of the thesis' program. An unknown name is an error that lists the known ones.
 Expected<Mission> built_in_mission(std::string_view name);
 
-/// What is wrong with the obstacles and objects of an arena whose walls are right, as a sentence:
-/// an obstacle outside of the walls (it may reach into them, and into other obstacles), an object
-/// without room. Nothing when all is well.
+/// The error in the obstacles and objects of an arena with correct walls, as a sentence: an
+/// obstacle outside the walls (it may reach into them, and into other obstacles), or an object
+/// without enough room. Nothing if there is no error.
 std::optional<std::string> misplaced_solid(const Arena& arena);
 
-/// Placement and patch colours of a seed. Fails when the robots do not fit into the arena, or those
-/// that have fixed places do not fit there.
+/// Placement and patch colours for a seed. Fails when the robots do not fit into the arena, or do
+/// not fit at their fixed places.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed);
 
 /// The arena with the instance's patches on its floor.

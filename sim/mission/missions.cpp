@@ -14,7 +14,7 @@ constexpr Rgb kRed{255, 0, 0};
 constexpr Rgb kGreen{0, 255, 0};
 constexpr Rgb kYellow{255, 255, 0};
 
-/// How many robots stand on the black disc of diameter 1 m at the end.
+/// Score: the number of robots on the black disc of diameter 1 m at the end.
 Mission aggregation() {
   Mission mission{.name = "aggregation",
                   .arena = dodecagon_of_the_thesis(),
@@ -24,7 +24,7 @@ Mission aggregation() {
   return mission;
 }
 
-/// How old the 10 x 10 tiles of the grey floor are.
+/// Score: the ages of the 10 x 10 tiles of the grey floor.
 Mission grid_exploration() {
   return {.name = "grid_exploration",
           .arena = dodecagon_of_the_thesis(),
@@ -32,7 +32,7 @@ Mission grid_exploration() {
           .rule = Coverage{.tiles = 10, .side_m = 2.50001}};
 }
 
-/// Which of twelve shuffled patches the robots stand on at the end.
+/// Score: the colours of the shuffled patches, twelve in all, on which the robots stand at the end.
 Mission color_selection() {
   constexpr std::array<Point, 12> kCentres = {{{0.75, -0.25},
                                                {0.75, 0.25},

@@ -11,13 +11,13 @@
 namespace swarmsmith {
 namespace {
 
-/// Corners nearer than this are one.
+/// Corners nearer than this count as one.
 constexpr double kSamePoint_m = 1e-6;
-/// Sides given one by one meet within this.
+/// Sides that are given separately must meet within this.
 constexpr double kLargestGap_m = 1e-3;
 constexpr double kSmallestArea_m2 = 1e-6;
 
-/// Twice the area of the triangle a, b, c; positive when it goes round counter-clockwise.
+/// Twice the area of the triangle a, b, c; positive when it is counter-clockwise.
 double turn(Point a, Point b, Point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -119,7 +119,7 @@ std::optional<std::string> flaw_of(std::span<const Point> corners) {
              ", the border turns back on itself";
     }
     for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // neighbours
+      if (i == 0 && j == n - 1) continue;  // neighbouring sides
       if (!meet(side, side_of(corners, j))) continue;
       return "side " + std::to_string(i + 1) + ", from " + point_text(side.from) +
              ", crosses or touches side " + std::to_string(j + 1) + ", from " +
@@ -176,7 +176,7 @@ std::vector<Point> regular_polygon(int sides, double inradius_m) {
 }
 
 double inradius_of_area(int sides, double area_m2) {
-  // As many triangles of height r and base 2 r tan(pi / sides).
+  // The polygon consists of `sides` triangles of height r and base 2 r tan(pi / sides).
   const SinCos half = sin_cos(kPi / sides);
   return std::sqrt(area_m2 * half.cos / (sides * half.sin));
 }

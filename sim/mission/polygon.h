@@ -10,33 +10,33 @@
 
 namespace swarmsmith {
 
-/// Polygons as their corners in order, the last joined to the first; metres.
+/// Polygons given by their corners in order, the last joined to the first; metres.
 
-/// Positive when the corners go round counter-clockwise.
+/// Positive when the corners are in counter-clockwise order.
 double signed_area(std::span<const Point> corners);
 
 /// Centre of mass of the area, which must not be 0.
 Point centroid(std::span<const Point> corners);
 
-/// Whether every corner turns left or not at all.
+/// Whether every corner turns left or is straight.
 bool is_convex(std::span<const Point> corners);
 
-/// Whether the point is inside the polygon; on its border either answer may come.
+/// Whether the point is inside the polygon; on its border the result may be either.
 bool is_within(std::span<const Point> corners, Point point);
 
-/// What keeps the corners from going round an area without crossing themselves, as a sentence that
-/// counts corners and sides from 1: fewer than three corners, one of them twice, sides that cross,
-/// touch or turn back, no area. Nothing when all is well.
+/// The reason why the corners are not the outline of an area, as a sentence that counts corners and
+/// sides from 1: fewer than three corners, a repeated corner, sides that cross, touch or turn back,
+/// no area. Nothing if the polygon is valid.
 std::optional<std::string> flaw_of(std::span<const Point> corners);
 
-/// A side on its own, from a list of walls.
+/// A single side, from a list of walls.
 struct Side {
   Point from;
   Point to;
 };
 
 /// The corners of sides that join end to end, each with the next and the last with the first. A gap
-/// of more than a millimetre is an error that names it.
+/// of more than a millimetre is an error that gives its place.
 Expected<std::vector<Point>> corners_of(std::span<const Side> sides);
 
 /// The line of points p with normal . p = distance; the normal has length 1 and points outwards.
@@ -45,22 +45,22 @@ struct Line {
   double distance_m = 0;
 };
 
-/// The corners between lines whose normals turn counter-clockwise, the first between the last line
-/// and the first.
+/// The corners between consecutive lines whose normals turn counter-clockwise; the first corner is
+/// between the last line and the first.
 std::vector<Point> corners_between(std::span<const Line> lines);
 
-/// Unit vector at k of n parts of the circle, counted from the x axis; multiples of 30 degrees have
-/// exact zeros and halves.
+/// Unit vector at the fraction k / n of a turn from the x axis; for multiples of 30 degrees zeros
+/// and halves are exact.
 Point direction_of(int k, int n);
 
-/// Circumscribed about the circle of radius `inradius_m` around the origin, counter-clockwise, a
-/// side's middle on the x axis.
+/// The regular polygon circumscribed about the circle of radius `inradius_m` around the origin,
+/// counter-clockwise, with the middle of a side on the x axis.
 std::vector<Point> regular_polygon(int sides, double inradius_m);
 
 /// Inradius of the regular polygon with this area.
 double inradius_of_area(int sides, double area_m2);
 
-/// "(1.5, -0.25)", for sentences.
+/// "(1.5, -0.25)", for messages.
 std::string point_text(Point point);
 
 }  // namespace swarmsmith

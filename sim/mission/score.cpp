@@ -32,7 +32,7 @@ Error error_of(const ScoreFault& fault) {
   return {ErrorKind::BadInput, "the score's `" + key + "` " + fault.what, key};
 }
 
-/// Keeps the first fault.
+/// Finds the first fault.
 class FaultFinder {
  public:
   std::optional<Error> fault;

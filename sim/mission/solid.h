@@ -5,19 +5,19 @@
 
 namespace swarmsmith {
 
-/// Things that cannot be driven through.
+/// Solid things, which robots cannot drive through.
 
-/// Stands where it is.
+/// A thing that does not move.
 struct Obstacle {
   Outline outline;
   Pose pose;
-  double height_m = 0.3;  ///< for the light that it keeps away, and the rays that meet it
+  double height_m = 0.3;  ///< decides which light and which rays it blocks
 
   friend bool operator==(const Obstacle&, const Obstacle&) = default;
 };
 
-/// Can be pushed. It slides on the floor with a friction of at most `friction_N`, and turns with
-/// the corresponding torque, friction_N times its mean radius.
+/// A thing that can be pushed. It slides on the floor with a friction of at most `friction_N`, and
+/// turns against the corresponding torque, friction_N times its mean radius.
 struct MovableObject {
   Outline outline;
   Pose start;
@@ -38,7 +38,7 @@ struct Light {
   friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// Of walls (rvr-automode facts, section 7).
+/// Height of walls (rvr-automode facts, section 7).
 inline constexpr double kWallHeight_m = 0.08;
 
 }  // namespace swarmsmith

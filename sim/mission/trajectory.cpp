@@ -5,7 +5,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The poses of the `number`th group of `size`.
+/// The poses of group `number`, with `size` poses per group.
 std::span<const Pose> group(std::span<const Pose> poses, int number, int size) {
   const auto count = static_cast<std::size_t>(size);
   return poses.subspan(static_cast<std::size_t>(number) * count, count);

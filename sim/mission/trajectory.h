@@ -10,12 +10,12 @@
 namespace swarmsmith {
 
 /// Poses of a swarm, and of the movable objects around it, at the global instants 0.1 s, 0.2 s, ...
-/// of a run, the start left out. Made by a simulator or measured by a camera.
+/// of a run, without the start. Recorded by a simulator or measured with a camera.
 struct Trajectory {
   int robots = 0;
-  std::vector<Pose> poses;  ///< instant by instant, in each all robots in a fixed order
+  std::vector<Pose> poses;  ///< instant by instant, each with all robots in a fixed order
   int objects = 0;
-  std::vector<Pose> object_poses;  ///< instant by instant, in the arena's order
+  std::vector<Pose> object_poses;  ///< instant by instant, in the order of the arena
 
   int instants() const {
     return robots == 0 ? 0 : static_cast<int>(poses.size() / static_cast<std::size_t>(robots));
@@ -27,9 +27,9 @@ struct Trajectory {
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
 
-/// What the mission's score says of the whole trajectory; larger is better. The number of robots,
-/// objects and instants is the trajectory's. Throws std::invalid_argument when an instant lacks
-/// one.
+/// The mission's score of the whole trajectory; larger is better. The numbers of robots, objects
+/// and instants are taken from the trajectory. Throws std::invalid_argument when an instant is
+/// incomplete.
 double score_of(const Mission& mission, const Instance& instance, const Trajectory& trajectory);
 
 }  // namespace swarmsmith

@@ -21,7 +21,7 @@ std::string line_place(std::size_t line) {
   return "line " + std::to_string(line);
 }
 
-/// Where the columns that are read stand in the header.
+/// Positions in the header of the columns to read.
 using Places = std::array<std::size_t, kRead.size()>;
 
 Expected<Places> find_columns(const Cells& names) {
@@ -51,7 +51,7 @@ Expected<Number> number_of(std::string_view cell, std::size_t column, std::size_
                    line_place(line));
 }
 
-/// Takes rows in their order and sees that none is missing.
+/// Takes rows in their order and checks that none is missing.
 class Collector {
  public:
   Expected<void> add(int cycle, int robot, const Pose& pose, std::size_t line) {
@@ -92,9 +92,9 @@ class Collector {
 
   RecordedTrajectory result_;
   std::int64_t rows_ = 0;
-  int cycle_ = 0;   ///< that is being read
-  int robot_ = 0;   ///< the next of this cycle
-  int robots_ = 0;  ///< of each cycle; 0 until the first one is complete
+  int cycle_ = 0;   ///< the cycle that is being read
+  int robot_ = 0;   ///< the next robot of this cycle
+  int robots_ = 0;  ///< number per cycle; 0 until the first cycle is complete
 };
 
 }  // namespace
@@ -107,7 +107,7 @@ void append_number(std::string& line, double value) {
 
 void append_pose_cells(std::string& line, int cycle, int robot, const Pose& pose) {
   line += std::to_string(cycle) + ",";
-  // A division, since 3 * 0.1 is not the number nearest to 0.3.
+  // A division, because 3 * 0.1 is not the double nearest to 0.3.
   append_number(line, static_cast<double>(cycle) / 10);
   line += "," + std::to_string(robot);
   for (const double value : {pose.x, pose.y, pose.theta}) {

@@ -6,26 +6,27 @@
 
 namespace swarmsmith {
 
-/// What fields of a robot or a profile may be (robot_fields.h, sim/engine/profile_fields.h).
+/// Limits and choices for fields of a robot or a profile (robot_fields.h,
+/// sim/engine/profile_fields.h).
 
 struct Robot;
 
-/// The robots that a field acts on, by what a device of theirs gives. It does nothing for others.
+/// The robots on which a field has an effect, depending on the readings of one of their devices.
 struct FieldUse {
   bool (*acts_on)(const Robot& robot);
-  std::string_view robots;  ///< "robots ..." in sentences
+  std::string_view robots;  ///< "robots ..." in messages
 };
 
-/// Ends of a field's range, both included.
+/// The limits of a field, both included.
 struct FieldLimits {
   double least = 0;
   double most = 0;
 
-  /// False for what is not a number.
+  /// False for NaN.
   constexpr bool contain(double value) const { return value >= least && value <= most; }
 };
 
-/// What a field may be, with the words for it.
+/// The values that a field may have, with their words in the file.
 template <class Value>
 using FieldChoices = std::array<std::pair<std::string_view, Value>, 2>;
 

@@ -11,23 +11,23 @@
 
 namespace swarmsmith {
 
-/// A field that does not act on a robot.
+/// A field that has no effect on a robot.
 struct IdleField {
   std::string device;
   std::string key;
-  std::string_view robots;  ///< those that it acts on, FieldUse's
-  bool differs = false;     ///< from that of what it was compared with
+  std::string_view robots;  ///< the robots on which it has an effect, from FieldUse
+  bool differs = false;     ///< whether its value differs from the first robot's or profile's
 };
 
-/// The visitor of two robots, or two profiles, that compares the fields which do not act on
-/// `robot`. The second one's then have the first one's values, unless it is constant.
+/// The visitor of two robots, or two profiles, that compares the fields without effect on `robot`.
+/// The fields of the second one get the values of the first one, unless it is constant.
 class IdleFields {
  public:
   explicit IdleFields(const Robot& robot) : robot_(&robot) {}
 
-  /// Between the two visits.
+  /// Must be called between the two visits.
   void compare() { compares_ = true; }
-  /// Those of the second one.
+  /// The fields without effect in the second one.
   const std::vector<IdleField>& found() const { return found_; }
 
   void device(std::string_view name) { device_ = name; }
@@ -70,7 +70,7 @@ class IdleFields {
   void beat(std::string_view key, Value& value) {
     look_at(key, value);
   }
-  // Those of these kinds act on all robots.
+  // Fields of these kinds have an effect on all robots.
   template <class Value>
   void outline(const Value&) {}
   template <class Value>
@@ -97,7 +97,7 @@ class IdleFields {
   }
 
   const Robot* robot_;
-  const FieldUse* use_ = nullptr;  ///< of the fields that are visited; null: they act
+  const FieldUse* use_ = nullptr;  ///< of the fields being visited; null: they have an effect
   std::string_view device_;
   bool compares_ = false;
   std::vector<std::any> first_;

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Outlines lie in the thing's own frame, origin at its centre of mass, x forward.
+/// Outlines are given in the solid's own frame: the origin is its centre of mass, x points forward.
 
 struct CircleOutline {
   double radius_m = 0;

@@ -2,7 +2,7 @@
 
 namespace swarmsmith {
 
-/// A point of the plane, metres: of the arena, whose centre is the origin, or of a robot's frame.
+/// A point of the plane in metres: in the arena, whose centre is the origin, or in a robot's frame.
 struct Point {
   double x = 0;
   double y = 0;

@@ -38,16 +38,16 @@ inline constexpr FieldUse kOfRadio = {
     [](const Robot& robot) { return robot.neighbours.source == NeighbourSensor::Source::Radio; },
     "that hear each other by radio"};
 
-/// More ground points than any robot has.
+/// A limit higher than the number of ground points of any known robot.
 inline constexpr int kMostGroundPoints = 8;
-/// Ticks that a vote or a radio remembers, at most.
+/// The most ticks that a vote or a radio remembers.
 inline constexpr int kLongestMemory = 100;
 
-/// The fields of a robot, in the order of its file, each with its key and limits, as
-/// sim/engine/profile_fields.h has those of a profile. Beside that visitor's methods there are
-/// `outline(outline)`, `angles(key, list)` in degrees, `points(key, list)`, `numbers(key, array,
-/// limits)` and `count(key, value, least, most)`. A device's `reading` comes before the fields that
-/// are of one reading alone.
+/// Visits the fields of a robot in the order of its file, each with its key and limits; the
+/// function for profiles is in sim/engine/profile_fields.h. In addition to the methods of that
+/// visitor, a visitor has `outline(outline)`, `angles(key, list)` in degrees, `points(key, list)`,
+/// `numbers(key, array, limits)` and `count(key, value, least, most)`. The `reading` of a device
+/// comes before the fields that are used only with one reading.
 template <class AnyRobot, class Visitor>
 void visit_robot_fields(AnyRobot& robot, Visitor& visitor) {
   visitor.device("body");

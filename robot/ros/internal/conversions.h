@@ -21,16 +21,17 @@
 
 namespace swarmsmith {
 
-/// Our messages as those of ROS (docs/robot-messages.md), and back: `to_ros(ours, theirs)`,
-/// `from_ros(theirs, ours)`, which is false when `theirs` cannot be ours. Arrivals apart from the
-/// header's stamp are not part of them. Where ROS has no type of its own, rows of numbers travel.
+/// Converts messages to ROS messages (docs/robot-messages.md) and back: `to_ros(ours, theirs)` and
+/// `from_ros(theirs, ours)`, which is false when `theirs` is not a valid message. Arrivals are not
+/// converted, except for the header's stamp. Where ROS has no suitable type, messages are rows of
+/// numbers.
 
-/// Of the proximity sensors' driver (ros facts, 1.2).
+/// From the driver of the proximity sensors (ros facts, 1.2).
 constexpr float kRangeFieldOfView_rad = 0.2967F;
 constexpr float kLeastRange_m = 0.05F;
 constexpr float kMostRange_m = 2.0F;
 
-/// The type that a message travels as; wheels have several.
+/// The ROS type of a message; wheels have several.
 template <class Ours>
 std_msgs::Float64MultiArray type_of(const Ours&);
 teraranger_array::RangeArray type_of(const RangesMessage&);
@@ -47,7 +48,7 @@ inline std::int64_t nanoseconds(const ros::Time& stamp) {
   return std::int64_t{stamp.sec} * 1'000'000'000 + stamp.nsec;
 }
 
-/// Times before 1970, which ROS has no stamps for, become 0: none.
+/// Times before 1970, for which ROS has no stamps, become 0, which means none.
 inline ros::Time stamp_of(const Arrival& arrival) {
   ros::Time stamp;
   if (arrival.stamp_ns > 0) stamp.fromNSec(static_cast<std::uint64_t>(arrival.stamp_ns));

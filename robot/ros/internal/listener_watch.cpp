@@ -14,15 +14,15 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::chrono::milliseconds kAskEvery{200};
-constexpr int kAsksToTheMaster = 5;  ///< each so many rounds
-/// A node that lives answers within a few milliseconds.
+constexpr int kAsksToTheMaster = 5;  ///< once per this many rounds
+/// A live node answers within a few milliseconds.
 constexpr double kPatience_ms = 150;
 
 std::string named(const std::string& node, int connection) {
   return connection < 2 ? node : node + " (connection " + std::to_string(connection) + ")";
 }
 
-/// Where the master says that the node is; empty when it does not say.
+/// The address of the node according to the master; empty when the master does not give it.
 std::string place_of(const std::string& node) {
   XmlRpc::XmlRpcValue request;
   XmlRpc::XmlRpcValue response;
@@ -116,7 +116,8 @@ void ListenerWatch::ask_all() {
     const std::string node = listener.name.substr(0, listener.name.find(' '));
     std::string& place = places_[listener.name];
     if (place.empty()) place = place_of(node);
-    // One that the master does not know cannot be asked: its connection alone speaks for it.
+    // A node that the master does not know cannot be asked: its connection is the only sign of
+    // life.
     if (!place.empty() && !lives(place)) continue;
     const std::lock_guard lock(mutex_);
     known_[node].heard = SystemClock().now();
@@ -136,7 +137,7 @@ void ListenerWatch::ask_master() {
     if (node == ros::this_node::getName()) continue;
     const std::string place = place_of(node);
     rivals[node] = rivals_[node];
-    if (rivals[node] || place.empty() || !lives(place)) continue;  // told, or a dead one
+    if (rivals[node] || place.empty() || !lives(place)) continue;  // already reported, or not alive
     rivals[node] = true;
     on_trouble_(node + " publishes " + topic +
                 ", too: when it sends, the treads stand still, and no run is VALID");

@@ -12,12 +12,12 @@
 
 namespace swarmsmith {
 
-/// Knows which nodes get the speeds of the treads, and asks them five times a second whether they
-/// live: ROS itself keeps the connection of a process that hangs. Asks the master each second who
-/// else publishes the same topic.
+/// Tracks the nodes that receive the speeds of the treads, and checks five times a second whether
+/// they are alive, because ROS keeps the connection of a process that hangs. Asks the master every
+/// second for other publishers of the same topic.
 class ListenerWatch {
  public:
-  /// Called with what a person should know, from a thread of its own.
+  /// Called with problems for the user, from a separate thread.
   using OnTrouble = std::function<void(std::string text)>;
 
   explicit ListenerWatch(OnTrouble on_trouble);
@@ -25,13 +25,13 @@ class ListenerWatch {
   ListenerWatch& operator=(const ListenerWatch&) = delete;
   ~ListenerWatch();
 
-  /// A node's connection came, or ended.
+  /// A node has connected or disconnected.
   void joined(const std::string& node);
   void left(const std::string& node);
-  /// All but this node.
+  /// All receiving nodes except this one.
   std::vector<Listener> listeners() const;
-  /// A node with the number of its connection, from the second on: "/driver (connection 2)". One of
-  /// the same name that was started again is another one.
+  /// The name of a node, with the number of its connection from the second on: "/driver (connection
+  /// 2)". A restarted node of the same name thus counts as a different one.
   std::string name_of(const std::string& node) const;
 
   bool listens(const std::string& node) const;
@@ -40,7 +40,7 @@ class ListenerWatch {
 
  private:
   struct Known {
-    int connection = 0;  ///< how many there were; 0: none yet
+    int connection = 0;  ///< number of connections so far; 0: none yet
     int open = 0;
     TimePoint heard{};
   };
@@ -55,8 +55,10 @@ class ListenerWatch {
   bool ends_ = false;
   std::map<std::string, Known> known_;
   std::string topic_;
-  std::map<std::string, std::string> places_;  ///< of nodes, as the master had them; of the thread
-  std::map<std::string, bool> rivals_;         ///< that were told; of the thread
+  std::map<std::string, std::string> places_;  ///< addresses of nodes, as given by the master; used
+                                               ///< only by the thread
+  std::map<std::string, bool> rivals_;         ///< whether each was reported; used only by the
+                                               ///< thread
   std::thread thread_;
 };
 

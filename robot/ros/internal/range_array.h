@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-/// teraranger_array/RangeArray, which no package has: the message of the proximity sensors' driver
-/// (ros facts, 1.2 and 2.3).
+/// teraranger_array/RangeArray, which no ROS package provides: the message of the proximity
+/// sensors' driver (ros facts, 1.2 and 2.3).
 namespace teraranger_array {
 
 struct RangeArray {
@@ -42,7 +42,7 @@ struct DataType<teraranger_array::RangeArray> {
   static const char* value(const teraranger_array::RangeArray& /*message*/) { return value(); }
 };
 
-/// In full, with the types inside: bags and tools read messages by it.
+/// The full definition, including the types inside: bags and tools decode messages with it.
 template <>
 struct Definition<teraranger_array::RangeArray> {
   static const char* value() {

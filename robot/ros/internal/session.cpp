@@ -18,10 +18,10 @@ namespace swarmsmith {
 
 namespace {
 
-/// How long a connection may take that the master knows of.
+/// How long it may take to connect to a publisher that the master knows.
 constexpr std::chrono::seconds kLookEvery{1};
 
-/// ROS keeps one node a process, and none after it has ended.
+/// ROS allows one node per process, and none after it has ended.
 bool first_session() {
   static std::mutex mutex;
   static bool taken = false;
@@ -40,7 +40,7 @@ constexpr const char* kAdvice =
     "set ROS_IP there to the host's own address (or ROS_HOSTNAME to a name that resolves "
     "everywhere), and start it again";
 
-/// Why nothing comes from a node.
+/// The reason why there are no messages from a node.
 std::string why_unreachable(const std::string& node, const std::string& topic) {
   const std::string begin =
       "the master knows " + node + " as publisher of " + topic + ", but there is no connection: ";
@@ -153,7 +153,8 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
   std::uint32_t how = ros::init_options::NoSigintHandler | ros::init_options::NoRosout;
   if (unique_name) how |= ros::init_options::AnonymousName;
   ros::init(*remappings, node, how);
-  // What matters is said by this program; roscpp's own lines say it in a form for its developers.
+  // This program reports important events itself; the messages of roscpp are written for its
+  // developers.
   if (ros::console::set_logger_level("ros", ros::console::levels::Fatal))
     ros::console::notifyLoggerLevelsChanged();
   if (!wait_for_master(options.master_patience)) {
@@ -162,11 +163,11 @@ Expected<std::unique_ptr<Session>> Session::join(const std::string& name_space,
                       "set ROS_MASTER_URI to where it is",
                       ros::master::getURI());
   }
-  // Else a master that dies while a node joins keeps it for ever.
+  // Otherwise a node would wait forever for a master that dies while the node joins.
   ros::master::setRetryTimeout(ros::WallDuration(5));
   std::unique_ptr<Session> session(new Session(std::move(on_trouble)));
   ros::start();
-  // Else a second node with the same name ends this one before it can send a zero.
+  // Otherwise a second node with the same name ends this one before it can send zero speeds.
   const auto manager = ros::XMLRPCManager::instance();
   manager->unbind("shutdown");
   manager->bind("shutdown", [tell = session->on_trouble_](XmlRpc::XmlRpcValue& parameters,
@@ -233,14 +234,14 @@ void Session::look_for_unreachable() {
     return;
   }
   std::set<std::string> unreached;
-  std::string first;  // nodes that were killed stay at the master for days: one line for all
+  std::string first;  // killed nodes stay registered at the master for days: one line for all
   std::string others;
   for (const ros::Subscriber& subscriber : subscribers_) {
     if (subscriber.getNumPublishers() > 0) continue;
     for (const std::string& node : state.publishers[subscriber.getTopic()]) {
       if (node == ros::this_node::getName()) continue;
       unreached.insert(node);
-      // A peer that was there the last time has had its time.
+      // A peer that was already registered at the previous look has had enough time.
       if (suspects_.count(node) == 0 || !told_.insert(node).second) continue;
       if (first.empty()) {
         first = why_unreachable(node, subscriber.getTopic());

@@ -18,24 +18,24 @@
 
 namespace swarmsmith {
 
-/// This process's ROS node: joins the master, takes messages in a thread of its own, and watches
-/// for what ROS does not tell.
+/// The ROS node of this process: joins the master, receives messages in its own thread, and watches
+/// for problems that ROS does not report.
 class Session {
  public:
-  /// Called with trouble, from any thread; `ended` when the node must go.
+  /// Called with a problem, from any thread; `ended` is true when the node must end.
   using OnTrouble = std::function<void(std::string text, bool ended)>;
 
-  /// `names_space` is "/rvr1" or "/", `node` without it.
+  /// `name_space` is "/rvr1" or "/", `node` the name without it.
   static Expected<std::unique_ptr<Session>> join(const std::string& name_space,
                                                  const std::string& node, bool unique_name,
                                                  const RosOptions& options, OnTrouble on_trouble);
   ~Session();
 
-  /// A handle whose relative names are in the name space; callbacks come one at a time.
+  /// A handle whose relative names are in the name space; callbacks run one at a time.
   ros::NodeHandle handle(const std::string& name_space);
-  /// Callbacks come from here on. If the master knows who publishes a topic that this node listens
-  /// to, and there is no connection within 2 s, that is said, with the name that could not be
-  /// reached: ROS itself is silent about it (ros facts, 2.5).
+  /// From here on callbacks run. If the master knows a publisher of a subscribed topic, and there
+  /// is no connection within 2 s, this is reported, with the name that could not be reached: ROS
+  /// itself does not report it (ros facts, 2.5).
   void spin(std::vector<ros::Subscriber> subscribers);
 
  private:
@@ -50,12 +50,12 @@ class Session {
   std::condition_variable ending_;
   bool ends_ = false;
   std::vector<ros::Subscriber> subscribers_;
-  std::set<std::string> suspects_;  ///< nodes that could not be reached when last looked
-  std::set<std::string> told_;      ///< nodes that it was said of
+  std::set<std::string> suspects_;  ///< nodes that were unreachable at the last look
+  std::set<std::string> told_;      ///< nodes that were reported
   std::thread watch_;
 };
 
-/// Nodes that publish and that subscribe each topic, as the master has them.
+/// The nodes that publish and that subscribe to each topic, according to the master.
 struct SystemState {
   std::map<std::string, std::vector<std::string>> publishers;
   std::map<std::string, std::vector<std::string>> subscribers;
@@ -63,10 +63,11 @@ struct SystemState {
 /// False when the master does not answer.
 bool ask_system_state(SystemState& state);
 
-/// http://HOST:PORT/ as two texts; false when it is none. roscpp aborts the process on such.
+/// Splits http://HOST:PORT/ into two texts; false when the text has another form, for which roscpp
+/// would abort the process.
 bool split_uri(std::string uri, std::string& host, std::string& port);
 
-/// Whether the text is a name as ROS has it for a robot: a letter, then letters, digits and _.
+/// Whether the text is valid as a robot's name in ROS: a letter, then letters, digits and _.
 bool is_ros_name(const std::string& name);
 
 }  // namespace swarmsmith

@@ -14,7 +14,7 @@
 
 namespace swarmsmith {
 
-/// Visitors of the fields of orders and states, which write them as JSON and read them.
+/// Visitors of the fields of orders and states; this one writes them as JSON.
 
 class JsonFieldWriter {
  public:
@@ -50,7 +50,7 @@ class JsonFieldWriter {
   JsonObject json_;
 };
 
-/// What is missing, or of another type, keeps its value.
+/// Reads the fields. Values that are missing or have another type are not changed.
 class JsonFieldReader {
  public:
   using Json = nlohmann::json;
@@ -76,9 +76,9 @@ class JsonFieldReader {
       read(*found, value);
     }
   }
-  /// Empty: all is well.
+  /// Empty: there is no error.
   const std::string& error() const { return error_; }
-  /// "`sed`, `robot`".
+  /// A list such as "`sed`, `robot`".
   std::string unknown_keys() const {
     std::string text;
     for (const auto& [key, value] : json_.items()) {

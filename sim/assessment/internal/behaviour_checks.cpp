@@ -25,7 +25,7 @@ constexpr double kTilesSide_m = 2.50001;
 constexpr int kLeastTiles = 40;
 constexpr double kMostContact = 0.05;
 
-/// Number of the tile under a point of the arena, which lies within the square.
+/// Number of the tile at a point of the arena, which must be within the square.
 int tile_at(Point point) {
   const auto index = [](double x) {
     return static_cast<int>((x / kTilesSide_m + 0.5) * static_cast<double>(kTiles));
@@ -106,7 +106,7 @@ std::vector<Check> check_stop(const Machine& machine, const Subject& subject) {
 
 constexpr int kLastCycles = 100;  ///< 10 s
 
-/// Mean distance of the pairs of robots, metres.
+/// Mean distance over all pairs of robots, metres.
 double pair_distance(Robots robots) {
   double sum = 0;
   int pairs = 0;
@@ -118,10 +118,10 @@ double pair_distance(Robots robots) {
   return sum / pairs;
 }
 
-/// Over the wall on the x axis, so that there is room to flee on the other side.
+/// Above the wall on the x axis, so that robots can flee to the other side.
 constexpr Light kLight = {.x_m = 1.226, .y_m = 0};
 
-/// Mean distance over ground from the light, metres.
+/// Mean horizontal distance from the light, metres.
 double light_distance(Robots robots) {
   double sum = 0;
   for (const RobotRecord& robot : robots)
@@ -135,10 +135,10 @@ struct DistanceTest {
   bool with_light = false;
 };
 
-/// Where robots steer that see neighbours, in control cycles.
+/// The steering of robots that see neighbours, in control cycles.
 struct Steering {
   int straight = 0;
-  int towards = 0;  ///< to the side where the neighbours are
+  int towards = 0;  ///< to the side on which the neighbours are
   int away = 0;
 
   void add(const RobotRecord& robot) {
@@ -210,7 +210,7 @@ std::vector<Check> check_behaviour(const ModuleSpec& spec, const Subject& subjec
     parameters.push_back(parameter_value(parameter));
   const Behaviour behaviour = make_behaviour(spec.module, parameters);
   const Machine machine{{{behaviour, {}}}};
-  // A behaviour promises what only a person can say: each has its case here.
+  // The expected result of a behaviour cannot be derived from its code: each has its own case here.
   return std::visit(
       Overloaded{[&](const Exploration&) { return check_exploration(machine, subject); },
                  [&](const RandomWalk&) { return check_exploration(machine, subject); },

@@ -7,19 +7,20 @@
 
 namespace swarmsmith::assessment {
 
-/// Runs a behaviour alone in all three robots. Throws std::invalid_argument when it is not a
+/// Runs a single behaviour in all three robots. Throws std::invalid_argument when it is not a
 /// behaviour.
 std::vector<Check> check_behaviour(const ModuleSpec& spec, const Subject& subject);
 
-/// The machine Exploration -> Stop, whose only transition is the condition. With beta = 1 it must
-/// fire in the first tested cycle whose reading satisfies it, and in no other; with eta = 0 the
-/// firing cycles must follow the geometric law of one half. A condition without a test of its own
-/// must fire in some cycle of each run, in none with probability 0, and in each with probability 1.
+/// Runs the machine Exploration -> Stop, whose only transition is the condition. With beta = 1 it
+/// must fire in the first tested cycle whose reading satisfies it, and in no other; with eta = 0
+/// the firing cycles must follow the geometric distribution with probability one half. A condition
+/// without its own test must fire in some cycle of each run, never with probability 0, and always
+/// with probability 1.
 Check check_condition(const ConditionTest& test, const Subject& subject);
 
-/// How often the condition fires with beta = 0.3, or with eta = 5 and xi = 1 for each number of
-/// neighbours. The machine is Exploration <-> Exploration, with the condition both ways: it goes on
-/// after a firing, so that each run gives many trials.
+/// The rates at which the condition fires with beta = 0.3, or with eta = 5 and xi = 1 for each
+/// number of neighbours. The machine is Exploration <-> Exploration, with the condition in both
+/// directions: it continues after a firing, so that each run gives many trials.
 std::vector<Rate> rates_of(const ConditionTest& test, const Subject& subject);
 
 }  // namespace swarmsmith::assessment

@@ -18,13 +18,13 @@ Machine one_way(const Condition& condition) {
   return {{{Exploration{kTau}, {{condition, 1}}}, {Stop{}, {}}}};
 }
 
-/// What happened to the three robots in one run, or in all of them.
+/// The events of the three robots in one run, or in all runs.
 struct FloorRun {
-  int over = 0;        ///< tested cycles over the floor that the condition waits for
-  int read = 0;        ///< those of them in which the reading satisfied it
-  int fired_over = 0;  ///< firings in one of these
-  int elsewhere = 0;   ///< firings by a reading that satisfied it over another floor
-  int missed = 0;      ///< tested cycles in which it had to fire, and did not
+  int over = 0;        ///< tested cycles over the floor that satisfies the condition
+  int read = 0;        ///< cycles of these in which the reading satisfied it
+  int fired_over = 0;  ///< firings in these cycles
+  int elsewhere = 0;   ///< firings after a reading that satisfied it over other floor
+  int missed = 0;      ///< tested cycles in which it had to fire but did not
   int wrong = 0;       ///< firings without a reason
 
   bool is_tested() const { return fired_over > 0; }
@@ -72,8 +72,8 @@ std::string text_of(Rgb color) {
   return fmt::format("{}, {}, {}", color.r, color.g, color.b);
 }
 
-/// Without noise, the flavour must take the wanted floor and no other of the arena for what the
-/// condition waits for; what it does not, as a sentence.
+/// Without noise, the wanted floor and no other floor of the arena must satisfy the condition by
+/// the flavour's numbers; gives the error, as a sentence.
 std::string misread_floor(const ConditionTest& test, const FloorModel& floor) {
   if (test.trigger == Trigger::Always || test.trigger == Trigger::Readings) return {};
   if (!satisfies(test, test.wanted, floor)) {
@@ -90,7 +90,7 @@ std::string misread_floor(const ConditionTest& test, const FloorModel& floor) {
   return {};
 }
 
-/// Why it fails, or what else a person should know.
+/// Why the check fails, or another remark.
 std::string note_about(const ConditionTest& test, const FloorRuns& runs, const FloorModel& floor) {
   std::string misread = misread_floor(test, floor);
   if (!misread.empty()) return misread;
@@ -136,7 +136,7 @@ Check check_floor(const ConditionTest& test, const Condition& condition, const S
           .note = note_about(test, runs, floor)};
 }
 
-/// With eta = 0 the sigmoid is one half whatever the number of neighbours: one firing a robot.
+/// With eta = 0 the sigmoid is one half for any number of neighbours; each robot fires once.
 Check check_count(const ConditionTest& test, const Condition& condition, const Subject& subject) {
   std::array<std::array<int, kRobots>, kConditionRuns> tests{};
   for_each_cycle(test, one_way(condition), subject, [&](const ObservedCycle& cycle) {

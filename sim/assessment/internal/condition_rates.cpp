@@ -20,7 +20,7 @@ constexpr int kXi = 1;
 struct Tally {
   std::int64_t trials = 0;
   std::int64_t firings = 0;
-  double expected = 0;  ///< firings
+  double expected = 0;  ///< expected number of firings
 };
 
 Rate rate_of(std::string setting, const Tally& tally, double expected) {
@@ -33,7 +33,7 @@ Rate rate_of(std::string setting, const Tally& tally, double expected) {
           .high = interval.high};
 }
 
-/// Eq. 5.7 of the thesis; with counts without sign, xi - n is huge where it would be negative.
+/// Eq. 5.7 of the thesis; with unsigned counts a negative xi - n becomes a huge number.
 double sigmoid(int neighbours, bool unsigned_count) {
   if (unsigned_count && neighbours > kXi) return 0;
   return 1 / (1 + exp(kEta * (kXi - neighbours)));
@@ -49,14 +49,17 @@ std::vector<Rate> rates_of(const ConditionTest& test, const Subject& subject) {
       {{Exploration{kTau}, {{condition, 1}}}, {Exploration{kTau}, {{condition, 0}}}}};
   const bool counts =
       test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
-  std::array<Tally, kRobots> tallies{};  // by number of neighbours; else all in the first one
+  std::array<Tally, kRobots> tallies{};  // by number of neighbours; for other conditions only the
+                                         // first is used
   for_each_cycle(test, machine, subject, [&](const ObservedCycle& cycle) {
     const Readings& readings = *cycle.record.readings;
     if (!cycle.tested) return;
     const double probability = due_probability(test, condition, kBeta, readings, flavour);
     if (probability == 0) return;
     const std::size_t neighbours = counts ? static_cast<std::size_t>(readings.neighbour_count) : 0;
-    if (neighbours >= tallies.size()) return;  // a lidar may see more of them than there are
+    if (neighbours >= tallies.size())
+      return;  // a lidar may report more neighbours than there are
+               // robots
     ++tallies[neighbours].trials;
     tallies[neighbours].firings += cycle.fired ? 1 : 0;
     tallies[neighbours].expected += probability;

@@ -16,7 +16,7 @@
 namespace swarmsmith::assessment {
 namespace {
 
-constexpr double kDiscRadius_m = 0.5;  // the black spot of aggregation
+constexpr double kDiscRadius_m = 0.5;  // as the black spot of aggregation
 
 Rgb color_named(std::string_view name) {
   const std::optional<Rgb> color = color_from_name(name);
@@ -24,15 +24,15 @@ Rgb color_named(std::string_view name) {
   return *color;
 }
 
-/// The gray floor with a disc in its middle, which robots that explore cross again and again.
+/// The gray floor with a disc in its middle, which exploring robots cross repeatedly.
 Arena arena_with_disc(Rgb color) {
   Arena arena = dodecagon_of_the_thesis();
   arena.patches.push_back({Disc{.centre = {0, 0}, .radius_m = kDiscRadius_m}, color});
   return arena;
 }
 
-/// A stripe of each label's colour, side by side over the whole arena. There is no gray between
-/// them: under noise its hue is any, and robots would seldom get as far as the wanted stripe.
+/// A stripe for each label's colour, side by side over the whole arena. There is no gray between
+/// them: with noise its hue is arbitrary, and robots would seldom reach the wanted stripe.
 Arena arena_with_stripes(const std::vector<LabelSpec>& labels) {
   constexpr double kSide_m = 2.6;
   Arena arena = dodecagon_of_the_thesis();
@@ -45,8 +45,8 @@ Arena arena_with_stripes(const std::vector<LabelSpec>& labels) {
   return arena;
 }
 
-/// In degrees from red, for a colour that is not gray: sixths of a turn between the corners of the
-/// hexagon of full colours.
+/// The hue in degrees from red, for a colour that is not gray: each side of the hexagon of full
+/// colours is a sixth of a turn.
 double hue_of(Rgb color, int largest, int spread) {
   const auto slope = [&](int a, int b) {
     return 60.0 * static_cast<double>(a - b) / static_cast<double>(spread);
@@ -62,7 +62,8 @@ double hue_of(Rgb color, int largest, int spread) {
   return hue < 0 ? hue + 360 : hue;
 }
 
-/// Thesis facts, section 7: the closest hue near enough; the program also looks at the saturation.
+/// Thesis facts, section 7: the closest hue within the tolerance; the program also checks the
+/// saturation.
 bool is_seen_as(Rgb color, ColorLabel wanted, const FloorModel& floor) {
   const int largest = std::max({color.r, color.g, color.b});
   const int spread = largest - std::min({color.r, color.g, color.b});
@@ -97,8 +98,8 @@ std::vector<ConditionTest> on_stripes(Module module, const std::vector<LabelSpec
   return tests;
 }
 
-/// Walls, others, a light, and floor in three grays: a condition that has no test of its own meets
-/// here what any sensor can read.
+/// Walls, other robots, a light, and floor in three greys: in this arena a condition without its
+/// own test can get readings from every sensor.
 ConditionTest among_everything(Module module) {
   Arena arena = arena_with_disc(color_named("black"));
   arena.patches.push_back({Disc{.centre = {0.8, 0}, .radius_m = 0.3}, color_named("white")});
@@ -120,7 +121,7 @@ ConditionTest on_disc(Module module, GrayRange gray, std::string_view color, std
           .arena = arena_with_disc(wanted)};
 }
 
-/// What a robot read in a cycle, for a condition that is asked again.
+/// The recorded readings of a robot in a cycle, with which a condition is evaluated again.
 class RecordedSenses final : public Senses {
  public:
   explicit RecordedSenses(const Readings& readings) : readings_(readings) {}

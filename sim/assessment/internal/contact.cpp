@@ -9,7 +9,7 @@
 namespace swarmsmith::assessment {
 namespace {
 
-/// The widest gap that a face of `a` has before it, up to all of `b`.
+/// The widest gap between a face of `a` and all of `b` along the face's normal.
 double gap_before_faces(const Footprint& a, const Footprint& b) {
   const auto corners = a.corners();
   double widest = -std::numeric_limits<double>::infinity();

@@ -12,14 +12,15 @@
 namespace swarmsmith::assessment {
 namespace {
 
-/// 1 for the RVR. Robots that see others nearer by only stand nearer by; the arena is the same.
+/// 1 for the RVR. Robots that detect others only at a shorter range start closer together; the
+/// arena is the same.
 double group_scale(const Robot& robot) {
-  if (robot.neighbours.range_m == 0) return 1;  // it sees no others
+  if (robot.neighbours.range_m == 0) return 1;  // it does not detect others
   return std::min(1.0, robot.neighbours.range_m / kNeighbourRange_m);
 }
 
-/// The law of the missions' placement, in the smallest disc that holds every such group: the
-/// corners of a triangle with sides of 0.7 m lie 0.7 / sqrt 3 = 0.404 m from its centre.
+/// The same distribution as the missions' placement, in the smallest disc that holds every such
+/// group: the corners of a triangle with sides of 0.7 m are 0.7 / sqrt 3 = 0.404 m from its centre.
 Pose draw_pose(Rng& rng, double scale) {
   const double radius = scale * 0.404 * std::max(rng.uniform(), rng.uniform());
   const SinCos direction = sin_cos(rng.uniform(0, 2 * kPi));

@@ -10,14 +10,14 @@ struct Interval {
   double high = 1;
 };
 
-/// Wilson's score interval of a rate, 99 %; [0, 1] without a trial (Wilson, JASA 22, 1927).
+/// Wilson's score interval of a rate, 99 %; [0, 1] without trials (Wilson, JASA 22, 1927).
 Interval wilson_interval(std::int64_t hits, std::int64_t trials);
 
-/// Chi-square of waits against the geometric law with probability one half, waits of 1, 2, 3 and of
-/// 4 or more trials apart: 3 degrees of freedom.
+/// Chi-square statistic of waiting times against the geometric distribution with probability one
+/// half; the classes are 1, 2, 3, and 4 or more trials: 3 degrees of freedom.
 double geometric_chi_square(std::span<const double> waits);
 
-/// Its upper 1 % point.
+/// The upper 1 % point of its distribution.
 inline constexpr double kChiSquare3At1Percent = 11.344866730144373;
 
 }  // namespace swarmsmith::assessment

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Away from the light and from obstacles (thesis eq. 5.2).
+/// Moves away from the light and from obstacles (thesis eq. 5.2).
 struct AntiPhototaxis {
   static constexpr std::string_view kId = "anti_phototaxis";
   static constexpr std::string_view kLabel = "Anti-\nphototaxis";

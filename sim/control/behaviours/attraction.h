@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Towards the neighbours, away from obstacles (thesis eq. 5.3, 5.5).
+/// Moves towards the neighbours and away from obstacles (thesis eq. 5.3, 5.5).
 struct Attraction {
   static constexpr std::string_view kId = "attraction";
   static constexpr std::string_view kLabel = "Attraction";

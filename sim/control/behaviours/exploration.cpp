@@ -10,14 +10,14 @@
 namespace swarmsmith {
 namespace {
 
-/// What Exploration knows of the front: the strongest reading, and the sums of both sides.
+/// The readings of the front, summarised: the strongest one, and the sums of both sides.
 struct Front {
   double strongest = 0;
   Vector2 direction;
   double left = 0;
   double right = 0;
 
-  /// Ties go to the direction nearest to straight ahead, then to the left one.
+  /// In a tie, the direction nearest to straight ahead wins, then the left one.
   void add(double strength, Vector2 towards, double slope) {
     if (!(std::fabs(towards.y) <= slope * towards.x)) return;
     if (towards.y > 0) left += strength;
@@ -38,8 +38,8 @@ struct Front {
 
 using Turn = TurnAway;
 
-/// Away from the strongest reading of the front (thesis facts, section 6.2), of sensors that look
-/// into these directions, by index.
+/// Turns away from the strongest reading of the front (thesis facts, section 6.2). `directions`
+/// holds the directions of the sensors, by index.
 template <std::size_t N>
 Turn turn_from(std::span<const double, N> proximity, const RingDirections& directions,
                Senses& senses, const Flavour& flavour) {
@@ -66,15 +66,17 @@ Turn turn_from_front(Senses& senses, const Flavour& flavour) {
   if (const auto& directions = flavour.obstacles.directions) {
     return turn_from(std::span(senses.proximity()), *directions, senses, flavour);
   }
-  // The others are in front by no slope.
+  // The other sensors are not in front for any slope.
   return turn_from(senses.front_proximity(), kProximityDirections, senses, flavour);
 }
 
-/// Away from the side to which the sum of the readings points (rvr-automode facts, section 5). The
-/// signs of the components stand for the angle: within +-90 degrees, and to the right.
+/// Turns away from the side to which the sum of the readings points (rvr-automode facts, section
+/// 5). The signs of the components replace the angle: whether it is within +-90 degrees, and to the
+/// right.
 Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
   const double threshold = flavour.exploration.threshold;
-  // Not shortened: that would change no sign, and leave it longer than any flavour's threshold.
+  // The sum is not shortened: that would change no sign, and it would stay longer than any
+  // flavour's threshold.
   const Vector2 sum = obstacle_sum(
       senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
   const bool strong = sum.x * sum.x + sum.y * sum.y >= threshold * threshold;
@@ -82,7 +84,8 @@ Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
   return sum.y < 0 ? Turn::Left : Turn::Right;
 }
 
-/// The front says whether, the sum of all readings away from which side (epuck facts, 5.2.1).
+/// The front sensors decide whether to turn, the sum of all readings decides in which direction
+/// (epuck facts, 5.2.1).
 Turn turn_from_front_by_sum(Senses& senses, const Flavour& flavour) {
   if (turn_from_front(senses, flavour) == Turn::None) return Turn::None;
   const Vector2 sum = obstacle_sum(
@@ -97,7 +100,7 @@ int draw_turn_cycles(int tau, ExplorationModel::TurnLength law, Rng& rng) {
   return std::max(1, static_cast<int>(rng.uniform_int(0, tau - 1)));
 }
 
-/// Whether this cycle still belongs to a turn that was drawn before.
+/// Whether this cycle still belongs to the current turn.
 bool goes_on_turning(BehaviourMemory& memory, Senses& senses, TurnClock clock) {
   if (memory.turn_cycles_left == 0) return false;
   if (clock == TurnClock::Cycles) {
@@ -123,8 +126,8 @@ TurnAway turn_away(Senses& senses, const Flavour& flavour) {
   return turn_from_front_by_sum(senses, flavour);
 }
 
-/// Flattened: robots explore for most of their time, and each call would cost a part of what it
-/// does.
+/// Flattened because robots explore most of the time, and calls would cost a noticeable part of the
+/// function's time.
 [[gnu::flatten]] Command Exploration::act(Senses& senses, const Flavour& flavour,
                                           BehaviourMemory& memory, Rng& rng) const {
   const double speed = flavour.speed_mps;
@@ -136,8 +139,9 @@ TurnAway turn_away(Senses& senses, const Flavour& flavour) {
     memory.turn_left = turn == Turn::Left;
     memory.turn_cycles_left = draw_turn_cycles(tau, flavour.exploration.turn_length, rng);
     if (flavour.exploration.turn_clock == TurnClock::Seconds) {
-      // Commands change only at cycles. The half makes T = r * 0.1 s end between two nominal ones,
-      // whatever the clock rounds; with another period the turn is right to a cycle.
+      // Commands change only at cycles. The half cycle puts the end of T = r * 0.1 s between two
+      // nominal cycles, however the clock rounds; with another period the turn is right to within a
+      // cycle.
       memory.turn_end_s = senses.time_s() + (memory.turn_cycles_left + 0.5) * kControlPeriod_s;
     }
   }

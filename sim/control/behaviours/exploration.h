@@ -7,19 +7,19 @@
 
 namespace swarmsmith {
 
-/// To which side a robot turns away from what stands in front of it.
+/// The direction in which a robot turns away from an obstacle in front of it.
 enum class TurnAway { None, Left, Right };
 
-/// By the flavour's trigger of Exploration; None where nothing is in front.
+/// Decides by the flavour's trigger of Exploration; None if there is no obstacle in front.
 TurnAway turn_away(Senses& senses, const Flavour& flavour);
 
-/// Straight on until there is an obstacle in front, then a turn on the spot for a random number of
-/// control cycles.
+/// Drives straight on until there is an obstacle in front, then turns on the spot for a random
+/// number of control cycles.
 struct Exploration {
   static constexpr std::string_view kId = "exploration";
   static constexpr std::string_view kLabel = "Exploration";
 
-  int tau = 1;  ///< bound of the drawn number of turning cycles; 1..100 in the search
+  int tau = 1;  ///< upper bound of the drawn number of turning cycles; 1..100 in the search
 
   template <class Self, class Visitor>
   static void parameters(Self& self, Visitor& visitor) {

@@ -8,14 +8,15 @@
 
 namespace swarmsmith {
 
-/// A Levy walk: straight steps whose length follows a power law, and turns of the wrapped Cauchy
-/// law between them (Dimidov et al., ANTS 2016).
+/// A Levy walk: straight steps whose lengths follow a power law, and turns between them whose
+/// angles follow a wrapped Cauchy distribution (Dimidov et al., ANTS 2016).
 struct LevyWalk {
   static constexpr std::string_view kId = "levy_walk";
   static constexpr std::string_view kLabel = "Levy walk";
 
-  double mu = 2;  ///< P(length) ~ length^-mu: near 1 nearly ballistic, from 3 on as Brownian motion
-  double rho = 0;  ///< 0: any direction; 1: straight on
+  double mu = 2;   ///< P(length) ~ length^-mu: nearly ballistic for mu near 1, like Brownian motion
+                   ///< for mu >= 3
+  double rho = 0;  ///< 0: the new direction is uniform; 1: straight on
 
   template <class Self, class Visitor>
   static void parameters(Self& self, Visitor& visitor) {

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Towards the light, away from obstacles (thesis eq. 5.1).
+/// Moves towards the light and away from obstacles (thesis eq. 5.1).
 struct Phototaxis {
   static constexpr std::string_view kId = "phototaxis";
   static constexpr std::string_view kLabel = "Phototaxis";

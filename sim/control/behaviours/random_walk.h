@@ -7,16 +7,16 @@
 
 namespace swarmsmith {
 
-/// A parameter of walks: concentration of the turns between steps, 0..1 in the search.
+/// The parameter rho of random walks: concentration of the turns between steps, 0..1 in the search.
 ParameterSpec rho_parameter();
 
-/// A correlated random walk: straight steps of exponential length, and turns of the wrapped Cauchy
-/// law between them (Dimidov et al., ANTS 2016).
+/// A correlated random walk: straight steps whose lengths are exponentially distributed, and turns
+/// between them whose angles follow a wrapped Cauchy distribution (Dimidov et al., ANTS 2016).
 struct RandomWalk {
   static constexpr std::string_view kId = "random_walk";
   static constexpr std::string_view kLabel = "Random walk";
 
-  double rho = 0;  ///< 0: any direction; 1: straight on
+  double rho = 0;  ///< 0: the new direction is uniform; 1: straight on
   int step = 1;    ///< mean length of a step in control cycles; 1..100 in the search
 
   template <class Self, class Visitor>

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// Away from the neighbours and from obstacles (thesis eq. 5.4, 5.6).
+/// Moves away from the neighbours and from obstacles (thesis eq. 5.4, 5.6).
 struct Repulsion {
   static constexpr std::string_view kId = "repulsion";
   static constexpr std::string_view kLabel = "Repulsion";

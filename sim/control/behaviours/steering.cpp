@@ -59,7 +59,7 @@ Command follow_light(double sign, Senses& senses, const Flavour& flavour) {
 
 Command command_towards(double x, double y, double speed_mps, double least_inner) {
   const double length = std::sqrt(x * x + y * y);
-  if (length == 0) return {0, 0};  // also a vector that is too short to square
+  if (length == 0) return {0, 0};  // this includes vectors too short to square
   const double inner = speed_mps * std::max(x / length, least_inner);
   return y > 0 ? Command{inner, speed_mps} : Command{speed_mps, inner};
 }

@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// Stands still.
+/// The robot stands still.
 struct Stop {
   static constexpr std::string_view kId = "stop";
   static constexpr std::string_view kLabel = "Stop";

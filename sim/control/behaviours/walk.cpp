@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// The quantile of the law: tan(angle / 2) = (1 - rho) / (1 + rho) tan(pi (u - 1/2)).
+/// The quantile function: tan(angle / 2) = (1 - rho) / (1 + rho) tan(pi (u - 1/2)).
 double wrapped_cauchy_angle(double u, double rho) {
   const double half_turn = kPi * (u - 0.5);
   return 2 * atan2((1 - rho) * sin(half_turn), (1 + rho) * cos(half_turn));
@@ -19,7 +19,7 @@ int exponential_step(double u, double mean) {
   return static_cast<int>(std::clamp(length, 1.0, double{kLongestStep}));
 }
 
-/// The quantile of the law for lengths from 1 on: l = (1 - u)^(-1 / (mu - 1)).
+/// The quantile function for lengths from 1 on: l = (1 - u)^(-1 / (mu - 1)).
 int power_law_step(double u, double mu) {
   const double length = std::floor(exp(-log(1 - u) / (mu - 1)));
   return static_cast<int>(std::clamp(length, 1.0, double{kLongestStep}));
@@ -28,7 +28,8 @@ int power_law_step(double u, double mu) {
 Command turn_on(const Flavour& flavour, BehaviourMemory& memory) {
   const double speed = flavour.speed_mps;
   const double whole_rad = 2 * speed * kControlPeriod_s / flavour.exploration.track_m;
-  // The last cycle is slower, so that the angle is turned and not a multiple of what a cycle turns.
+  // The last cycle is slower, so that the turn has exactly the angle, not a multiple of the turn in
+  // one cycle.
   const double part = std::min(1.0, memory.turn_left_rad / whole_rad);
   memory.turn_left_rad = part < 1 ? 0 : memory.turn_left_rad - whole_rad;
   const double tread = memory.turn_left ? -speed * part : speed * part;

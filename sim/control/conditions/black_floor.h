@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The floor's grey level is low.
+/// True when the grey level of the floor is low.
 struct BlackFloor {
   static constexpr std::string_view kId = "black_floor";
   static constexpr std::string_view kLabel = "Black floor";

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The floor's colour is perceived as the label.
+/// True when the colour of the floor is perceived as the label.
 struct ColorDetection {
   static constexpr std::string_view kId = "color_detection";
   static constexpr std::string_view kLabel = "Color detection";

@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// Always.
+/// Always true.
 struct FixedProbability {
   static constexpr std::string_view kId = "fixed_probability";
   static constexpr std::string_view kLabel = "Fixed probability";

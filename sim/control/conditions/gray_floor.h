@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The floor's grey level is in the middle.
+/// True when the grey level of the floor is in the middle range.
 struct GrayFloor {
   static constexpr std::string_view kId = "gray_floor";
   static constexpr std::string_view kLabel = "Gray floor";

@@ -7,14 +7,14 @@
 
 namespace swarmsmith {
 
-/// Always, with probability 1 - z(n).
+/// Enabled with probability 1 - z(n) for n neighbours, z as in NeighbourCount.
 struct InvertedNeighbourCount {
   static constexpr std::string_view kId = "inverted_neighbour_count";
   static constexpr std::string_view kLabel = "Inverted\nneighbour count";
   using Reads = NeighbourTally;
 
   double eta = 0;  ///< steepness, 0..20 in the search
-  int xi = 0;      ///< the count with probability one half
+  int xi = 0;      ///< the count at which the probability is one half
 
   template <class Self, class Visitor>
   static void parameters(Self& self, Visitor& visitor) {

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// The floor's grey level is high.
+/// True when the grey level of the floor is high.
 struct WhiteFloor {
   static constexpr std::string_view kId = "white_floor";
   static constexpr std::string_view kLabel = "White floor";

@@ -9,7 +9,8 @@ bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/// Takes the switch's name apart: letters, then nothing, a state, or a state, x and a transition.
+/// Splits the name of the switch: letters, then nothing, a state, or a state and a transition with
+/// the separator between them.
 bool split_name(Field& field, Between between) {
   std::string_view rest = field.name.text;
   if (!rest.starts_with("--")) return false;

@@ -14,17 +14,17 @@
 
 namespace swarmsmith {
 
-/// The text of a machine as words and as switches with values, before it means anything.
+/// The text of a machine split into words, and into switches with values, before it is interpreted.
 
-/// A word of the text; number and column count from 1.
+/// A word of the text; its number and column are counted from 1.
 struct Token {
   std::string_view text;
   std::size_t number = 0;
   std::size_t column = 0;
 };
 
-/// A switch with its value, the switch taken apart: --p0x3 is stem p, state 0, transition 3; what
-/// the switch lacks is -1. In trees --p03 is the same: child 3 of subtree 0.
+/// A switch with its value. The switch is split: --p0x3 has stem p, state 0, transition 3; missing
+/// parts are -1. In trees --p03 has the same parts: child 3 of subtree 0.
 struct Field {
   Token name;
   Token value;
@@ -33,25 +33,26 @@ struct Field {
   int transition = -1;
 };
 
-/// An error whose place is the token's.
+/// An error located at the token.
 Error error_at(const Token& token, std::string message);
 
 std::string quoted(std::string_view text);
 
-/// "expected `--s0`, found `--robots`", at the found word, which may be the one of the end.
+/// The error "expected `--s0`, found `--robots`", located at the word found, which may be the end
+/// token.
 Error expected_error(std::string_view name, const Token& found);
 
-/// The words, and an empty one that stands for the end of the text.
+/// The words of the text, followed by an empty token that marks its end.
 std::vector<Token> tokens_of(std::string_view text);
 
-/// What stands between the two numbers of a switch: an x in machines, nothing in trees.
+/// The separator of the two numbers of a switch: an x in machines, nothing in trees.
 enum class Between { Cross, Nothing };
 
-/// Pairs the words up; `tokens` ends with the one of the end.
+/// Groups the words into switches with values; `tokens` ends with the end token.
 Expected<std::vector<Field>> fields_of(std::span<const Token> tokens,
                                        Between between = Between::Cross);
 
-/// Reads a whole word as a number, whatever the locale; false when it is none.
+/// Reads the whole text as a number, whatever the locale; false if it is not a number.
 template <class Number>
 bool read_number(std::string_view text, Number& number) {
   const char* end = text.data() + text.size();
@@ -59,14 +60,15 @@ bool read_number(std::string_view text, Number& number) {
   return error == std::errc() && stop == end;
 }
 
-/// The value as an integer, in the second form from `low` to `high`.
+/// The value as an integer; the second form requires it to be in [low, high].
 Expected<int> integer_of(const Field& field);
 Expected<int> integer_of(const Field& field, int low, int high);
 
-/// The fields of one state or transition, to be taken out by name. No stem is in it twice.
+/// The fields of one state or transition, which are taken out by name. Each stem occurs at most
+/// once.
 class Block {
  public:
-  /// `suffix`: 0 of --s0, 0x1 of --n0x1; `end`: the token behind the block.
+  /// `suffix`: 0 of --s0, 0x1 of --n0x1; `end`: the token after the block.
   Block(std::string suffix, const Token& end) : suffix_(std::move(suffix)), end_(end) {}
 
   const std::string& suffix() const { return suffix_; }
@@ -75,9 +77,9 @@ class Block {
 
   std::optional<Error> add(const Field& field);
   std::optional<Field> take(std::string_view stem);
-  /// Takes a field that must be there.
+  /// Takes out a field that must be present.
   Expected<Field> need(std::string_view stem);
-  /// Complains about a field that was not taken; `owner` is the module that has no use for it.
+  /// The error about a field that was not taken; `owner` is the module that does not use it.
   std::optional<Error> check_empty(std::string_view owner) const;
 
  private:

@@ -10,13 +10,13 @@
 
 namespace swarmsmith {
 
-/// Ends of a field's range, both included.
+/// The limits of a field, both included.
 struct FlavourLimits {
   double least = 0;
   double most = 0;
 };
 
-/// What a field may be, with the words for it.
+/// The values that a field may have, with their words in the file.
 template <class Value, std::size_t Count = 2>
 using FlavourChoices = std::array<std::pair<std::string_view, Value>, Count>;
 
@@ -34,11 +34,11 @@ inline constexpr FlavourChoices<ExplorationModel::TurnLength> kTurnLengths = {
 inline constexpr FlavourChoices<TurnClock> kTurnClocks = {
     {{"cycles", TurnClock::Cycles}, {"seconds", TurnClock::Seconds}}};
 
-/// The constants of a flavour in the order of its file, each with its key and limits; its modules
-/// are not among them. What reads and what writes flavours visits them here, so that a new constant
-/// is one line for both.
+/// Visits the constants of a flavour in the order of its file, each with its key and limits; the
+/// modules are not included. The reader and the writer of flavours both use this function, so that
+/// a new constant needs only one line here.
 ///
-/// A visitor has `table(name)`, which the fields after it belong to, and `number(key, value,
+/// A visitor has `table(name)`, the table of the fields that follow, and `number(key, value,
 /// limits)`, `integer(key, value, limits)`, `flag(key, value)`, `choice(key, value, choices)`,
 /// `grays(key, range)` and `labels(key, list)`.
 template <class AnyFlavour, class Visitor>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kGenomeEnd = "genomeend";
 
-/// Kinds of node, as the last number of a node's line.
+/// Kinds of node: the last number in the line of a node.
 enum class Kind { Hidden = 0, Input = 1, Output = 2, Bias = 3 };
 
 constexpr bool is_keyword(std::string_view word) {
@@ -54,7 +54,7 @@ class GenomeReader {
   }
 
  private:
-  /// The next word; the one of the end again and again.
+  /// Returns the next token; at the end, the end token again and again.
   Token take() {
     const Token token = rest_.front();
     if (rest_.size() > 1) rest_ = rest_.subspan(1);
@@ -86,7 +86,8 @@ class GenomeReader {
     } else if (label == static_cast<double>(Kind::Hidden)) {
       ++hidden_;
     } else {
-      has_bias_ = label == static_cast<double>(Kind::Bias);  // the last one is it
+      has_bias_ = label == static_cast<double>(Kind::Bias);  // the last of these nodes must be the
+                                                             // bias
       inputs_.push_back(id);
     }
     return std::nullopt;
@@ -111,7 +112,7 @@ class GenomeReader {
     return static_cast<std::size_t>(found - ids.begin());
   }
 
-  /// Nodes and genes as weights.
+  /// Converts nodes and genes to weights.
   Expected<Network> network(const Token& end) const {
     if (hidden_ > 0) {
       return Unexpected(error_at(
@@ -164,7 +165,7 @@ class GenomeReader {
   };
 
   std::span<const Token> rest_;
-  std::vector<double> inputs_;  ///< numbers of nodes, in their order; the bias, too
+  std::vector<double> inputs_;  ///< numbers of the input nodes in their order, the bias included
   std::vector<double> outputs_;
   std::vector<Gene> genes_;
   int hidden_ = 0;

@@ -9,13 +9,13 @@
 
 namespace swarmsmith {
 
-/// How a genome begins, and a network's text that is one.
+/// The first word of a genome; the text of a network that is a genome begins with it.
 inline constexpr std::string_view kGenomeStart = "genomestart";
 
-/// Reads a genome as NEAT 1.2.1 writes it, and with it the programs of EvoStick, CMA-ES and xNES
-/// (docs/methods.md): nodes, and genes between them, in any order. Only networks without a hidden
-/// layer and with the inputs rm1.2 or rm1.1 are read; a gene that is disabled or not there counts
-/// 0. `tokens` begins with kGenomeStart and ends with the one of the end.
+/// Reads a genome in the format of NEAT 1.2.1, which the programs of EvoStick, CMA-ES and xNES use,
+/// too (docs/methods.md): nodes, and genes between them, in any order. It accepts only networks
+/// without a hidden layer and with the inputs rm1.2 or rm1.1; a gene that is disabled or missing
+/// has weight 0. `tokens` begins with kGenomeStart and ends with the end token.
 Expected<Network> read_genome(std::span<const Token> tokens);
 
 }  // namespace swarmsmith

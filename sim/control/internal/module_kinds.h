@@ -15,18 +15,19 @@
 
 namespace swarmsmith {
 
-/// What follows from the struct of each module alone. `Modules` is Behaviour or Condition.
+/// Functions derived from the struct of each module. `Modules` is Behaviour or Condition.
 
-/// How many of them have a struct of their own: all but the last alternative, the external ones.
+/// The number of modules that have their own struct: all alternatives except the last one, which is
+/// for external modules.
 template <class Modules>
 inline constexpr std::size_t kKinds = std::variant_size_v<Modules> - 1;
 
-/// The enumerator of the first of them.
+/// The enumerator of the first module of `Modules`.
 template <class Modules>
 inline constexpr std::size_t kFirstModule =
     std::is_same_v<Modules, Behaviour> ? 0 : kKinds<Behaviour>;
 
-/// The alternative of external ones.
+/// The alternative for external modules.
 template <class Modules>
 using External = std::variant_alternative_t<kKinds<Modules>, Modules>;
 
@@ -35,8 +36,8 @@ Module module_at(std::size_t index) {
   return static_cast<Module>(kFirstModule<Modules> + index);
 }
 
-/// Calls `visit(index, module)` for each of them with a struct of its own, with all that its struct
-/// has by default.
+/// Calls `visit(index, module)` for each module that has its own struct; `module` is a
+/// default-constructed struct.
 template <class Modules, class Visit>
 void for_each_module(const Visit& visit) {
   [&]<std::size_t... I>(std::index_sequence<I...> /*indices*/) {
@@ -60,8 +61,8 @@ std::vector<double> values_of(const Modules& module) {
   return values;
 }
 
-/// The one with this enumerator and these parameters; nothing when it is none of `Modules`. Throws
-/// std::invalid_argument for another number of parameters.
+/// The module with this enumerator and these parameters; nothing when it does not belong to
+/// `Modules`. Throws std::invalid_argument if the number of parameters is wrong.
 template <class Modules>
 std::optional<Modules> made_of(Module wanted, std::span<const double> values) {
   std::optional<Modules> made;
@@ -82,8 +83,8 @@ std::optional<Modules> made_of(Module wanted, std::span<const double> values) {
   return made;
 }
 
-/// The parameters of a kind with what a flavour takes for them unless it says otherwise; empty,
-/// too, when it is none of `Modules`.
+/// The parameters of a kind of module, with the ranges and names that a flavour uses unless it sets
+/// others; empty when the kind has none or does not belong to `Modules`.
 template <class Modules>
 std::vector<ParameterSpec> parameters_of_kind(Module wanted) {
   std::vector<ParameterSpec> parameters;

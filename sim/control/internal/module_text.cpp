@@ -90,7 +90,7 @@ void append_parameters(std::string& text, const ModuleSpec& spec, const std::vec
         if (static_cast<double>(label.label) == values[i]) value = label.number;
       }
     }
-    // The shortest form of 100,000 is 1e+05, which is not an integer.
+    // The shortest form of 100,000 is 1e+05, which does not read as an integer.
     const bool is_real = spec.parameters[i].type == ParameterSpec::Type::Real;
     append_switch(text, spec.parameters[i].token, suffix,
                   is_real ? shortest(value) : std::to_string(static_cast<std::int64_t>(value)));

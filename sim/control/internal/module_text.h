@@ -13,15 +13,15 @@ namespace swarmsmith {
 
 /// Modules in the texts of machines and trees.
 
-/// The module of `table` whose number is the field's value.
+/// The module in `table` whose number is the value of the field.
 Expected<const ModuleSpec*> read_module(const Field& field, const std::vector<ModuleSpec>& table,
                                         const Flavour& flavour);
 
-/// The module's parameters, taken out of the block, in the order of the flavour's table.
+/// Takes the module's parameters out of the block, in the order of the flavour's table.
 Expected<std::vector<double>> read_parameters(const ModuleSpec& spec, Block& block,
                                               const Flavour& flavour);
 
-/// Shortest text that reads back to the same value, whatever the locale.
+/// The shortest text that reads back to the same value, whatever the locale.
 std::string shortest(double value);
 
 /// Appends `--stemsuffix value`.
@@ -32,7 +32,7 @@ void append_switch(std::string& text, std::string_view stem, std::string_view su
 void append_parameters(std::string& text, const ModuleSpec& spec, const std::vector<double>& values,
                        const std::string& suffix, const Flavour& flavour);
 
-/// What is wrong with a module of this flavour that has these parameters, if anything.
+/// The error in using these parameters for a module of this flavour, if there is one.
 std::optional<std::string> complaint_about_module(Module module, const std::vector<double>& values,
                                                   const Flavour& flavour);
 

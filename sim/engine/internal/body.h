@@ -16,16 +16,17 @@ inline constexpr double kHalfSide_m = kBodySide_m / 2;
 inline constexpr double kCornerRadius_m = kHalfSide_m * 1.4142135623730951;
 inline constexpr double kInertia_kg_m2 = kMass_kg * 2 * kBodySide_m * kBodySide_m / 12;
 
-/// The grain of simulated time: clocks count these, contacts are solved at these.
+/// The resolution of simulated time: clocks count sub-steps, and contacts are solved at each.
 inline constexpr double kSubStep_s = 0.01;
-/// Scores and recorders look at the world every 0.1 s.
+/// Scores and recorders observe the world every 0.1 s.
 inline constexpr int kSubStepsPerInstant = 10;
-/// What the drive can change in one sub-step: speed as a vector, and spin.
+/// The largest change that the drive can make in one sub-step to the velocity vector and to the
+/// spin.
 inline constexpr double kSpeedStep_mps = kMaxForce_N / kMass_kg * kSubStep_s;
 inline constexpr double kSpinStep_radps = kMaxTorque_Nm / kInertia_kg_m2 * kSubStep_s;
 
-/// State of one robot or object. The heading is kept as the unit vector (cos, sin): no angle is
-/// stored, so that no trigonometric function is needed while a body moves.
+/// State of one robot or object. The heading is stored as the unit vector (cos, sin), not as an
+/// angle, so that motion needs no trigonometric functions.
 struct Body {
   double x = 0;
   double y = 0;
@@ -38,7 +39,8 @@ struct Body {
   friend bool operator==(const Body&, const Body&) = default;
 };
 
-/// What the drive steers towards; a world-frame vector, held while the heading turns.
+/// The velocity and spin that the drive aims at; the velocity is a vector in the world frame,
+/// constant while the heading turns.
 struct SetPoint {
   double vx = 0;
   double vy = 0;
@@ -47,37 +49,38 @@ struct SetPoint {
   friend bool operator==(const SetPoint&, const SetPoint&) = default;
 };
 
-/// How a body answers to force, and how strongly it is steered: the RVR's, unless said. An object
-/// steers towards rest, by the friction of the floor.
+/// How a body responds to force, and how strongly it is driven; by default the RVR's values. An
+/// object is driven towards rest, by the friction of the floor.
 struct Dynamics {
   double mass_kg = kMass_kg;
   double inertia_kg_m2 = kInertia_kg_m2;
   double max_force_N = kMaxForce_N;
   double max_torque_Nm = kMaxTorque_Nm;
-  /// What those change in one sub-step.
+  /// The changes that the maximum force and torque make in one sub-step.
   double speed_step_mps = kSpeedStep_mps;
   double spin_step_radps = kSpinStep_radps;
 
   friend bool operator==(const Dynamics&, const Dynamics&) = default;
 };
 
-/// What no pose, velocity or spin of a world that makes sense comes near to, in SI units.
+/// A limit in SI units far above any pose, velocity or spin of a realistic world.
 inline constexpr double kMostSound = 1e6;
 
-/// Whether all of its numbers are finite, and within `kMostSound`.
+/// Whether all numbers of the body are finite and within `kMostSound`.
 inline bool is_sound(const Body& body) {
-  // Written so that what is not a number is not sound.
+  // Written so that NaN is not sound.
   const auto within = [](Two pair) { return (pair <= kMostSound) & (pair >= -kMostSound); };
   const auto sound = within(Two{body.x, body.y}) & within(Two{body.cos, body.sin}) &
                      within(Two{body.vx, body.vy}) & within(both(body.spin));
   return (sound[0] & sound[1]) != 0;
 }
 
-/// A body that stands at the pose.
+/// A body at rest at the pose.
 Body body_at(const Pose& pose);
 Pose pose_of(const Body& body);
 
-/// Set-point of a command that starts to act at the body's present heading, of wheels so far apart.
+/// Set-point of a command that begins to act at the body's present heading; `track_m` is the
+/// distance between the wheels.
 inline SetPoint set_point_of(const Command& command, const Body& body,
                              double track_m = kTreadDistance_m) {
   const double speed = (command.left_mps + command.right_mps) / 2;

@@ -9,24 +9,25 @@
 #include "sim/engine/internal/contacts.h"
 #include "sim/engine/internal/motion.h"
 
-// Box2D 2.4 in the original's terms (simulator facts, section 4.2): the drive is a friction joint
-// to a kinematic body that moves with the set-point; its order (solve velocities, then move) is
-// made ours (move, find contacts, solve velocities) by handing over poses one sub-step ahead; its
-// shapes have no skin, so that they meet where they are. A world of its own for each call keeps
-// evaluations independent of each other: warm starts, the order of the tree and sleep die with it.
+// Box2D 2.4, set up like the original simulator (simulator facts, section 4.2). The drive is a
+// friction joint to a kinematic body that moves with the set-point. Box2D's order (solve
+// velocities, then move) is adapted to ours (move, find contacts, solve velocities) by giving it
+// poses one sub-step ahead. Its shapes have no skin, so that they meet at their true outlines. A
+// new b2World for each call keeps evaluations independent of each other, because warm starts, the
+// order of the tree and sleep are not kept.
 
 namespace swarmsmith {
 namespace {
 
 constexpr int kVelocityIterations = 10;
-/// The original tolerates 0.1 m of overlap: there positions are never pushed apart.
+/// The original tolerates 0.1 m of overlap: it never pushes bodies apart.
 constexpr int kPositionIterations = 3;
 
 b2Vec2 vector(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
 }
 
-/// Adds the form, placed in the body's frame, to the body.
+/// Adds the form to the body; `at` is its pose in the body's frame.
 void add_fixture(b2Body* body, const Form& form, const Body& at, double friction) {
   b2CircleShape circle;
   b2PolygonShape polygon;
@@ -37,7 +38,7 @@ void add_fixture(b2Body* body, const Form& form, const Body& at, double friction
     circle.m_radius = static_cast<float>(form.radius_m);
     fixture.shape = &circle;
   } else {
-    // Filled by hand: Set() would merge corners of small polygons.
+    // Filled by hand, because Set() would merge corners of small polygons.
     polygon.m_count = static_cast<int32>(form.corners.size());
     polygon.m_centroid = vector(at.x, at.y);
     polygon.m_radius = 0;
@@ -97,8 +98,8 @@ void add_wall(b2Body* ground, const Walls& walls, std::size_t index, double fric
   const Point after = {next.from.x - next.ny * next.length_m,
                        next.from.y + next.nx * next.length_m};
   b2EdgeShape edge;
-  // Box2D's edges face right, ours left. Knowing their neighbours keeps what slides along a wall
-  // from catching on the joints.
+  // Box2D's edges face right, ours left. The neighbouring vertices keep bodies that slide along a
+  // wall from catching on the joints.
   edge.SetOneSided(vector(after.x, after.y), vector(to.x, to.y), vector(from.x, from.y),
                    vector(before.x, before.y));
   edge.m_radius = 0;
@@ -122,7 +123,8 @@ Body taken_from(const b2Body& robot) {
   return body;
 }
 
-/// Box2D fills a global table when the first contact is made: here, before threads race for it.
+/// Box2D fills a global table when the first contact is made: this does it before several threads
+/// can.
 void prepare_globals() {
   static std::once_flag once;
   std::call_once(once, [] {
@@ -140,7 +142,7 @@ class Box2dSolver final : public ContactSolver {
 
   void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) override {
     for (const Island& island : islands) {
-      // Most islands are false alarms, or come to touch late: those sub-steps are free.
+      // Most islands are false alarms, or come into contact late: until then the motion is free.
       const int quiet = quiet_sub_steps(movers, island, *surroundings_, sub_steps);
       for (const int index : island.movers) {
         Mover& mover = movers[static_cast<std::size_t>(index)];
@@ -187,7 +189,7 @@ class Box2dSolver final : public ContactSolver {
     }
   }
 
-  /// What the island may meet, once each.
+  /// The other bodies of the meetings, each once.
   const std::vector<std::size_t>& distinct(const std::vector<Meeting>& meetings) {
     distinct_.clear();
     for (const Meeting& meeting : meetings)

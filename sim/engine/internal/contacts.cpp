@@ -12,11 +12,11 @@
 namespace swarmsmith {
 namespace {
 
-/// Keeps the quotient of a gap and no motion finite, metres a sub-step.
+/// Keeps the quotient of a gap and zero motion finite, metres per sub-step.
 constexpr double kLeastReach_m = 1e-9;
 constexpr std::uint64_t kWallBit = std::uint64_t{1} << 63U;
 constexpr std::uint64_t kObstacleBit = std::uint64_t{1} << 62U;
-/// An obstacle's corners are counted behind the four of the square.
+/// An obstacle's corners are numbered after the four corners of the square.
 constexpr std::size_t kMostCorners = 60;
 
 std::uint64_t id_of(const Meeting& meeting) {
@@ -36,11 +36,11 @@ Vector corner_of(const Body& body, unsigned corner) {
   return {body.cos * x - body.sin * y, body.sin * x + body.cos * y};
 }
 
-/// Two squares, each seen from the other.
+/// Two squares, each in the frame of the other.
 struct Pair {
   Vector b_from_a;  ///< b's centre in a's frame
   Vector a_from_b;
-  double cos;  ///< of b's heading against a's
+  double cos;  ///< of b's heading relative to a's
   double sin;
 };
 
@@ -53,15 +53,15 @@ Pair pair_of(const Body& a, const Body& b) {
           .sin = a.cos * b.sin - a.sin * b.cos};
 }
 
-/// gap_between of walls.h.
+/// The same as gap_between of walls.h.
 double gap_of(const Pair& pair) {
   const double widest = std::max({std::fabs(pair.b_from_a.x), std::fabs(pair.b_from_a.y),
                                   std::fabs(pair.a_from_b.x), std::fabs(pair.a_from_b.y)});
   return widest - kHalfSide_m * (1 + std::fabs(pair.cos) + std::fabs(pair.sin));
 }
 
-/// The axis of the two squares along which they overlap least, from a to b. They take up as much of
-/// each axis, so it is the one on which the centres are widest apart.
+/// The axis along which the two squares overlap least, from a to b. Both extend equally far along
+/// each axis, so it is the axis on which the centres are farthest apart.
 Vector normal_of(const Pair& pair, const Body& a, const Body& b) {
   const std::array<double, 4> apart = {pair.b_from_a.x, pair.b_from_a.y, -pair.a_from_b.x,
                                        -pair.a_from_b.y};
@@ -75,8 +75,8 @@ Vector normal_of(const Pair& pair, const Body& a, const Body& b) {
                          : Vector{-side * owner.sin, side * owner.cos};
 }
 
-/// Which corners (bits 0 to 3) of a square lie in another one at the origin: its centre, and cosine
-/// and sine of its heading.
+/// The corners (bits 0 to 3) of a square that lie in another square at the origin, given its centre
+/// and the cosine and sine of its heading.
 unsigned corners_inside(Vector centre, double cosine, double sine) {
   const double u = kHalfSide_m * (cosine - sine);
   const double v = kHalfSide_m * (cosine + sine);
@@ -87,7 +87,7 @@ unsigned corners_inside(Vector centre, double cosine, double sine) {
   return inside(u, v) | inside(-v, u) << 1U | inside(-u, -v) << 2U | inside(v, -u) << 3U;
 }
 
-/// Corners of `own` (0 to 3 of a, 4 to 7 of b) that lie in the other square.
+/// Adds the corners (0 to 3 of a, 4 to 7 of b) that lie in the other square.
 void meet(Contact contact, const Pair& pair, const Body& a, const Body& b,
           std::vector<Contact>& found) {
   const unsigned corners = corners_inside(pair.a_from_b, pair.cos, -pair.sin) |
@@ -133,7 +133,7 @@ struct Axis {
   }
 };
 
-/// The axis on which the two overlap least, of the normals of all sides.
+/// The axis with the least overlap among the normals of all sides.
 Axis axis_between(const Body& body, const FixedSolid& solid) {
   const Body& at = solid.at;
   const double dx = at.x - body.x;
@@ -171,7 +171,8 @@ bool is_inside(const FixedSolid& solid, double x, double y) {
   return true;
 }
 
-/// Corners of the square that lie in the solid, then corners of the solid that lie in the square.
+/// Adds the corners of the square that lie in the solid, then the corners of the solid that lie in
+/// the square.
 void meet_polygon(Contact contact, const Body& body, const FixedSolid& solid,
                   std::vector<Contact>& found) {
   const Axis axis = axis_between(body, solid);
@@ -201,8 +202,8 @@ void meet_polygon(Contact contact, const Body& body, const FixedSolid& solid,
   }
 }
 
-/// The point of the square that is nearest to the circle's centre; a centre within the square is
-/// pushed out of its nearest side.
+/// Adds the point of the square that is nearest to the circle's centre; a centre inside the square
+/// is pushed out through its nearest side.
 void meet_circle(Contact contact, const Body& body, const FixedSolid& solid,
                  std::vector<Contact>& found) {
   const double dx = solid.at.x - body.x;

@@ -10,27 +10,30 @@
 
 namespace swarmsmith {
 
-/// Where a robot's square lies in another robot's, in an obstacle, or behind the face of a wall: a
-/// corner of one of the two, or the point of the square that is deepest in a circle.
+/// A place where a robot's square overlaps another robot's square, an obstacle, or the face of a
+/// wall: a corner of one of the two inside the other, or the point of the square that is deepest in
+/// a circle.
 struct Contact {
   int a = 0;
-  int b = -1;            ///< another robot, or -1: what never moves
-  std::uint64_t id = 0;  ///< which corner meets what; the same as long as it does
-  double nx = 0;         ///< unit normal from a to the other
+  int b = -1;            ///< another robot, or -1 for a fixed body
+  std::uint64_t id = 0;  ///< identifies the corner and the bodies; stays the same as long as the
+                         ///< contact lasts
+  double nx = 0;         ///< unit normal from a to the other body
   double ny = 0;
-  double ax = 0;  ///< from a's centre to the point of contact
+  double ax = 0;  ///< from a's centre to the contact point
   double ay = 0;
-  double bx = 0;  ///< from b's
+  double bx = 0;  ///< from b's centre to the contact point
   double by = 0;
 };
 
-/// All contacts of an island of RVRs as it stands, in the order of their ids; replaces what was in
-/// `found`. Between two solids the normal is the axis of least overlap. Walls count with their
-/// whole line, so the arena must be convex.
+/// All contacts of an island of RVRs at their present poses, in the order of their ids; replaces
+/// the content of `found`. Between two solids the normal is the axis of least overlap. A wall
+/// counts as an infinite line, so the arena must be convex.
 void find_contacts(std::span<const Mover> movers, const Island& island,
                    const Surroundings& surroundings, std::vector<Contact>& found);
 
-/// For how many sub-steps, up to `most`, no contact is possible: gaps against the fastest approach.
+/// The number of sub-steps, up to `most`, in which no contact is possible: computed from the gaps
+/// and the fastest possible approach.
 int quiet_sub_steps(std::span<const Mover> movers, const Island& island,
                     const Surroundings& surroundings, int most);
 

@@ -33,7 +33,7 @@ void Stretch::keep(double value, double slope) {
 }
 
 Stretch stretch_in(const Form& form, const Body& at, Point origin, Point along) {
-  // Everything in the solid's own frame.
+  // All coordinates are in the solid's own frame.
   const double dx = origin.x - at.x;
   const double dy = origin.y - at.y;
   const Point start = {at.cos * dx + at.sin * dy, at.cos * dy - at.sin * dx};

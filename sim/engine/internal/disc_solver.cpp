@@ -11,31 +11,31 @@
 #include "sim/engine/internal/motion.h"
 #include "sim/engine/internal/places.h"
 
-// The law of a contact in the e-puck's simulator, Chipmunk 6 (epuck facts, sections 2.2 and 8):
-// sequential impulses with accumulated ones carried over, a normal impulse only while two approach,
-// friction up to its multiple, the drive as one more constraint with a limited impulse, and no
-// correction of positions. Discs meet in one point, on the line through the centre, so that the
-// normal impulse turns nothing.
+// The contact model of the e-puck's simulator, Chipmunk 6 (epuck facts, sections 2.2 and 8):
+// sequential impulses, starting from the accumulated impulses of the last sub-step; a normal
+// impulse only while two bodies approach; friction up to a multiple of it; the drive as one more
+// constraint with a limited impulse; no correction of positions. Discs meet in one point, on the
+// line through the centre, so that the normal impulse causes no rotation.
 
 namespace swarmsmith {
 namespace {
 
 constexpr int kRounds = 10;
-/// Rounds end early when nothing changes its impulse by more, N s: a ten thousandth of what the
-/// e-puck's drive gives in a sub-step. The next sub-step goes on from there.
+/// Iterations end early when no impulse changes by more than this, in N s: a ten thousandth of the
+/// impulse of the e-puck's drive in a sub-step. The next sub-step continues from there.
 constexpr double kSettled_Ns = 1.5e-6;
 constexpr std::uint64_t kWallBit = std::uint64_t{1} << 31U;
 constexpr std::uint64_t kObstacleBit = std::uint64_t{1} << 30U;
 
-/// One contact of a disc, with what it has done in this sub-step.
+/// One contact of a disc, with its impulses in this sub-step.
 struct DiscContact {
   std::uint64_t id = 0;
   std::size_t a = 0;
-  std::size_t b = 0;  ///< behind the last mover: what never moves
-  double nx = 0;      ///< unit normal from a to the other
+  std::size_t b = 0;  ///< the index after the last mover stands for fixed bodies
+  double nx = 0;      ///< unit normal from a to the other body
   double ny = 0;
-  double arm_a = 0;  ///< from a's centre to the point, along the normal
-  double arm_b = 0;  ///< from b's, against it
+  double arm_a = 0;  ///< from a's centre to the contact point, along the normal
+  double arm_b = 0;  ///< from b's centre, against the normal
   double normal_mass = 0;
   double face_mass = 0;
   double friction = 0;
@@ -43,20 +43,20 @@ struct DiscContact {
   double friction_Ns = 0;
 };
 
-/// A mover in the rounds. The one behind the last stands for all that never moves.
+/// A mover during the iterations. The entry after the last one represents all fixed bodies.
 struct DiscState {
   double vx = 0;
   double vy = 0;
   double spin = 0;
   double inverse_mass = 0;
   double inverse_inertia = 0;
-  double drive_x_Ns = 0;  ///< what its drive gave in this sub-step
+  double drive_x_Ns = 0;  ///< impulse of its drive in this sub-step
   double drive_y_Ns = 0;
   double drive_twist_Nms = 0;
   bool touched = false;
 };
 
-/// How deep a disc is in something, and the direction of that.
+/// The gap between a disc and another body, with its direction.
 struct Depth {
   double gap = 0;  ///< negative in contact
   double nx = 0;   ///< unit vector from the disc
@@ -77,8 +77,8 @@ Depth depth_in_wall(const Body& body, double radius_m, const WallPlane& wall) {
                         wall.from.y + wall.nx * on_face - body.y, radius_m);
 }
 
-/// Of a polygon: its side that is farthest from the centre, or that side's corner if the centre
-/// lies beyond it.
+/// For a polygon: the gap to the side whose line the disc's centre is farthest outside, or to a
+/// corner of this side if the centre lies beyond its end.
 Depth depth_in_solid(const Body& body, double radius_m, const FixedSolid& solid) {
   const Form& form = solid.form;
   const Body& at = solid.at;
@@ -119,7 +119,7 @@ class DiscSolver final : public ContactSolver {
   void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) override {
     if (islands.empty() && memory_.empty()) return;
     states_.resize(movers.size() + 1);
-    // All are robots of one kind.
+    // All movers are robots of one kind.
     dynamics_ = movers.front().dynamics();
     inverse_mass_ = 1 / dynamics_.mass_kg;
     inverse_inertia_ = 1 / dynamics_.inertia_kg_m2;
@@ -155,7 +155,8 @@ class DiscSolver final : public ContactSolver {
     fresh_.insert(fresh_.end(), before_.begin(), before_.end());
   }
 
-  /// What held an island's contacts at the end of the last call; forgets the drives of the others.
+  /// Recalls the contacts of an island at the end of the last call; resets the drives of robots
+  /// without contacts.
   void recall(const Island& island) {
     before_.clear();
     for (const int index : island.movers) {
@@ -260,8 +261,7 @@ class DiscSolver final : public ContactSolver {
     }
   }
 
-  /// Warm start: what a contact or a drive gave in the last sub-step is the first guess of this
-  /// one.
+  /// Warm start: the impulses of contacts and drives in the last sub-step are the first guess.
   void prepare(std::span<const Mover> movers) {
     for (const std::size_t i : active_) {
       const Body& body = movers[i].body;
@@ -272,7 +272,7 @@ class DiscSolver final : public ContactSolver {
       state.vy = body.vy + state.drive_y_Ns * state.inverse_mass;
       state.spin = body.spin + state.drive_twist_Nms * state.inverse_inertia;
     }
-    // Most contacts are the last sub-step's, in the same order.
+    // Most contacts were also present in the last sub-step, in the same order.
     std::size_t next = 0;
     for (DiscContact& contact : contacts_) {
       DiscState& a = states_[contact.a];
@@ -294,7 +294,7 @@ class DiscSolver final : public ContactSolver {
     }
   }
 
-  /// Impulses along the normal and along the face (-ny, nx), from a to b.
+  /// Applies impulses along the normal and along the face (-ny, nx), from a to b.
   static void push(const DiscContact& c, DiscState& a, DiscState& b, double normal_Ns,
                    double friction_Ns) {
     const double x = c.nx * normal_Ns - c.ny * friction_Ns;
@@ -307,7 +307,7 @@ class DiscSolver final : public ContactSolver {
     b.spin -= c.arm_b * friction_Ns * b.inverse_inertia;
   }
 
-  /// One round for one contact; returns the largest change.
+  /// One iteration for one contact; returns the largest change.
   static double relax(DiscContact& c, DiscState& a, DiscState& b) {
     const double dx = b.vx - a.vx;
     const double dy = b.vy - a.vy;
@@ -324,7 +324,7 @@ class DiscSolver final : public ContactSolver {
     return std::max(std::fabs(normal_change), std::fabs(friction_change));
   }
 
-  /// One round for one drive: towards the set-point, its whole impulse within the limit.
+  /// One iteration for one drive: towards the set-point, with its whole impulse within the limit.
   double relax_drive(const SetPoint& set_point, DiscState& state) const {
     double x = state.drive_x_Ns + dynamics_.mass_kg * (set_point.vx - state.vx);
     double y = state.drive_y_Ns + dynamics_.mass_kg * (set_point.vy - state.vy);
@@ -358,8 +358,9 @@ class DiscSolver final : public ContactSolver {
   double most_Nms_ = 0;
   std::vector<DiscContact> contacts_;  ///< of this sub-step
   std::vector<DiscContact> before_;    ///< of the last one
-  std::vector<DiscContact> memory_;    ///< of all islands at the end of the last call, by id
-  std::vector<DiscContact> fresh_;     ///< and of this one
+  std::vector<DiscContact> memory_;    ///< contacts of all islands at the end of the last call, by
+                                       ///< id
+  std::vector<DiscContact> fresh_;     ///< contacts at the end of this call
   std::vector<DiscState> states_;
   std::vector<std::size_t> active_;  ///< movers in contact
 };

@@ -10,19 +10,20 @@
 #include "sim/engine/internal/motion.h"
 
 // Sequential impulses (Catto, "Iterative dynamics with temporal coherence", GDC 2005), with two
-// things of the original simulator: the drive is one more constraint with a limited impulse, and
-// overlap is never pushed apart, only approach is cancelled.
+// features of the original simulator: the drive is one more constraint with a limited impulse, and
+// overlap is never pushed apart; only approach is stopped.
 //
-// Torque is plenty: a drive holds the spin of a robot that presses, so that rounds between it and
-// the contacts would only pass an impulse to and fro. Such spins are taken as held, contacts act as
-// if the robot could not turn, and at the end it is checked that the torque was there.
+// Drives have ample torque: a drive holds the spin of a pressing robot, so that iterations between
+// it and the contacts would only exchange an impulse back and forth. Such spins are treated as
+// held, contacts act as if the robot could not turn, and at the end it is checked that the torque
+// was sufficient.
 
 namespace swarmsmith {
 namespace {
 
 constexpr int kRounds = 10;
-/// Rounds end early when no contact changes its impulse by more, N s: less than a hundredth of what
-/// a drive gives in a sub-step. The next sub-step goes on from there.
+/// Iterations end early when no impulse of a contact changes by more than this, in N s: less than a
+/// hundredth of the impulse of a drive in a sub-step. The next sub-step continues from there.
 constexpr double kSettled_Ns = 1e-4;
 
 class ExactSolver final : public ContactSolver {
@@ -45,7 +46,7 @@ class ExactSolver final : public ContactSolver {
   void advance_island(std::span<Mover> movers, const Island& island, int sub_steps) {
     int left = sub_steps;
     while (left > 0) {
-      // Most islands are false alarms, or come to touch late: those sub-steps are free.
+      // Most islands are false alarms, or come into contact late: until then the motion is free.
       const int quiet = before_.empty() ? quiet_sub_steps(movers, island, *surroundings_, left) : 0;
       if (quiet > 0) {
         for (const int index : island.movers) {
@@ -63,7 +64,8 @@ class ExactSolver final : public ContactSolver {
     fresh_.insert(fresh_.end(), before_.begin(), before_.end());
   }
 
-  /// Orders `memory_` by the islands in which its contacts are now, those in none last.
+  /// Sorts `memory_` by the islands to which its contacts now belong; contacts outside all islands
+  /// come last.
   void sort_memory(std::size_t movers, std::span<const Island> islands) {
     next_in_memory_ = 0;
     if (memory_.empty()) return;
@@ -81,8 +83,8 @@ class ExactSolver final : public ContactSolver {
     std::sort(memory_.begin(), memory_.end(), before);
   }
 
-  /// What held an island's contacts at the end of the last call; forgets the drives of the others.
-  /// To be called island by island.
+  /// Recalls the contacts of an island at the end of the last call; resets the drives of robots
+  /// without contacts. Must be called island by island.
   void recall(const Island& island, std::size_t number) {
     before_.clear();
     for (const int index : island.movers)
@@ -117,7 +119,8 @@ class ExactSolver final : public ContactSolver {
     }
   }
 
-  /// Steers what touches nothing; the others are `active_`. Returns whether a spin is held.
+  /// Steers robots that touch nothing; the others become `active_`. Returns whether any spin is
+  /// held.
   bool select(std::span<Mover> movers, const Island& island) {
     for (const int index : island.movers)
       robots_[static_cast<std::size_t>(index)].touched = false;
@@ -152,7 +155,7 @@ class ExactSolver final : public ContactSolver {
     run_rounds(movers);
   }
 
-  /// Whether the drives are strong enough to hold the spins that were held.
+  /// Whether the drives are strong enough to hold the spins that were assumed held.
   bool holds(std::span<const Mover> movers) {
     for (const std::size_t i : active_) {
       if (robots_[i].inverse_inertia != 0) continue;
@@ -194,8 +197,7 @@ class ExactSolver final : public ContactSolver {
     }
   }
 
-  /// Warm start: what a contact or a drive gave in the last sub-step is the first guess of this
-  /// one.
+  /// Warm start: the impulses of contacts and drives in the last sub-step are the first guess.
   void prepare(std::span<const Mover> movers) {
     for (const std::size_t i : active_) {
       const Body& body = movers[i].body;
@@ -226,10 +228,10 @@ class ExactSolver final : public ContactSolver {
   std::vector<Contact> contacts_;
   std::vector<Constraint> constraints_;  ///< of this sub-step
   std::vector<Constraint> before_;       ///< of the last one
-  std::vector<Constraint> memory_;       ///< of all islands at the end of the last call
-  std::vector<Constraint> fresh_;        ///< and of this one
+  std::vector<Constraint> memory_;       ///< contacts of all islands at the end of the last call
+  std::vector<Constraint> fresh_;        ///< contacts at the end of this call
   std::size_t next_in_memory_ = 0;
-  std::vector<std::size_t> island_of_;  ///< of each mover, while contacts are remembered
+  std::vector<std::size_t> island_of_;  ///< island of each mover, while contacts are remembered
   std::vector<Dynamic> robots_;
   std::vector<std::size_t> active_;  ///< movers in contact
 };

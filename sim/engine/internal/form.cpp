@@ -17,9 +17,9 @@ double depth_of_origin(Point from, Point to) {
   return std::fabs(from.x * dy - from.y * dx) / hypot(dx, dy);
 }
 
-/// Integral of sqrt(height^2 + u^2) over u from 0 to `along`, times the height: three times the
-/// integral of the distance from the origin over the right triangle whose far side runs `along` at
-/// that height.
+/// Integral of sqrt(height^2 + u^2) over u from 0 to `along`, times the height. This is three times
+/// the integral of the distance from the origin over the right triangle with this height whose far
+/// side has the length `along`.
 double distance_integral(double height, double along) {
   const double slope = std::fabs(along) / height;
   const double arsinh = log(slope + std::sqrt(1 + slope * slope));
@@ -43,7 +43,7 @@ Form polygon(std::vector<Point> corners, double height_m) {
     form.radius_m = std::max(form.radius_m, hypot(from.x, from.y));
     form.inradius_m = std::min(form.inradius_m, depth);
     form.normals.push_back({dy / length, -dx / length});
-    // The triangle of the origin and this side.
+    // The triangle between the origin and this side.
     const double twice_area = from.x * to.y - from.y * to.x;
     area += twice_area / 2;
     form.mean_radius2_m2 += twice_area / 12 *

@@ -7,20 +7,22 @@
 
 namespace swarmsmith {
 
-/// A solid's outline as sensors and contacts want it, in its own frame.
+/// The outline of a solid in its own frame, prepared for sensors and contacts.
 struct Form {
   /// Counter-clockwise and convex; empty for a circle.
   std::vector<Point> corners;
-  double radius_m = 0;    ///< of the circle, or of the smallest one around the origin
-  double inradius_m = 0;  ///< of the largest circle around the origin that fits into it
+  double radius_m = 0;    ///< radius of the circle, or of the smallest circle around the origin
+                          ///< that contains the outline
+  double inradius_m = 0;  ///< radius of the largest circle around the origin that fits into the
+                          ///< outline
   double height_m = 0;
   /// Outward unit normals; the side from a corner to the next has the normal of its index.
   std::vector<Point> normals;
-  /// Of the floor under it, seen from the origin: mean distance, and mean square of the distance
-  /// (moment of inertia for each kilogram, at uniform density).
+  /// Moments of the solid's floor area, seen from the origin: mean distance, and mean square of the
+  /// distance (moment of inertia per kilogram, at uniform density).
   double mean_radius_m = 0;
   double mean_radius2_m2 = 0;
-  /// A square of the robot's side, for which there are quicker ways.
+  /// A square of the RVR's size, for which there are faster algorithms.
   bool is_rvr = false;
 
   bool is_circle() const { return corners.empty(); }

@@ -18,7 +18,7 @@ double extent_along(const Form& form, const Body& at, double x, double y) {
 
 namespace {
 
-/// The widest gap that a side's normal of the first shows; nothing for a circle.
+/// The widest gap along the normals of the first solid's sides; -infinity for a circle.
 double gap_along_normals(const Form& form, const Body& at, const Form& other,
                          const Body& other_at) {
   double widest = -std::numeric_limits<double>::infinity();

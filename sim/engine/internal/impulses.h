@@ -8,8 +8,8 @@
 
 #include "sim/engine/internal/contacts.h"
 
-// The rounds of the exact solver: what one contact and one drive do to the velocities. In a header,
-// so that the compiler sees through the innermost loop.
+// The iterations of the exact solver: the effect of one contact and of one drive on the velocities.
+// They are in a header so that the compiler can optimise the innermost loop.
 
 namespace swarmsmith {
 
@@ -18,39 +18,41 @@ inline constexpr double kMaxTwist_Nms = kMaxTorque_Nm * kSubStep_s;
 inline constexpr double kInverseMass = 1 / kMass_kg;
 inline constexpr double kInverseInertia = 1 / kInertia_kg_m2;
 
-/// A robot in the rounds. The body behind the last robot is that of all walls: nothing moves it.
+/// A robot during the iterations. The entry after the last robot represents all walls; it never
+/// moves.
 struct Dynamic {
   double vx = 0;
   double vy = 0;
   double spin = 0;
   double inverse_mass = 0;
-  double inverse_inertia = 0;  ///< 0 also for a robot whose spin is held
-  /// What its drive gave in this sub-step.
+  double inverse_inertia = 0;  ///< also 0 for a robot whose spin is held
+  /// The impulse of its drive in this sub-step.
   double drive_x_Ns = 0;
   double drive_y_Ns = 0;
   double drive_twist_Nms = 0;
-  double give = 1;  ///< how much of a change of its velocity the drive answers, at most
+  double give = 1;  ///< largest fraction of a change of its velocity that the drive counteracts
   bool touched = false;
 };
 
-/// The other body of a contact with a wall in the rounds: what Dynamic is there, known beforehand.
+/// The other body of a contact with a wall: it has the values of a Dynamic at rest, known at
+/// compile time.
 struct AtRest {
   static constexpr double vx = 0;
   static constexpr double vy = 0;
   static constexpr double spin = 0;
 };
 
-/// Along one direction of a contact, from a to b.
+/// The terms of a contact along one direction, from a to b.
 struct Direction {
   double arm_a = 0;  ///< lever arms of an impulse
   double arm_b = 0;
-  /// Speed of b against a, times the impulse that would stop it, is
-  /// x (vx_b - vx_a) + y (vy_b - vy_a) + spin_b * (spin of b) - spin_a * (spin of a).
+  /// The impulse that stops the relative motion of a and b along this direction is -(x (vx_b -
+  /// vx_a) + y (vy_b - vy_a) + spin_b * (spin of b) - spin_a * (spin of a)).
   double x = 0;
   double y = 0;
   double spin_a = 0;
   double spin_b = 0;
-  /// Changes of the spins for each N s.
+  /// Changes of the spins per N s.
   double turns_a = 0;
   double turns_b = 0;
 
@@ -60,23 +62,23 @@ struct Direction {
   }
 };
 
-/// A contact as the rounds want it, with what it has done in this sub-step.
+/// A contact as the iterations need it, with its impulses in this sub-step.
 struct Constraint {
   std::uint64_t id = 0;
   std::size_t a = 0;
   std::size_t b = 0;
-  /// Change of a's velocity for each N s along the normal; along the face it is (-y, x).
+  /// Change of a's velocity per N s along the normal; along the face it is (-y, x).
   double pushes_x = 0;
   double pushes_y = 0;
-  double share_b = 0;  ///< of that change for b: 1, or 0 for a wall
+  double share_b = 0;  ///< fraction of that change that applies to b: 1, or 0 for a wall
   Direction normal;
   Direction face;
-  double coupling = 0;   ///< change of the face's stopping impulse for each N s along the normal
+  double coupling = 0;   ///< change of the face's stopping impulse per N s along the normal
   double normal_Ns = 0;  ///< impulses so far
   double friction_Ns = 0;
 };
 
-/// Filled in place: a copy would wait for what was just written.
+/// Filled in place: a copy would wait for the values that were just written.
 inline void set_direction(Direction& d, const Contact& contact, double x, double y,
                           const Dynamic& a, const Dynamic& b) {
   d.arm_a = contact.ax * y - contact.ay * x;
@@ -91,8 +93,8 @@ inline void set_direction(Direction& d, const Contact& contact, double x, double
   d.turns_b = d.arm_b * b.inverse_inertia;
 }
 
-/// A contact that has done nothing yet. `b` is the index of the other body, which is that of the
-/// walls for a contact with one.
+/// Initialises a contact without impulses. `b` is the index of the other body; for a contact with a
+/// wall it is the entry of all walls.
 inline void set_constraint(Constraint& c, const Contact& contact, std::size_t b,
                            const Dynamic& first, const Dynamic& other) {
   c.id = contact.id;
@@ -108,7 +110,7 @@ inline void set_constraint(Constraint& c, const Contact& contact, std::size_t b,
   c.friction_Ns = 0;
 }
 
-/// Impulses along the normal and along the face, from a to b.
+/// Applies impulses along the normal and along the face, from a to b.
 template <class Other>
 void push_apart(const Constraint& c, Dynamic& a, Other& b, double normal_Ns, double friction_Ns) {
   const double x = c.pushes_x * normal_Ns - c.pushes_y * friction_Ns;
@@ -123,16 +125,18 @@ void push_apart(const Constraint& c, Dynamic& a, Other& b, double normal_Ns, dou
   }
 }
 
-/// One round for one contact; the bound of its friction is that of the normal impulse before, as in
-/// Box2D. Returns the largest change. Written for short chains of operations that wait for each
-/// other: they are what a round costs. `b` is AtRest of a wall, with the same bits.
+/// One iteration for one contact; friction is bounded by the normal impulse before this iteration,
+/// as in Box2D. Returns the largest change. Written for short chains of dependent operations,
+/// because these determine the cost of an iteration. For a wall `b` is AtRest, which gives the same
+/// bits.
 template <class Other>
 double relax(Constraint& c, Dynamic& a, Other& b) {
   const double normal_change = std::max(c.normal.stopping_Ns(a, b), -c.normal_Ns);
   const double bound = kFriction * c.normal_Ns;
   double stopping = c.face.stopping_Ns(a, b);
   if (c.coupling != 0) stopping -= c.coupling * normal_change;
-  // Selected, not branched to: who slides and who sticks changes from one round to the next.
+  // Selected without a branch: whether a contact slides or sticks changes from one iteration to the
+  // next.
   const double friction_change =
       std::min(std::max(stopping, -bound - c.friction_Ns), bound - c.friction_Ns);
   c.normal_Ns += normal_change;
@@ -141,7 +145,7 @@ double relax(Constraint& c, Dynamic& a, Other& b) {
   return std::max(std::fabs(normal_change), std::fabs(friction_change));
 }
 
-/// One round for one drive: towards the set-point, its whole impulse within the limit.
+/// One iteration for one drive: towards the set-point, with its whole impulse within the limit.
 inline void relax_drive(const SetPoint& set_point, Dynamic& robot) {
   double x = robot.drive_x_Ns + kMass_kg * (set_point.vx - robot.vx);
   double y = robot.drive_y_Ns + kMass_kg * (set_point.vy - robot.vy);

@@ -4,7 +4,7 @@
 
 namespace swarmsmith {
 
-/// A mover and what it may touch.
+/// A mover and another body that it may touch.
 struct Meeting {
   int mover = 0;
   int other = 0;  ///< a later mover, or the index of a wall or an obstacle
@@ -12,8 +12,8 @@ struct Meeting {
   friend bool operator==(const Meeting&, const Meeting&) = default;
 };
 
-/// Movers that may touch each other, or what stands around them, within the coming sub-steps. What
-/// is not named here cannot touch.
+/// Movers that may touch each other, walls or obstacles within the coming sub-steps. Bodies that
+/// are not listed here cannot touch.
 struct Island {
   std::vector<int> movers;  ///< ascending
   /// Each in ascending order.

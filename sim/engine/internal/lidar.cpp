@@ -15,20 +15,22 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRaysPerRadian = kLidarRays / (2 * kPi);
 
-/// Which ray goes through a point in the scanning robot's frame: a real number in (-359.5, 359.5].
+/// The (real-valued) number of the ray through a point in the scanning robot's frame, in (-359.5,
+/// 359.5].
 double ray_through(const Point& at) {
   return atan2(at.y, at.x) * kRaysPerRadian;
 }
 
-/// Who is so far beyond the line of a face surely sees it; who is so far behind surely does not.
+/// A robot this far beyond the line of a face certainly sees the face; a robot this far behind it
+/// certainly does not.
 constexpr double kSurelyBeyond_m = 1e-6;
 
-/// Quick rays are wrong by less than half of this.
+/// Rays from the fast approximation are wrong by less than half of this.
 constexpr double kQuickError = 4.5e-4;
 
-/// The same within `kQuickError`, for two points. The arc tangent of [-1, 1], which is how far a
-/// direction is from the diagonal of its quadrant, by the odd polynomial of degree 11 that errs
-/// least (by 1.7e-6; Remez' exchange).
+/// The same within `kQuickError`, for two points. It uses the arc tangent on [-1, 1], which
+/// measures the angle from the diagonal of the quadrant, by the minimax odd polynomial of degree 11
+/// (error 1.7e-6; Remez exchange).
 Two quick_rays_through(Two x, Two y) {
   const Two ax = size_of(x);
   const Two ay = size_of(y);
@@ -41,13 +43,13 @@ Two quick_rays_through(Two x, Two y) {
   return with_sign(kPi / 2 - with_sign(kPi / 4 + arc, x), y) * kRaysPerRadian;
 }
 
-/// How far numbers below 2^51 are from the nearest whole ones.
+/// Distance of numbers below 2^51 from the nearest integers.
 Two beside_whole(Two x) {
   constexpr double kUnitsAreLast = 0x1.8p52;  // beyond it there are no fractions
   return size_of(x - ((x + kUnitsAreLast) - kUnitsAreLast));
 }
 
-/// Rays from one place counter-clockwise to another, which may be beyond the last ray.
+/// The rays from one position counter-clockwise to another, which may be beyond the last ray.
 struct Sweep {
   double from;
   double width;
@@ -67,15 +69,15 @@ int ceil_of(double x) {
   return whole < x ? whole + 1 : whole;
 }
 
-/// Points in the scanning robot's frame, worked out two by two.
+/// Points in the scanning robot's frame, computed in pairs.
 class Corners {
  public:
-  /// Forgets all, and makes room for so many.
+  /// Removes all points, and reserves space for this many.
   void start(std::size_t corners) {
     count_ = 0;
     if (2 * pairs_.size() < corners) pairs_.resize((corners + 1) / 2);
   }
-  /// Two points of the world, seen from there.
+  /// Adds two points of the world.
   void add(const Body& self, Two x, Two y) {
     const Two dx = x - self.x;
     const Two dy = y - self.y;
@@ -91,9 +93,8 @@ class Corners {
   Point at(std::size_t i) const { return {pairs_[i / 2].x[i % 2], pairs_[i / 2].y[i % 2]}; }
   double distance2(std::size_t i) const { return pairs_[i / 2].distance2[i % 2]; }
 
-  /// The rays between two of them, the quick way. Only which whole numbers lie between matters, so
-  /// that it does wherever no such number, and no other border, is too close to tell: where it is
-  /// sure.
+  /// The rays between two points by the fast approximation. Only the integers between the two ends
+  /// matter, so the result is right if no integer and no other limit is too close: `is_sure` tells.
   Sweep quick_sweep(std::size_t from, std::size_t to) const {
     return sweep_between(quick_ray(from), quick_ray(to));
   }
@@ -121,7 +122,7 @@ class Corners {
   std::size_t count_ = 0;
 };
 
-/// The rays' directions, coordinate by coordinate, so that several rays are met at once.
+/// The directions of the rays, one array per coordinate, so that several rays are computed at once.
 struct Directions {
   std::array<double, kLidarRays> x;
   std::array<double, kLidarRays> y;
@@ -139,7 +140,7 @@ const Directions& directions_by_coordinate() {
   return directions;
 }
 
-/// Distances between these are within the lidar's limits, whatever rounding does.
+/// Distances between these are within the lidar's limits despite rounding.
 constexpr double kSurelyFar_m = kLidarLeast_m + 1e-6;
 constexpr double kSurelySeen_m = kLidarMost_m - 1e-6;
 
@@ -151,15 +152,15 @@ struct TwoFaces {
   Two area;
 };
 
-/// Two robots as a scan sees them: the faces that look at it, which are one or two, and between
-/// which rays they are.
+/// Two robots as seen in a scan: their one or two visible faces, and the range of rays that hit
+/// these faces.
 struct TwoRobots {
   TwoFaces right;
   TwoFaces left;
-  Two border;  ///< the rays before it meet the face on the right
+  Two border;  ///< rays before it hit the right face
   std::array<int, 2> first;
   std::array<int, 2> last;   ///< may be beyond the last ray
-  std::array<bool, 2> sure;  ///< whether all of that is
+  std::array<bool, 2> sure;  ///< whether all of this is certain
   std::array<bool, 2> within_limits;
 };
 
@@ -175,14 +176,13 @@ TwoFaces faces_between(const TwoPoints& from, const TwoPoints& to) {
   return {edge_x, edge_y, from.x * edge_y - from.y * edge_x};
 }
 
-/// RVRs, worked out without a branch: which of their corners are seen is another matter with every
-/// robot.
+/// Computes two RVRs without a branch: the set of visible corners differs from robot to robot.
 TwoRobots look_at(const Body& self, const Body& one, const Body& other) {
   const Two at_x = {one.x, other.x};
   const Two at_y = {one.y, other.y};
   const Two cosine = {one.cos, other.cos};
   const Two sine = {one.sin, other.sin};
-  // Where the scan is, seen from them, tells which of their faces it sees.
+  // The position of the scanning robot in their frames tells which of their faces it sees.
   const Two from_x = self.x - at_x;
   const Two from_y = self.y - at_y;
   const Two ahead = cosine * from_x + sine * from_y;
@@ -196,7 +196,7 @@ TwoRobots look_at(const Body& self, const Body& one, const Body& other) {
     const Two dy = at_y + sine * corner_x + cosine * corner_y - self.y;
     return TwoPoints{self.cos * dx + self.sin * dy, self.cos * dy - self.sin * dx};
   };
-  // A face that is not seen has no width: both its corners are the one in the middle.
+  // A face that is not visible gets zero width: both its corners are the middle one.
   const TwoBits sees_x = beyond_x > 0;
   const TwoBits sees_y = beyond_y > 0;
   const TwoBits same = x * y > 0;
@@ -210,7 +210,8 @@ TwoRobots look_at(const Body& self, const Body& one, const Body& other) {
   const Two left_ray = quick_rays_through(left.x, left.y);
   const Two right_width = upwards(middle_ray - right_ray);
   const Two left_width = upwards(left_ray - middle_ray);
-  // Between corners that are surely beside rays, a face with a ray is twice as wide as that.
+  // If the corners are clearly between rays, a face that contains a ray is at least twice as wide
+  // as that distance.
   const Two beside =
       lesser(beside_whole(middle_ray), lesser(beside_whole(right_ray), beside_whole(left_ray)));
   const TwoBits sure =
@@ -231,13 +232,13 @@ TwoRobots look_at(const Body& self, const Body& one, const Body& other) {
           .within_limits = {within[0] != 0, within[1] != 0}};
 }
 
-/// One scan under way.
+/// A scan in progress.
 class Scanner {
  public:
   Scanner(const Body& self, std::span<double> ranges_m) : self_(self), ranges_(ranges_m.data()) {}
 
-  /// Faces that can be seen from their left only, each from a corner to the next of its index. To
-  /// be met before all else.
+  /// Adds walls: faces that are visible only from their left, each from one corner to the next.
+  /// Must be called before the other functions.
   void meet_walls(const std::vector<WallPlane>& walls) {
     const std::size_t n = walls.size();
     start_faces(n);
@@ -266,9 +267,9 @@ class Scanner {
     }
   }
 
-  /// Other robots, RVRs: body(i) for i from 0 to `many` - 1. A few dozen are worked out before any
-  /// of them is met. How many rays meet a robot cannot be guessed, and a wrong guess would
-  /// throw away what was begun of the next one's corners.
+  /// Adds other robots, RVRs: body(i) for i from 0 to `many` - 1. A few dozen are prepared before
+  /// the rays of the first are computed. We cannot predict how many rays will hit a robot, and a
+  /// wrong guess would waste the work already started on the next robot's corners.
   template <class Bodies>
   void meet_robots(int many, const Bodies& body) {
     constexpr int kTogether = 32;
@@ -298,16 +299,16 @@ class Scanner {
       const Two y = {first.y, second.y};
       corners_.add(self_, at.x + at.cos * x - at.sin * y, at.y + at.sin * x + at.cos * y);
     }
-    // Counter-clockwise corners: seen from outside, on the right.
+    // Corners are counter-clockwise, so that the outside is on the right of each face.
     for (std::size_t i = 0; i < n; ++i)
       add_face(i + 1 < n ? i + 1 : 0, i);
     meet_faces();
   }
 
-  /// Whether all distances so far are surely within the lidar's limits.
+  /// Whether all distances so far are certain to be within the lidar's limits.
   bool is_within_limits() const { return within_limits_; }
 
-  /// Not met from inside, as with polygons.
+  /// Adds a circle; like polygons, it is not hit from inside.
   void meet_circle(const Body& at, double radius_m) {
     const double dx = at.x - self_.x;
     const double dy = at.y - self_.y;
@@ -343,8 +344,9 @@ class Scanner {
     seen_ = 0;
   }
 
-  /// One is seen when its second corner lies counter-clockwise of the first. Written anyway, and
-  /// counted when it is: which of a square's faces are seen is another matter with every robot.
+  /// A face is visible when its second corner lies counter-clockwise of the first. It is always
+  /// written but only counted if visible, because which faces of a square are visible is
+  /// unpredictable.
   void add_face(std::size_t first, std::size_t second) {
     const Point from = corners_.at(first);
     const Point to = corners_.at(second);
@@ -361,7 +363,7 @@ class Scanner {
       meet_face(faces_[i]);
   }
 
-  /// Whether each ray surely ends at one of the faces, and none of it near a corner.
+  /// Whether each ray certainly ends at one of the faces, with no ray near a corner.
   bool are_all_around(std::size_t faces) const {
     if (faces != seen_) return false;
     bool sure = true;
@@ -374,8 +376,8 @@ class Scanner {
     return sure && rays == kLidarRays;
   }
 
-  /// For faces that `are_all_around`: nothing is nearer so far, and each ray ends within its face,
-  /// as those of meet_robot do.
+  /// For faces for which `are_all_around` is true: there is no nearer hit so far, and each ray ends
+  /// within its face, as in meet_robot.
   void end_at_face(const Face& face) {
     const Sweep sweep = corners_.quick_sweep(face.first, face.second);
     const Two edge_x = both(face.edge.x);
@@ -389,9 +391,9 @@ class Scanner {
     });
   }
 
-  /// No ray is near a corner here, nor along a face, so that each ends within its face: the farther
-  /// corner, which is the bound elsewhere, is farther by 1e-12 of the distance at least, and
-  /// rounding is far below.
+  /// No ray is near a corner here or parallel to a face, so each ray ends within its face. The
+  /// farther corner, which limits distances in meet_face, is farther by at least 1e-12 of the
+  /// distance, and rounding errors are far smaller.
   void meet_robot(const TwoRobots& two, int which, const Body& at) {
     within_limits_ &= two.within_limits[static_cast<std::size_t>(which)];
     if (!two.sure[static_cast<std::size_t>(which)]) [[unlikely]]
@@ -414,7 +416,7 @@ class Scanner {
         store_two(meet_one(before, load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)),
                   ranges_ + i);
       };
-      // By itself in any case, since it cannot be guessed whether it has a partner.
+      // Always computed alone, because whether it has a partner is unpredictable.
       const Two last_met =
           meet_one(both(border - last), both(x_[last]), both(y_[last]), both(ranges_[last]));
       Two before = border - first - Two{0, 1};
@@ -432,17 +434,19 @@ class Scanner {
     }
   }
 
-  /// Neighbouring faces end at the same place between two rays, so that no ray slips between them.
+  /// Neighbouring faces end at the same position between two rays, so that no ray passes between
+  /// them.
   void meet_face(const Face& face) {
     const Sweep quick = corners_.quick_sweep(face.first, face.second);
     const Sweep sweep = corners_.is_sure(quick, face.first, face.second)
                             ? quick
                             : corners_.exact_sweep(face.first, face.second);
-    // Seen end-on: rounding put the corners in wrong order.
+    // The face is seen edge-on: rounding has swapped the order of the corners.
     if (sweep.width > kLidarRays / 2.0) return;
     const Point edge = face.edge;
     const double area = face.area;
-    // A ray along the face has no good quotient, but it ends at the farther corner at the latest.
+    // For a ray along the face the quotient is inaccurate, but it ends at the farther corner at the
+    // latest.
     const Two farthest =
         both(std::sqrt(std::max(corners_.distance2(face.first), corners_.distance2(face.second))));
     const auto meet = [=](Two x, Two y, Two range) {
@@ -458,14 +462,14 @@ class Scanner {
       } else {
         for (int i = first; i < last - 1; i += 2)
           meet_two(i);
-        meet_two(last - 1);  // one that was met before is met once more, and stays
+        meet_two(last - 1);  // repeating a ray does not change its distance
       }
     });
   }
 
-  /// Calls act(first, last, shift) for the rays from one place, which is between -719 and 718, to
-  /// another less than a turn further, both included; twice where they go on behind the last ray.
-  /// A place on the way and the shift make the ray's number.
+  /// Calls act(first, last, shift) for the rays from one position, in [-719, 718], to another less
+  /// than a turn farther, both included; it makes two calls if they continue past the last ray. The
+  /// number of the ray is the position plus the shift.
   template <class Act>
   static void for_stretches(double from, double to, const Act& act) {
     const int around = from > -1 ? 0 : kLidarRays;
@@ -483,7 +487,7 @@ class Scanner {
   const double* y_ = directions_by_coordinate().y.data();
   Corners corners_;
   std::vector<Face> faces_;
-  std::size_t seen_ = 0;  ///< the first of them
+  std::size_t seen_ = 0;  ///< number of visible faces; they come first
   bool within_limits_ = true;
 };
 

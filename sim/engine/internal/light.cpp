@@ -10,14 +10,14 @@
 namespace swarmsmith {
 namespace {
 
-/// A segment of space, its points at t in [0, 1].
+/// A segment in space; its points have t in [0, 1].
 struct Segment {
   SpacePoint from;
   SpacePoint to;
 
   Point origin() const { return {from.x, from.y}; }
   Point along() const { return {to.x - from.x, to.y - from.y}; }
-  /// Keeps of a stretch what lies on the segment, and no higher than this.
+  /// Keeps only the part of the stretch that lies on the segment and at most this high.
   void keep(Stretch& stretch, double height_m) const {
     stretch.keep(-1, 1);
     stretch.keep(0, -1);
@@ -45,7 +45,7 @@ bool meets_solid(const Segment& segment, const Form& form, const Body& at) {
   return !stretch.empty();
 }
 
-/// Where a sensor of the ring is, and the direction it looks into.
+/// Position of a sensor of the ring, and its direction.
 struct LightSensor {
   SpacePoint place;
   Point direction;
@@ -106,8 +106,8 @@ double front_light(const World& world, const Arena& arena, int robot) {
 
 namespace {
 
-/// Whether what is so high can hide any light from a place this far above the floor, at this
-/// distance from it: only what stands near does, since the line to a light rises.
+/// The distance within which a body of this height can hide the light from this place: only near
+/// bodies can, because the line to the light rises.
 double nearness_of_shade(const SpacePoint& sensor, const Light& light, double height_m) {
   const double dx = light.x_m - sensor.x;
   const double dy = light.y_m - sensor.y;
@@ -116,7 +116,7 @@ double nearness_of_shade(const SpacePoint& sensor, const Light& light, double he
   return std::max(0.0, (height_m - sensor.z) / (light.z_m - sensor.z) * distance);
 }
 
-/// is_occluded, looking only at what stands near enough.
+/// The same as is_occluded, but checks only bodies that are near enough.
 bool is_shaded(const World& world, double wall_height_m, int robot, const SpacePoint& sensor,
                const Light& light, std::vector<int>& room) {
   const Segment segment = {sensor, {light.x_m, light.y_m, light.z_m}};

@@ -12,13 +12,14 @@ namespace {
 void rotate(Body& body, double cosine, double sine) {
   const double c = body.cos * cosine - body.sin * sine;
   const double s = body.cos * sine + body.sin * cosine;
-  // One step of Newton for 1 / sqrt(c^2 + s^2), which is within rounding of 1.
+  // One step of Newton's method for 1 / sqrt(c^2 + s^2), which is 1 within rounding.
   const double scale = 1.5 - 0.5 * (c * c + s * s);
   body.cos = c * scale;
   body.sin = s * scale;
 }
 
-/// |angle| up to 1/16, a sub-step's: sine to x^7, cosine to x^8; the omitted terms are below 4e-17.
+/// For |angle| up to 1/16, enough for a sub-step: sine to x^7, cosine to x^8; the omitted terms are
+/// below 4e-17.
 void turn_slightly(Body& body, double angle_rad) {
   const double s = angle_rad * angle_rad;
   const double sine = angle_rad * (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040))));
@@ -26,7 +27,7 @@ void turn_slightly(Body& body, double angle_rad) {
   rotate(body, cosine, sine);
 }
 
-/// |angle| up to 0.5: sine to x^11, cosine to x^12; the omitted terms are below 3e-14.
+/// For |angle| up to 0.5: sine to x^11, cosine to x^12; the omitted terms are below 3e-14.
 void turn_part(Body& body, double angle_rad) {
   const double s = angle_rad * angle_rad;
   const double sine =
@@ -41,9 +42,10 @@ void turn_part(Body& body, double angle_rad) {
   rotate(body, cosine, sine);
 }
 
-/// A quantity that starts `distance` off its target and comes `step` nearer in each sub-step.
+/// A quantity that starts `distance` away from its target and approaches it by `step` in each
+/// sub-step.
 struct Approach {
-  double sum;   ///< of its distances before each of the sub-steps
+  double sum;   ///< sum of its distances before each of the sub-steps
   double left;  ///< its distance after them
 };
 
@@ -114,9 +116,9 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps,
   if (dx != 0 || dy != 0) {
     const double distance = std::sqrt(dx * dx + dy * dy);
     if (distance == 0) {
-      // Below 1e-162 m/s the square is 0, and the quotients below are not numbers. Robots that
-      // pressed and then stand come there: in contact, the rest of their speeds shrinks by a
-      // factor in each sub-step, until Reach takes them for standing and they are free.
+      // Below 1e-162 m/s the square is 0, and the quotients below would be NaN. Robots that pressed
+      // and then stop reach such speeds: in contact, the rest of their speed shrinks by a factor in
+      // each sub-step, until Reach treats them as standing and they are free.
       body.vx = set_point.vx;
       body.vy = set_point.vy;
     } else {

@@ -7,26 +7,27 @@
 
 namespace swarmsmith {
 
-/// What all robots of a mission, or one object, are like.
+/// The properties of all robots of a mission, or of one object.
 struct MoverKind {
   Form form;
   Dynamics dynamics;
-  double friction = kFriction;  ///< of its surface; two that meet have the geometric mean
+  double friction = kFriction;  ///< of its surface; two bodies in contact have the geometric mean
 
   friend bool operator==(const MoverKind&, const MoverKind&) = default;
 };
 
-/// The robot of rvr-automode facts, section 2.
+/// The robot described in rvr-automode facts, section 2.
 const MoverKind& rvr_kind();
 
-/// A robot as a mover; of the RVR's body and drive it is `rvr_kind`.
+/// The kind of a robot; equal to `rvr_kind` for a robot with the RVR's body and drive.
 MoverKind robot_kind(const Robot& robot);
 
-/// An object that slides on the floor: at most `friction_N`, and in turning that times the mean
-/// distance of its floor from its centre. `friction` is that of its sides.
+/// An object that slides on the floor. The friction of the floor is at most the force `friction_N`,
+/// and at most the torque of this force times the mean distance of its floor area from its centre.
+/// `friction` is the friction coefficient of its sides.
 MoverKind object_kind(const MovableObject& object, double friction = kFriction);
 
-/// A robot or an object, with what it steers towards. A kind outlives its movers.
+/// A robot or an object, with its set-point. A kind outlives its movers.
 struct Mover {
   Body body;
   SetPoint set_point;

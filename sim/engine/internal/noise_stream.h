@@ -9,15 +9,15 @@
 namespace swarmsmith {
 
 /// Counter-based noise of one kind, for one robot and run: the number at an index is a function of
-/// seed, name, robot and index, whatever else was drawn.
+/// seed, name, robot and index, independent of other draws.
 class NoiseStream {
  public:
-  /// Never drawn from.
+  /// A placeholder, which must not be drawn from.
   NoiseStream() = default;
   NoiseStream(const Rng& run, std::string_view name, int robot)
       : key_(run.split(name, static_cast<std::uint64_t>(robot)).key()) {}
 
-  /// As many numbers as one index wants.
+  /// A stream with as many numbers as needed for one index.
   Rng at(std::uint64_t index) const { return Rng(key_ + index); }
   /// Standard normal.
   double normal(std::uint64_t index) const { return NormalNoise::instance().draw(at(index)); }

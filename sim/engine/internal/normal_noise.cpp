@@ -7,11 +7,11 @@
 namespace swarmsmith {
 namespace {
 
-/// Where the tail begins, and the area of each layer, for 128 layers.
+/// Start of the tail, and area of each layer, for 128 layers.
 constexpr double kTail = 3.442619855899;
 constexpr double kArea = 9.91256303526217e-3;
 
-/// The normal density without its factor.
+/// The normal density without its constant factor.
 double curve(double x) {
   return exp(-0.5 * x * x);
 }

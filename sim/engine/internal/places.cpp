@@ -3,9 +3,10 @@
 namespace swarmsmith {
 namespace {
 
-/// Cells a side at most: a swarm of one mover a cell fills a square of 64 x 64 with 4,096.
+/// Maximum number of cells per side: a swarm with one mover per cell fills a square of 64 x 64 with
+/// 4,096.
 constexpr double kMostCells = 64;
-/// More than rounding takes or gives, metres.
+/// Larger than any rounding error, metres.
 constexpr double kSlack_m = 1e-6;
 
 }  // namespace
@@ -30,7 +31,7 @@ void Places::update(std::span<const Mover> movers) {
   list_near();
 }
 
-/// Not with a place that is not a number.
+/// False if a position is NaN.
 bool Places::is_valid(std::span<const Mover> movers) const {
   bool valid = !made_at_.empty();
   for (std::size_t i = 0; i < made_at_.size(); ++i) {
@@ -47,7 +48,7 @@ void Places::sort_into_cells() {
     cell_[i] = row_of(made_at_[i].y) * columns_ + column_of(made_at_[i].x);
     ++begin_[cell_[i]];
   }
-  // From counts to ends; then the movers, last first, push the ends down to the beginnings.
+  // Turns counts into ends; then the movers, in reverse order, move the ends down to the starts.
   for (std::size_t cell = 1; cell < begin_.size(); ++cell)
     begin_[cell] += begin_[cell - 1];
   for (std::size_t i = made_at_.size(); i-- > 0;) {
@@ -59,7 +60,7 @@ void Places::sort_into_cells() {
 
 void Places::list_near() {
   constexpr double kReach_m = kListed_m + kSkin_m + kSlack_m;
-  // Each is written, and counted where it is near: which are near cannot be guessed.
+  // Each mover is written, but counted only if it is near: which movers are near is unpredictable.
   std::size_t count = 0;
   for (std::size_t i = 0; i < made_at_.size(); ++i) {
     list_[i] = count;
@@ -77,8 +78,8 @@ void Places::list_near() {
   }
   list_.back() = count;
   if (near_.size() < count) near_.resize(found_.size());
-  // Those on its list have it on theirs. So each is added to the lists of the others, which
-  // are ascending then without being sorted.
+  // Nearness is mutual: each mover is added to the lists of the movers on its list. These lists are
+  // then ascending without sorting.
   std::copy(list_.begin(), list_.end() - 1, end_.begin());
   for (std::size_t i = 0; i < made_at_.size(); ++i) {
     later_[i] = end_[i];

@@ -15,21 +15,22 @@ inline double distance2_of(const Body& a, const Body& b) {
   return dx * dx + dy * dy;
 }
 
-/// Where all movers are, to find what is near a place. A few are looked at one by one. Of
-/// more, each has a list of those near it (Verlet, "Computer experiments on classical fluids I",
-/// Phys. Rev. 159, 1967): it reaches a little further than is asked for, and holds until somebody
-/// has moved half as far. Lists are made through a grid, so that their price is what is near and
-/// not how many there are; so are answers about more than what they reach.
+/// The positions of all movers, for finding the movers near a place. A small number of movers is
+/// searched one by one. With more, each mover has a list of those near it (Verlet, "Computer
+/// experiments on classical fluids I", Phys. Rev. 159, 1967). The list reaches a little farther
+/// than needed, and stays valid until some mover has moved half the extra distance. A grid is used
+/// to make the lists and to search beyond their reach, so that the cost depends on the number of
+/// near movers, not on the total number.
 class Places {
  public:
   explicit Places(std::size_t movers);
 
-  /// Takes the places as they are now; to be called whenever movers have moved.
+  /// Takes the present positions; must be called whenever movers have moved.
   void update(std::span<const Mover> movers);
 
-  /// Calls visit(other) for the movers with numbers from `first` on whose centres are at most
-  /// `radius_m` from that of `mover`, ascending, without itself. `movers` are those of the last
-  /// update; `room` is room to work in.
+  /// Calls visit(other) for the movers with index `first` or higher whose centres are at most
+  /// `radius_m` from the centre of `mover`, in ascending order, except `mover` itself. `movers`
+  /// must be the same as in the last update; `room` is working memory.
   template <class Visit>
   void visit_near(std::span<const Mover> movers, std::size_t mover, double radius_m,
                   std::size_t first, std::vector<int>& room, const Visit& visit) const {
@@ -65,7 +66,7 @@ class Places {
   /// Whether any two centres are at most `radius_m` apart.
   bool any_pair_near(std::span<const Mover> movers, double radius_m, std::vector<int>& room) const {
     bool any = false;
-    if (movers.size() <= kFew) {  // all of them, without a branch for each
+    if (movers.size() <= kFew) {  // checks all pairs, without a branch for each
       const double radius2 = radius_m * radius_m;
       for (std::size_t i = 1; i < movers.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j)
@@ -80,15 +81,15 @@ class Places {
 
  private:
   static constexpr std::size_t kFew = 16;
-  /// What lists are for: about what sensors and contacts reach.
+  /// The radius that lists cover: about the reach of sensors and contacts.
   static constexpr double kListed_m = 0.9;
-  /// How much further lists reach, and how far two movers may come nearer to each other before
-  /// lists and grid are made anew.
+  /// The extra radius of the lists, and so the distance by which two movers may approach each other
+  /// before lists and grid are rebuilt.
   static constexpr double kSkin_m = 0.3;
   static constexpr double kCell_m = 0.75;
 
-  /// Calls take(begin, end) with what of `sorted_` is in the cells that a circle met when the grid
-  /// was laid, row by row.
+  /// Calls take(begin, end) with the ranges of `sorted_` in the cells that overlap a circle, row by
+  /// row; cells hold the positions from when the grid was made.
   template <class Take>
   void for_cells(const Point& centre, double radius_m, const Take& take) const {
     const std::size_t left = column_of(centre.x - radius_m);
@@ -115,16 +116,18 @@ class Places {
   double cell_m_ = kCell_m;
   std::size_t columns_ = 1;
   std::size_t rows_ = 1;
-  std::vector<std::size_t> cell_;    ///< of each mover
-  std::vector<std::size_t> begin_;   ///< of each cell in `sorted_`, and the end of the last
+  std::vector<std::size_t> cell_;    ///< cell of each mover
+  std::vector<std::size_t> begin_;   ///< start of each cell in `sorted_`, and the end of the last
+                                     ///< cell
   std::vector<std::size_t> sorted_;  ///< movers, cell by cell
-  std::vector<Point> made_at_;       ///< where each mover was then
+  std::vector<Point> made_at_;       ///< position of each mover when the grid was made
   std::vector<Point> sorted_at_;     ///< the same, cell by cell
   std::vector<std::size_t> found_;   ///< the lists, each in the order of cells
-  std::vector<std::size_t> near_;    ///< the lists, one behind the other, each ascending
-  std::vector<std::size_t> list_;    ///< where in them that of each mover begins; the end of all
-  std::vector<std::size_t> end_;     ///< and where it ends so far
-  std::vector<std::size_t> later_;   ///< and where in that those behind itself begin
+  std::vector<std::size_t> near_;    ///< the lists, one after another, each ascending
+  std::vector<std::size_t> list_;    ///< start of each mover's list, and the end of the last list
+  std::vector<std::size_t> end_;     ///< end of each mover's list while lists are filled
+  std::vector<std::size_t> later_;   ///< position in each mover's list of the first mover with a
+                                     ///< higher index
 };
 
 }  // namespace swarmsmith

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// As rays.h has it, for two at once.
+/// The same as in rays.h, for two distances at once.
 Two limited(Two distance_m, double range_m) {
   const Two seen = distance_m > range_m ? both(kInfinity) : distance_m;
   return distance_m < kBlindZone_m ? both(-kInfinity) : seen;

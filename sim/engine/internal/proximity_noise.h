@@ -9,17 +9,17 @@
 
 namespace swarmsmith {
 
-/// How one robot's proximity sensors fall short of the distances (thesis 4.2.9, 7.1; thesis facts,
-/// section 13).
+/// The errors of one robot's proximity sensors (thesis 4.2.9, 7.1; thesis facts, section 13).
 class ProximityNoise {
  public:
-  /// Draws what the run keeps: the sensors' rates of misses. `sensing` must outlive the object.
+  /// Draws the numbers that are fixed for the run: the miss rates of the sensors. `sensing` must
+  /// outlive the object.
   ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot);
 
-  /// From physical distances to readings. A reading is a phantom, uniform in [0.05 m, R], whatever
-  /// is there; or a hit that is missed, +infinity; or a finite distance times N(1, scale_sd) plus
-  /// N(0, sd). The sensor's limits hold before and after. `readings` are the first sensors', up to
-  /// all of them.
+  /// Converts physical distances to readings. A reading is a phantom, uniform in [0.05 m, R]
+  /// whatever the distance; or a missed hit, +infinity; or a finite distance times N(1, scale_sd)
+  /// plus N(0, sd). The sensor's limits apply before and after. `readings` holds the first sensors
+  /// or all of them.
   void apply(std::span<double> readings, std::int64_t cycle) const;
 
  private:
@@ -27,7 +27,7 @@ class ProximityNoise {
 
   const ProximitySensing* sensing_;
   bool ideal_;        ///< only the limits apply
-  bool only_normal_;  ///< only they and N(0, sd)
+  bool only_normal_;  ///< only the limits and N(0, sd) apply
   NoiseStream normal_;
   NoiseStream scale_;
   NoiseStream miss_;

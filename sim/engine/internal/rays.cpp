@@ -12,10 +12,12 @@ namespace swarmsmith {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Faces reach this much beyond their ends, so that rounding lets no ray slip through a corner.
+/// Faces extend this far beyond their ends, so that rounding cannot let a ray pass through a
+/// corner.
 constexpr double kSlack_m = 1e-12;
 
-/// The eight rays lie on four lines through the centre: one ray ahead on the line, one back.
+/// The eight rays lie on four lines through the centre: on each line one ray points ahead, one
+/// back.
 struct Line {
   double x;  ///< unit vector in the robot's frame
   double y;
@@ -27,12 +29,12 @@ constexpr std::array<Line, 4> kLines = {Line{1, 0, 1, 5}, Line{0, 1, 7, 3},
                                         Line{kSqrtHalf, kSqrtHalf, 0, 4},
                                         Line{-kSqrtHalf, kSqrtHalf, 6, 2}};
 
-/// A coordinate of all lines' unit vectors.
+/// One coordinate of the unit vectors of all lines.
 using Coordinates = std::array<Two, 2>;
 constexpr Coordinates kLinesX = {Two{1, 0}, Two{kSqrtHalf, -kSqrtHalf}};
 constexpr Coordinates kLinesY = {Two{0, 1}, Two{kSqrtHalf, kSqrtHalf}};
 
-/// A pose of one square in the frame of another.
+/// The pose of one square in the frame of another.
 struct Relative {
   double x;
   double y;
@@ -49,7 +51,7 @@ double distance_to_square(double ux, double uy, const Relative& at) {
   if (std::fabs(ox) < kHalfSide_m && std::fabs(oy) < kHalfSide_m) return kInfinity;
   const double dx = at.cos * ux + at.sin * uy;
   const double dy = at.cos * uy - at.sin * ux;
-  // Only the two faces that look against the ray can be met first.
+  // Only the two faces that face the ray can be hit first.
   double nearest = kInfinity;
   if (dx != 0) {
     const double t = (-std::copysign(kHalfSide_m, dx) - ox) / dx;
@@ -62,8 +64,8 @@ double distance_to_square(double ux, double uy, const Relative& at) {
   return nearest;
 }
 
-/// Whether a line through the robot's centre meets the wall's line between its ends. `normal` is
-/// the wall's, in the robot's frame.
+/// Whether a line through the robot's centre crosses the wall's line between its ends. `normal` is
+/// the wall's normal in the robot's frame.
 bool is_on_face(const Body& self, const WallPlane& wall, double depth, Vector2 normal,
                 Vector2 line) {
   const double cosine = normal.x * line.x + normal.y * line.y;
@@ -95,7 +97,7 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
     const double nx = wall.nx * self.cos + wall.ny * self.sin;
     const double ny = wall.ny * self.cos - wall.nx * self.sin;
     for (std::size_t i = 0; i < 2; ++i) {
-      // Selected, not branched to: which lines meet a wall changes with every turn.
+      // Selected without a branch: the lines that hit a wall change with every turn.
       const Two cosine = nx * kLinesX[i] + ny * kLinesY[i];
       const Two size = size_of(cosine);
       const Two distance = depth / size - start_m;
@@ -110,7 +112,8 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
       back[i] = lesser(back[i], cosine > 0 ? kNone : met);
     }
   }
-  // Two by two, as they are read next: who reads at once what was written one by one waits.
+  // Stored in pairs, in the order in which they are read next: reading a pair right after its parts
+  // were written one by one stalls.
   static_assert(kLines[2].ahead == 0 && kLines[0].ahead == 1 && kLines[3].back == 2 &&
                 kLines[1].back == 3 && kLines[2].back == 4 && kLines[0].back == 5 &&
                 kLines[3].ahead == 6 && kLines[1].ahead == 7);
@@ -189,7 +192,7 @@ void meet_robot(const Body& self, const Body& other, double range_m, RayDistance
                        .cos = self.cos * other.cos + self.sin * other.sin,
                        .sin = self.cos * other.sin - self.sin * other.cos};
   const double sight = sight_of_robots_m(range_m);
-  // Of the line through the centre, a ray takes the half that begins at its start.
+  // A ray covers the half of the line that begins at its start.
   constexpr double kBehind_m = kRayStart_m - kCornerRadius_m;
   for (const Line& line : kLines) {
     const double aside = line.x * at.y - line.y * at.x;

@@ -8,10 +8,10 @@
 namespace swarmsmith {
 namespace {
 
-/// An inelastic push makes nothing faster than the fastest point that pushes; off centre it may add
-/// spin, which for convex outlines of uniform density a factor of two covers.
+/// An inelastic push makes nothing faster than the fastest point that pushes. Off centre it may add
+/// spin; for convex outlines of uniform density a factor of two covers this.
 constexpr double kPushed = 2;
-/// What a solver in single precision may be off, metres.
+/// Bound of the error of a solver in single precision, metres.
 constexpr double kRounding_m = 1e-6;
 
 double square(double x) {
@@ -40,7 +40,7 @@ std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
   bound_motion(swarm, span_s);
   near_.clear();
   if (pairs) list_pairs(swarm, span_s);
-  // A group that grew may be pushed further than its members drive, and reach more.
+  // A group that grew may be pushed farther than its members would drive, and so reach more.
   while (join_pairs(swarm))
     widen_groups(span_s);
   gather(swarm);
@@ -105,7 +105,7 @@ std::size_t Reach::root(std::size_t mover) const {
 
 bool Reach::may_touch(const Swarm& swarm, const Pair& pair) const {
   const auto& [i, j] = pair;
-  // What rests against each other rests on.
+  // Movers that rest against each other stay at rest.
   if (speed_mps_[i] == 0 && speed_mps_[j] == 0) return false;
   const Mover& a = swarm.movers[i];
   const Mover& b = swarm.movers[j];
@@ -119,7 +119,7 @@ bool Reach::join_pairs(const Swarm& swarm) {
   const bool anew = grouped_.empty();
   bool joined = false;
   for (const Pair& pair : near_) {
-    // A robot that no group has made faster reaches what it did in the round before.
+    // A pair outside all groups reaches no farther than in the round before.
     if (!anew && !in_group_[pair.a] && !in_group_[pair.b]) continue;
     const std::size_t a = root(pair.a);
     const std::size_t b = root(pair.b);

@@ -11,22 +11,25 @@ namespace swarmsmith {
 
 using RayDirections = RingDirections;
 
-/// A ring of sensors as the engine wants it: unit vectors of the robot's frame, the first `count`.
+/// A ring of sensors in the form that the engine uses: unit vectors in the robot's frame, of which
+/// the first `count` are valid.
 struct Ring {
   RayDirections directions{};
   std::size_t count = 0;
   std::array<double, kProximitySensors> angles_rad{};
-  /// A ray that starts behind the face of a wall has met it at 0; else it does not meet it.
+  /// Whether a ray that starts behind the face of a wall hits it at distance 0; otherwise it does
+  /// not hit it.
   bool touches_walls = true;
 
   friend bool operator==(const Ring&, const Ring&) = default;
 };
 
-/// At most kProximitySensors angles; the RVR's become its table, to the last bit.
+/// Takes at most kProximitySensors angles; for the RVR's angles the result is its table, bit for
+/// bit.
 Ring ring_of(const RingAngles& angles_deg);
 
-/// What control software takes the robot's proximity and light sensors for, where that is not the
-/// RVR's ring.
+/// The sensor directions that control software assumes for the robot's proximity and light sensors,
+/// if they are not the RVR's ring.
 std::optional<RayDirections> labels_of(const Robot& robot);
 
 }  // namespace swarmsmith

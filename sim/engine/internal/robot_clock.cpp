@@ -16,7 +16,7 @@ RobotClock::RobotClock(const ControlTiming& timing, const Rng& run, int robot)
                                         .uniform(timing.least_period, timing.most_period)),
       least_step_(period_ < 1 ? 0 : 1) {
   next_cycle();
-  next_ = std::max<std::int64_t>(1, next_);  // nothing can be sensed before the start
+  next_ = std::max<std::int64_t>(1, next_);  // sensors cannot be read before the start
 }
 
 std::int64_t RobotClock::draw_arrival(std::int64_t now) {

@@ -9,18 +9,18 @@
 
 namespace swarmsmith {
 
-/// When a robot acts: its control cycles, and how late its commands are (thesis 7.1). Time counts
-/// in sub-steps of 10 ms since the start.
+/// The times at which a robot acts: its control cycles, and the delays of its commands (thesis
+/// 7.1). Time is counted in sub-steps of 10 ms since the start.
 class RobotClock {
  public:
   /// `run` is the stream of the evaluation; `timing` must outlive the object.
   RobotClock(const ControlTiming& timing, const Rng& run, int robot);
 
-  /// Its next control cycle, at a whole sub-step; what rounding takes from one period it gives to
-  /// the next. Cycles shorter than a sub-step share one.
+  /// Its next control cycle, at a whole sub-step; a rounding error in one period is made up for in
+  /// the next. Several cycles shorter than a sub-step may share one.
   std::int64_t next() const { return next_; }
 
-  /// The present cycle is over.
+  /// Ends the present cycle.
   void next_cycle() {
     const double jitter =
         timing_->jitter == 0 ? 0 : jitter_.uniform(-timing_->jitter, timing_->jitter);
@@ -30,8 +30,9 @@ class RobotClock {
     next_ = std::max(next_ + least_step_, nearest);
   }
 
-  /// When the command that is computed at `now` begins to act: from the driver's next beat on, if
-  /// it has any; after a delay that is drawn for it; but never before the command ahead of it.
+  /// The time at which the command computed at `now` begins to act: at the driver's next beat, if
+  /// the driver has beats, and after a delay drawn for this command; but never before the preceding
+  /// command.
   std::int64_t arrival_of_command(std::int64_t now) { return is_prompt_ ? now : draw_arrival(now); }
 
  private:
@@ -39,13 +40,14 @@ class RobotClock {
   int draw_delay();
 
   const ControlTiming* timing_;
-  bool is_prompt_;  ///< commands act at once
+  bool is_prompt_;  ///< commands act immediately
   Rng jitter_;
   Rng latency_;
   Beats driver_;
-  double period_;            ///< of this robot in this run, sub-steps
-  std::int64_t least_step_;  ///< from a cycle to the next: 0 when several may share a sub-step
-  double due_ = 0;           ///< the next cycle, not rounded
+  double period_;            ///< of this robot in this run, in sub-steps
+  std::int64_t least_step_;  ///< least time from a cycle to the next: 0 if several may share a
+                             ///< sub-step
+  double due_ = 0;           ///< time of the next cycle, not rounded
   std::int64_t next_ = 0;
   std::int64_t last_arrival_ = 0;
 };

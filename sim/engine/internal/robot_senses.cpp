@@ -15,23 +15,24 @@ namespace swarmsmith {
 namespace {
 
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
-  // As a whole number first: on black and on white floors the way of a branch cannot be guessed.
+  // Converted to an integer first: on black and on white floors a branch would be unpredictable.
   const double raised = value + noise + 0.5;
   return static_cast<std::uint8_t>(std::clamp(static_cast<int>(raised), 0, 255));
 }
 
-/// gray_level of white.
+/// The grey level of white, as in gray_level.
 constexpr double kMostGray = 255'000;
 
-/// Whether this robot has trouble for the whole run, and so how often it misses a neighbour.
+/// The rate at which this robot misses neighbours; it depends on whether the robot is weak for the
+/// whole run.
 double miss_rate_of_run(const NeighbourSensing& sensing, const Rng& run, int robot) {
   if (sensing.weak_share == 0) return sensing.miss_rate;
   Rng lot = run.split("weak neighbours", static_cast<std::uint64_t>(robot));
   return lot.bernoulli(sensing.weak_share) ? sensing.weak_miss_rate : sensing.miss_rate;
 }
 
-/// Uniform noise within the half width on up to eight values, then within [0, 1]. Four numbers of
-/// 16 bits come from one of the stream.
+/// Adds uniform noise within the half-width to up to eight values, then limits them to [0, 1]. Each
+/// random number of the stream gives four numbers of 16 bits.
 void blur_strengths(std::span<double> values, double half_width, const NoiseStream& noise,
                     std::int64_t cycle) {
   if (half_width > 0) {
@@ -48,7 +49,7 @@ void blur_strengths(std::span<double> values, double half_width, const NoiseStre
     value = std::clamp(value, 0.0, 1.0);
 }
 
-/// How far proximity rays have to be followed.
+/// Length to which proximity rays must be computed.
 double ray_range_m(const ProximityRing& ring, const Profile& profile) {
   return ring.reading == ProximityRing::Reading::Strength ? ring.reach_m
                                                           : profile.proximity.range_m;
@@ -179,7 +180,7 @@ const Rgb& RobotSenses::ground_color() {
   const Point& sensor = ground_sensor_;
   Point place = {body.x + sensor.x * body.cos, body.y + sensor.x * body.sin};
   if (sensor.y != 0) place = {place.x - sensor.y * body.sin, place.y + sensor.y * body.cos};
-  if (place != floor_place_) {  // robots often stand
+  if (place != floor_place_) {  // robots often stand still
     floor_place_ = place;
     floor_ = floor_at(*arena_, place);
   }
@@ -275,8 +276,8 @@ int RobotSenses::neighbour_count() {
   return readings_.neighbour_count;
 }
 
-/// Of each robot within range one packet is sent in a cycle; it is lost, or met on its way, or
-/// known until it is as old as the memory.
+/// Each robot within range sends one packet per cycle. A packet may be lost or blocked on its way;
+/// otherwise it is kept until it reaches the age of the memory.
 void RobotSenses::receive_packets() {
   const NeighbourSensor& radio = world_->robot().neighbours;
   std::vector<Neighbour>& known = readings_.neighbours;
@@ -289,18 +290,19 @@ void RobotSenses::receive_packets() {
       return;
     if (sight_.is_hidden(robot_, other, between_)) return;
     const Neighbour heard = neighbour_of(*world_, robot_, other);
-    // The e-puck's reference model takes a bearing of exactly 0 for no packet (epuck facts, 4.1).
+    // The e-puck's reference model interprets a bearing of exactly 0 as no packet (epuck facts,
+    // 4.1).
     if (heard.direction_y == 0 && heard.direction_x > 0) return;
     known.push_back(heard);
     ++heard_now;
   };
-  // Sixteen bits of the stream decide on a packet, so that four senders share one of its numbers.
+  // Sixteen random bits decide about each packet, so that four senders share one random number.
   const auto lost_below = static_cast<std::uint64_t>(std::lround(neighbour_miss_rate_ * 65'536));
   const int robots = world_->robots();
   const auto groups = static_cast<std::uint64_t>(robots + 3) / 4;
   const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * groups;
   for (int group = 0; group < robots; group += 4) {
-    // Most are lost before it matters where they are.
+    // Most packets are lost. The loss is decided first, so that few positions are needed.
     std::uint64_t bits = neighbour_misses_.at(first + static_cast<std::uint64_t>(group) / 4).next();
     for (int other = group; other < std::min(group + 4, robots); ++other, bits >>= 16U) {
       if ((bits & 0xffffU) >= lost_below) take(other);
@@ -311,7 +313,8 @@ void RobotSenses::receive_packets() {
 }
 
 void RobotSenses::drop_missed_neighbours() {
-  // The number at an index decides on the cycle's k-th neighbour; there are never as many as rays.
+  // The number at an index decides about the k-th neighbour of the cycle; there are never more
+  // neighbours than rays.
   const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * kLidarRays;
   std::vector<Neighbour>& neighbours = readings_.neighbours;
   std::size_t kept = 0;

@@ -19,42 +19,44 @@
 
 namespace swarmsmith {
 
-/// One robot's sensors in the simulated world, each computed when first asked for in a cycle.
+/// The sensors of one robot in the simulated world; each is computed when first requested in a
+/// cycle.
 ///
-/// Ground colour (thesis 4.2.1): the floor under the sensor, plus a bias of robot and run
-/// and normal noise a channel, rounded, clamped to 0..255, then labelled (eq. 3.1, 3.2) where the
-/// profile says so. Neighbours (thesis 5.1): by camera or from the lidar's clusters, less those
-/// that are missed (thesis 7.1). The others: motion_sensors.h, light.h, proximity_noise.h, lidar.h.
+/// Ground colour (thesis 4.2.1): the floor under the sensor, plus a bias per robot and run and
+/// normal noise per channel, rounded, clamped to 0..255, then labelled (eq. 3.1, 3.2) if the
+/// profile says so. Neighbours (thesis 5.1): from a camera or from clusters of the lidar, without
+/// those that are missed (thesis 7.1). The others: motion_sensors.h, light.h, proximity_noise.h,
+/// lidar.h.
 ///
-/// Noise is counter-based: a reading's is a function of seed, robot, sensor, cycle and channel, so
-/// that what is asked for, and when, changes no other reading (decided so that a machine that
-/// ignores a sensor for a while meets the same noise as one that does not).
+/// Noise is counter-based: the noise of a reading is a function of seed, robot, sensor, cycle and
+/// channel, so that requesting a reading, or not, changes no other reading. A machine that ignores
+/// a sensor for a while thus gets the same noise as one that does not.
 class RobotSenses final : public SimulatedSenses {
  public:
-  /// The robot stands at its start. World, arena and profile must outlive the object.
+  /// The robot must be at its start pose. World, arena and profile must outlive the object.
   RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
               const Rng& run);
 
-  /// From now on these are read in each cycle where they are made of several cycles' readings
-  /// (GroundSensor::Reading::Vote, NeighbourSensor::Source::Radio): call it before the first one
-  /// with all that will be asked for. Others are read when asked for.
+  /// From now on these sensors are read in each cycle if their readings combine several cycles
+  /// (GroundSensor::Reading::Vote, NeighbourSensor::Source::Radio). Call it before the first cycle
+  /// with all sensors that will be requested. Other sensors are read on request.
   void remember(Sensors sensors);
 
-  /// From now on ground sensors that vote give their own grey levels of the cycle instead, as the
-  /// channels of the colour (epuck facts, section 5.2.1).
+  /// From now on ground sensors that vote give their individual grey levels of the cycle instead,
+  /// as the channels of the colour (epuck facts, section 5.2.1).
   void split_ground() { splits_ground_ = true; }
 
-  /// A control cycle of this robot.
+  /// One control cycle of this robot.
   struct Cycle {
-    std::int64_t number = 0;  ///< counts from 1
+    std::int64_t number = 0;  ///< counted from 1
     double time_s = 0;        ///< since the start
-    Command acted;            ///< what the treads followed during the cycle that just ended
+    Command acted;            ///< command that the treads followed during the cycle that just ended
   };
-  /// Forgets all readings.
+  /// Starts a cycle and discards all readings.
   void begin_cycle(const Cycle& cycle) {
     cycle_.number = cycle.number;
     cycle_.time_s = cycle.time_s;
-    // No sensor feels what LEDs show.
+    // LEDs are left out: no sensor depends on them.
     cycle_.acted.left_mps = cycle.acted.left_mps;
     cycle_.acted.right_mps = cycle.acted.right_mps;
     computed_ = held_;
@@ -62,11 +64,11 @@ class RobotSenses final : public SimulatedSenses {
       read(remembered_);
   }
 
-  /// When it next reads what it holds from one beat to the next; Beats::kNever when it holds
-  /// nothing.
+  /// The next time at which it reads sensors that hold their values between beats; Beats::kNever
+  /// without such sensors.
   std::int64_t next_beat() const { return std::min(ground_hold_.next, neighbour_hold_.next); }
-  /// Reads what has a beat at `now`, before the control cycle of that sub-step. The noise of such a
-  /// reading is of its number, the start's being 0, in place of the cycle's.
+  /// Reads the sensors that have a beat at `now`, before the control cycle of that sub-step. The
+  /// noise of such a reading depends on its number, 0 at the start, instead of the cycle.
   void read_at_beat(std::int64_t now);
 
   const ProximityReadings& proximity() override;
@@ -79,25 +81,25 @@ class RobotSenses final : public SimulatedSenses {
 
   const Readings& read(Sensors sensors) override;
 
-  /// What was computed in this cycle so far.
+  /// The sensors that were computed in this cycle so far.
   Sensors computed() const { return computed_; }
 
  private:
-  /// A sensor that is read at beats, and when.
+  /// A sensor that is read at beats, with the time of the next beat.
   struct Hold {
     Beats beats;
     std::int64_t next;  ///< Beats::kNever for a sensor that is read in each cycle
     std::int64_t readings = 0;
   };
   bool has_beat(Sensor sensor, Hold& hold, std::int64_t now);
-  /// What becomes of distances on the way to the control software.
+  /// Applies to distances the errors that arise on the way to the control software.
   void distort(std::span<double> proximity) const;
-  /// Whether the sensor has not been read in this cycle; it counts as read from now on.
+  /// Whether the sensor has not been read in this cycle; marks it as read.
   bool is_due(Sensor sensor);
   void read_strengths();
   void count_votes();
   void receive_packets();
-  /// What the ground sensor makes of the floor in this cycle, by its bias and noise.
+  /// The output of the ground sensor for this floor in this cycle, with its bias and noise.
   void blur(const Rgb& floor, Rgb& ground) const;
   void read_motion(Sensors sensors);
   void read_lidar();
@@ -118,33 +120,35 @@ class RobotSenses final : public SimulatedSenses {
   NoiseStream lidar_noise_;
   NoiseStream neighbour_misses_;
   bool distorts_proximity_;
-  bool is_vote_;         ///< the ground is GroundSensor::Reading::Vote
-  Point ground_sensor_;  ///< the first place of the robot's GroundSensor
+  bool is_vote_;         ///< the ground sensor is of the kind GroundSensor::Reading::Vote
+  Point ground_sensor_;  ///< the first point of the robot's GroundSensor
   Hold ground_hold_;
   Hold neighbour_hold_;
-  Sensors held_;                    ///< those that are read at beats
-  double ground_bias_ = 0;          ///< of this robot in this run, on all channels
+  Sensors held_;                    ///< the sensors that are read at beats
+  double ground_bias_ = 0;          ///< of this robot in this run, the same for all channels
   double neighbour_miss_rate_ = 0;  ///< of this robot in this run
   Cycle cycle_;
-  Sensors computed_;  ///< the others' readings are of an earlier cycle
+  Sensors computed_;  ///< the other sensors have readings of an earlier cycle
   Readings readings_;
-  RayDistances front_m_{};    ///< front_proximity's, whose first ones are readings
-  std::vector<int> room_;     ///< for numbers of movers
-  std::vector<int> between_;  ///< the same, while room_ is in use
-  Point floor_place_;         ///< where the floor was last looked up, and what colour it has there
+  RayDistances front_m_{};    ///< for front_proximity; only the first values are readings
+  std::vector<int> room_;     ///< for indices of movers
+  std::vector<int> between_;  ///< a second one, while room_ is in use
+  Point floor_place_;         ///< place where the floor was last looked up; floor_ is the colour
+                              ///< there
   Rgb floor_;
-  std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
+  std::vector<double> turret_ranges_m_;  ///< the scan in which neighbours are found, if the source
+                                         ///< is the lidar
 
   Sensors remembered_;
   bool splits_ground_ = false;
-  /// How many points were black, and white, in each of the last cycles, and in all of them.
+  /// The number of black and of white points in each of the last cycles, and in all of them.
   struct Votes {
     int black = 0;
     int white = 0;
   };
   std::vector<Votes> votes_;
   Votes vote_;
-  /// How many of the packets in `readings_.neighbours` came in each of the last cycles.
+  /// The number of packets in `readings_.neighbours` that were received in each of the last cycles.
   std::vector<int> packets_;
 };
 

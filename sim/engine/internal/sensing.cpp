@@ -8,9 +8,9 @@ namespace swarmsmith {
 
 namespace {
 
-/// How far a robot gets before its rays look around anew.
+/// Distance that a robot moves before its rays search their surroundings again.
 constexpr double kStroll_m = 0.2;
-/// More than rounding takes or gives, metres.
+/// Larger than any rounding error, metres.
 constexpr double kSlack_m = 1e-6;
 
 }  // namespace
@@ -51,7 +51,8 @@ void ProximityRays::cast(RayDistances& distances) {
   });
 }
 
-/// What else than walls there is to meet, where not all are RVRs. Rays pass above what is low.
+/// Shortens the rays at all bodies except walls, for worlds where not all bodies are RVRs. Rays
+/// pass above low bodies.
 void ProximityRays::meet_solids(RayDistances& distances) {
   const Body& self = world_->body(robot_);
   const Ring& ring = world_->proximity_ring();
@@ -72,7 +73,7 @@ RayDistances ray_distances(const World& world, int robot, double range_m) {
 
 namespace {
 
-/// A robot at (dx, dy) from `self`, on the axes of the arena; `less_m`: NeighbourSensor's.
+/// A robot at (dx, dy) from `self`, on the axes of the arena; `less_m` as in NeighbourSensor.
 Neighbour neighbour_at(const Body& self, double dx, double dy, double distance2, double less_m) {
   const double distance = std::sqrt(distance2);
   Neighbour neighbour{.distance_m = distance - less_m};
@@ -110,7 +111,7 @@ template <class IsSeen>
   });
 }
 
-/// Where something may be in between.
+/// For worlds in which something may be in between.
 [[gnu::noinline]] void look_past_things(const World& world, const Sight& sight, int robot,
                                         std::vector<int>& room, std::vector<Neighbour>& found) {
   std::vector<int> between;

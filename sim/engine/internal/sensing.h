@@ -8,17 +8,17 @@
 
 namespace swarmsmith {
 
-/// What a robot's ideal sensors meet in the world as it is.
+/// The measurements of a robot's ideal sensors in the present world.
 
-/// The proximity rays of one robot. It keeps in mind which walls and obstacles it may meet at its
-/// place and a little way around, so that where nothing is near little is looked at.
+/// The proximity rays of one robot. It remembers the walls and obstacles near its position, so that
+/// rays are cheap where nothing is near.
 class ProximityRays {
  public:
-  /// `world` must outlive the object, and have its robots at the places where they start.
+  /// `world` must outlive the object, and its robots must be at their start poses.
   ProximityRays(const World& world, int robot, double range_m);
 
   /// Distances along the proximity directions to the nearest wall, robot, obstacle or object; exact
-  /// up to the range, at least as long beyond it.
+  /// up to the range; beyond it they are at least the range.
   void cast(RayDistances& distances);
 
  private:
@@ -29,23 +29,23 @@ class ProximityRays {
   int robot_;
   double range_m_;
   double start_m_;
-  bool along_lines_;  ///< its ring is the RVR's: there are quicker ways
+  bool along_lines_;  ///< whether its ring is the RVR's, for which there are faster functions
   Body looked_from_;
-  Walls walls_;  ///< those near that place
+  Walls walls_;  ///< the walls near that place
   std::vector<const FixedSolid*> obstacles_;
-  std::vector<int> room_;  ///< for numbers of movers
+  std::vector<int> room_;  ///< for indices of movers
 };
 
-/// The same, once.
+/// The same, computed once.
 RayDistances ray_distances(const World& world, int robot, double range_m);
 
 /// The robots within the range of its sensor as an omnidirectional camera sees them, in the order
-/// of their numbers, but for those that are hidden; replaces what was in `found`. `room` is room to
-/// work in.
+/// of their numbers, without hidden ones; replaces the content of `found`. `room` is working
+/// memory.
 void find_neighbours(const World& world, const Sight& sight, int robot, std::vector<int>& room,
                      std::vector<Neighbour>& found);
 
-/// Another robot as a sensor on the robot's axis has it, as NeighbourSensor says.
+/// Another robot as a sensor on the robot's axis measures it; see NeighbourSensor.
 Neighbour neighbour_of(const World& world, int robot, int other);
 
 }  // namespace swarmsmith

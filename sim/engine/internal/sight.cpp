@@ -8,7 +8,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Whether the way from one point to another meets the wall's face.
+/// Whether the segment from one point to another crosses the face of the wall.
 bool meets_face(const WallPlane& wall, Point from, Point to) {
   const double depth = wall.depth_of(from.x, from.y);
   const double depth_step = wall.depth_of(to.x, to.y) - depth;

@@ -7,11 +7,11 @@
 
 namespace swarmsmith {
 
-/// What never moves.
+/// The bodies that never move.
 struct Surroundings {
   Walls walls;
   std::vector<FixedSolid> obstacles;
-  double friction = kFriction;  ///< as MoverKind::friction
+  double friction = kFriction;  ///< as in MoverKind::friction
 };
 
 Surroundings surroundings_of(const Arena& arena);

@@ -6,16 +6,16 @@
 
 namespace swarmsmith {
 
-/// Two numbers that are worked on at once: + - * / and comparisons act on each, `a < b ? c : d`
-/// selects in each. For loops that the compiler, left to itself, takes one by one and with branches
-/// that cannot be predicted. Each has the bits that it would have alone.
+/// Two numbers processed together: + - * / and comparisons act on each, `a < b ? c : d` selects for
+/// each. It is for loops that the compiler would otherwise process one number at a time, with
+/// unpredictable branches. Each result has the same bits as if it were computed alone.
 using Two [[gnu::vector_size(16)]] = double;
 
 inline Two both(double x) {
   return Two{x, x};
 }
 
-/// As std::min and std::max are.
+/// Like std::min and std::max.
 inline Two lesser(Two a, Two b) {
   return b < a ? b : a;
 }
@@ -23,24 +23,25 @@ inline Two greater(Two a, Two b) {
   return a < b ? b : a;
 }
 
-/// Their bits, and what comparisons give: of each all bits where it holds, none elsewhere.
+/// The bits of two numbers, and the results of comparisons: all bits set where true, none where
+/// false.
 using TwoBits [[gnu::vector_size(16)]] = std::int64_t;
 inline constexpr TwoBits kSigns = {INT64_MIN, INT64_MIN};
 
-/// Without the sign.
+/// The absolute values.
 inline Two size_of(Two x) {
   return std::bit_cast<Two>(std::bit_cast<TwoBits>(x) & ~kSigns);
 }
-/// Numbers that are not negative, with the signs of others.
+/// Non-negative numbers, with the signs of other numbers.
 inline Two with_sign(Two size, Two signs) {
   return std::bit_cast<Two>(std::bit_cast<TwoBits>(size) |
                             (std::bit_cast<TwoBits>(signs) & kSigns));
 }
-/// The other sign where it holds.
+/// The numbers, with the sign changed where `holds` is true.
 inline Two turned_where(TwoBits holds, Two x) {
   return std::bit_cast<Two>(std::bit_cast<TwoBits>(x) ^ (holds & kSigns));
 }
-/// Numbers where it holds, 0 elsewhere.
+/// The numbers where `holds` is true, 0 elsewhere.
 inline Two only_where(TwoBits holds, Two x) {
   return std::bit_cast<Two>(std::bit_cast<TwoBits>(x) & holds);
 }

@@ -42,8 +42,9 @@ void find_walls_near(const Walls& walls, const Body& place, double distance_m, W
 double gap_between(const Body& a, const Body& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  // The widest of the four projections of the line between the centres on the squares' axes, less
-  // what both squares take up on it: one its half side, the other, turned, (|cos| + |sin|) as much.
+  // The widest of the four projections of the line between the centres on the axes of the squares,
+  // minus the extents of both squares on that axis: half a side for the one, (|cos| + |sin|) times
+  // that for the other, which is rotated.
   const double widest =
       std::max({std::fabs(dx * a.cos + dy * a.sin), std::fabs(dy * a.cos - dx * a.sin),
                 std::fabs(dx * b.cos + dy * b.sin), std::fabs(dy * b.cos - dx * b.sin)});

@@ -8,7 +8,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Of walls and all else that robots meet, so that its mean with theirs is what the robot says.
+/// Friction of walls and all other bodies that robots touch, chosen so that its geometric mean with
+/// the robot's own gives the robot's wall friction.
 double surface_friction(const RobotBody& robot) {
   if (robot.robot_friction == robot.wall_friction || robot.robot_friction == 0) {
     return robot.wall_friction;

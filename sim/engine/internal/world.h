@@ -18,17 +18,17 @@
 
 namespace swarmsmith {
 
-/// Whether nothing moves but robots of the RVR's body and drive, in a convex arena: then the exact
-/// contact model has its own solver, else Box2D plays it.
+/// Whether only robots with the RVR's body and drive move, in a convex arena: then the exact
+/// contact model has its own solver, otherwise it uses Box2D.
 bool has_squares_alone(const Arena& arena, const Robot& robot);
 
-/// Whether nothing moves but discs that are not the RVR with another outline: then the exact
-/// contact model has a solver, too.
+/// Whether only discs move that are not the RVR with another outline: then the exact contact model
+/// has a solver for them.
 bool has_discs_alone(const Arena& arena, const Robot& robot);
 
-/// Bodies, walls and the law of motion: what there is besides sensors and control software. Time
-/// counts in sub-steps of 10 ms. Movers are the robots, 0 to robots() - 1, and behind them the
-/// arena's movable objects.
+/// Bodies, walls and motion: the simulated world without sensors and control software. Time is
+/// counted in sub-steps of 10 ms. Movers are the robots, 0 to robots() - 1, followed by the arena's
+/// movable objects.
 class World {
  public:
   World(const Arena& arena, const Robot& robot, std::span<const Pose> starts,
@@ -36,31 +36,31 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// What each of the robots is.
+  /// The model of all robots.
   const Robot& robot() const { return robot_; }
   const Ring& proximity_ring() const { return proximity_ring_; }
   const Ring& light_ring() const { return light_ring_; }
   int robots() const { return robots_; }
   int movers() const { return static_cast<int>(movers_.size()); }
   const Body& body(int mover) const { return movers_[static_cast<std::size_t>(mover)].body; }
-  /// All robots have one form, each object its own.
+  /// All robots have the same form; each object has its own.
   const Form& form(int mover) const { return movers_[static_cast<std::size_t>(mover)].form(); }
   const Walls& walls() const { return surroundings_.walls; }
   std::span<const FixedSolid> obstacles() const { return surroundings_.obstacles; }
-  /// Only robots of the RVR's body, and walls around a convex arena.
+  /// Whether there are only robots with the RVR's body, and walls around a convex arena.
   bool is_plain() const { return plain_; }
-  /// Square of the distance between two centres, now.
+  /// Square of the present distance between two centres.
   double distance2(int mover, int other) const { return distance2_of(body(mover), body(other)); }
-  /// Calls visit(other) for the movers whose centres are at most so far from the mover's,
-  /// ascending, without itself; `room` is room to work in.
+  /// Calls visit(other) for the other movers whose centres are at most `radius_m` from the mover's
+  /// centre, in ascending order; `room` is working memory.
   template <class Visit>
   void visit_near(int mover, double radius_m, std::vector<int>& room, const Visit& visit) const {
     places_.visit_near(movers_, static_cast<std::size_t>(mover), radius_m, 0, room, visit);
   }
-  /// No mover is wider from its centre.
+  /// An upper bound for the radius of all movers.
   double largest_radius_m() const { return largest_radius_m_; }
 
-  /// From now on the robot's drive steers towards the command, along its present heading.
+  /// From now on the robot's drive follows the command, along its present heading.
   void command(int robot, const Command& command) {
     Mover& mover = movers_[static_cast<std::size_t>(robot)];
     mover.set_point = set_point_of(command, mover.body, robot_.drive.track_m);
@@ -68,7 +68,7 @@ class World {
         speed_limit_mps_, std::max(std::fabs(command.left_mps), std::fabs(command.right_mps)));
   }
 
-  /// Moves all movers: free ones in closed form, islands through the contact solver.
+  /// Moves all movers: free ones in closed form, islands with the contact solver.
   void advance(int sub_steps);
 
   /// The first mover that is not sound, or -1.
@@ -80,7 +80,7 @@ class World {
     return -1;
   }
 
-  /// How many sub-steps of movers went through the contact solver so far.
+  /// The number of mover sub-steps that the contact solver has computed so far.
   long solved_sub_steps() const { return solved_sub_steps_; }
 
  private:
@@ -91,13 +91,13 @@ class World {
   Ring light_ring_;
   Surroundings surroundings_;
   int robots_;
-  std::vector<MoverKind> kinds_;  ///< the robots', then those of the objects
+  std::vector<MoverKind> kinds_;  ///< the robots' kind, then the kinds of the objects
   std::vector<Mover> movers_;
-  bool squares_;  ///< plain, but for fixed obstacles
+  bool squares_;  ///< whether the world is plain apart from fixed obstacles
   bool plain_;
   double largest_radius_m_;
   Places places_;
-  double speed_limit_mps_ = 0;  ///< what no centre has exceeded so far
+  double speed_limit_mps_ = 0;  ///< no centre has been faster so far
   Reach reach_;
   std::unique_ptr<ContactSolver> solver_;
   long solved_sub_steps_ = 0;

@@ -13,7 +13,7 @@ std::string color_value(Rgb color) {
   return quoted_text(color_text(color));
 }
 
-/// An inline table of `spots`.
+/// The inline table of one spot.
 std::string spot_text(const Patch& patch) {
   return std::visit(Overloaded{[&](const Disc& disc) {
                                  return "{ shape = \"circle\", x = " + number_text(disc.centre.x) +
@@ -104,7 +104,8 @@ std::string rectangle_text(const Rectangle& shape) {
          ", width = " + number_text(shape.width_m) + ", height = " + number_text(shape.height_m);
 }
 
-/// The thesis' walls are written by name; others by their corners, however they were given.
+/// The walls of the thesis are written by name; other walls by their corners, however they were
+/// given.
 std::vector<SectionLine> arena_lines(const Mission& mission) {
   const Arena& arena = mission.arena;
   std::vector<SectionLine> lines;

@@ -24,11 +24,11 @@ namespace swarmsmith {
 /// Delays and beats are whole sub-steps of the engine.
 inline constexpr double kSubSteps_per_s = 100;
 
-/// The visitor that takes the fields of a profile or a robot out of its table and the tables in it.
-/// A field that is not there keeps its value.
+/// The visitor that reads the fields of a profile or a robot from its table and subtables. A field
+/// that is missing in the file keeps its value.
 class FieldReader {
  public:
-  /// `ranges` takes those numbers that are given as ranges; null where they have to be numbers.
+  /// `ranges` receives the numbers that are given as ranges; null if ranges are not allowed.
   explicit FieldReader(TableReader& root, std::vector<FieldRange>* ranges = nullptr)
       : root_(&root), ranges_(ranges) {}
 
@@ -38,7 +38,7 @@ class FieldReader {
     device_name_ = std::string(name) + ".";
     if (auto table = root_->table(name)) device_ = std::make_unique<TableReader>(*table);
   }
-  /// To be called after the visit, too: the last device has no next one.
+  /// Must also be called after the visit, since no next device finishes the last one.
   void finish() {
     if (device_) device_->finish();
     device_.reset();
@@ -94,7 +94,7 @@ class FieldReader {
       delays.push_back({steps, probability.value_or(0)});
       item.finish();
     }
-    // A sum over probabilities that could not be read would only confuse.
+    // If a probability could not be read, a complaint about the sum would only confuse.
     if (table->complaints() > before || is_distribution(delays)) return;
     double sum = 0;
     for (const ControlTiming::Delay& delay : delays)
@@ -209,7 +209,8 @@ class FieldReader {
       list = std::move(read);
     }
   }
-  /// Whether the number is a range: [0, 0.1] for each robot and run, { run = [0, 0.1] } for a run.
+  /// Reads a range, if the value is one: [0, 0.1] is drawn for each robot and run, { run = [0, 0.1]
+  /// } once per run.
   bool read_range(TableReader& table, std::string_view key, double& value, FieldLimits limits) {
     const std::string field = device_name_ + std::string(key);
     const Node* node = table.take(key);
@@ -243,7 +244,7 @@ class FieldReader {
     }
     return true;
   }
-  /// Null for a device that the file leaves out.
+  /// Null for a device that is missing in the file.
   TableReader* current() {
     if (!in_device_) return root_;
     return device_.get();

@@ -20,7 +20,7 @@ namespace swarmsmith {
 /// The visitor that writes the fields of a profile or a robot as lines.
 class FieldWriter {
  public:
-  /// `ranges` are those numbers that are written as ranges.
+  /// `ranges` holds the numbers that are written as ranges.
   FieldWriter(std::vector<Section>& sections, std::string header,
               std::vector<FieldRange> ranges = {})
       : sections_(&sections), header_(std::move(header)), ranges_(std::move(ranges)) {
@@ -33,7 +33,7 @@ class FieldWriter {
     drop_empty();
     sections_->push_back({"[" + path + "]", path + ".", {}});
   }
-  /// A device without values has no header; to be called after the visit, too.
+  /// A device without values gets no header. Must also be called after the visit.
   void drop_empty() {
     if (sections_->back().lines.empty()) sections_->pop_back();
   }
@@ -97,7 +97,7 @@ class FieldWriter {
   }
   void count(std::string_view key, int value, int, int) { add(key, std::to_string(value)); }
 
-  /// Of a later field that is ideal, only a range is written.
+  /// For a later field that is ideal, only a range is written.
   void add(std::string_view key, std::string value) {
     sections_->back().lines.push_back({std::string(key), std::move(value)});
   }

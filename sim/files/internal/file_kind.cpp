@@ -27,7 +27,7 @@ bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
-/// Calls `use` with each line that says something, until it says true.
+/// Calls `use` with each line that is not blank or a comment, until it returns true.
 template <class Use>
 void each_line(std::string_view text, const Use& use) {
   while (!text.empty()) {
@@ -70,7 +70,7 @@ std::string kind_of_markup(std::string_view text) {
   return contains(text, "<html") ? "a web page" : "XML";
 }
 
-/// A key at the top of TOML: `name = ...`.
+/// Whether the line is a key at the top of a TOML file: `name = ...`.
 bool is_assignment(std::string_view line) {
   const std::size_t end =
       line.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");

@@ -6,8 +6,8 @@
 
 namespace swarmsmith {
 
-/// What a file seems to be that was given in place of machines, with what to do instead: "a picture
-/// (PNG)". Looks at how it begins; nothing of what may be machines.
+/// The kind of a file that was given instead of a machine file, with advice: "a picture (PNG)". It
+/// looks at the beginning of the file; nothing if it may be a machine file.
 std::optional<std::string> foreign_kind(std::string_view bytes);
 
 }  // namespace swarmsmith

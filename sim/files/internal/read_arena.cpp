@@ -12,7 +12,7 @@ void read_arena(TableReader& table, const ImageSource& images, Mission& mission)
   read_floor(table, images, mission);
   read_solids(table, mission.arena);
   table.finish();
-  // What is wrong by itself need not be told to stand in the way of others, too.
+  // After other errors in the arena, misplaced solids are not reported.
   if (table.complaints() != before) return;
   if (const auto misplaced = misplaced_solid(mission.arena)) {
     table.complain(misplaced->starts_with("object") ? "objects" : "obstacles", *misplaced);

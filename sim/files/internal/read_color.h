@@ -11,11 +11,11 @@
 
 namespace swarmsmith {
 
-/// A colour by name or number; the key must be there.
+/// Reads a colour by name or number; the key is required.
 std::optional<Rgb> read_color(TableReader& table, std::string_view key);
 
-/// The keys of a table whose keys are colours, in the order of the colours' own names, so that the
-/// spelling decides nothing. Two spellings of one colour are a complaint.
+/// The keys of a table whose keys are colours, sorted by the colours' canonical names, so that
+/// their spelling has no effect. Two spellings of one colour are a complaint.
 std::vector<std::pair<std::string, Rgb>> read_color_keys(TableReader& table);
 
 }  // namespace swarmsmith

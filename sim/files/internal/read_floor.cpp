@@ -11,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-/// The bytes of an image: in a `file`, or, as the program writes them, in the text itself.
+/// The bytes of an image: from a `file`, or from the text itself, where the program writes them.
 Expected<std::string> read_image_bytes(TableReader& table, const ImageSource& images) {
   if (const auto data = table.text("data")) return bytes_from_base64(*data);
   if (!images.folder) return bad_input("an image needs its `data` here");
@@ -21,7 +21,7 @@ Expected<std::string> read_image_bytes(TableReader& table, const ImageSource& im
   return bad_input("an image needs a `file`, such as file = \"floor.png\"");
 }
 
-/// A spot of shape "image".
+/// Reads a spot of shape "image".
 std::optional<Patch> read_image(TableReader& table, const ImageSource& images) {
   const Rectangle area = read_rectangle(table, false);
   auto bytes = read_image_bytes(table, images);
@@ -40,7 +40,7 @@ std::optional<Patch> read_image(TableReader& table, const ImageSource& images) {
   return Patch{.shape = FloorImage{area, std::move(*picture)}, .color = {}};
 }
 
-/// One entry of `spots`.
+/// Reads one entry of `spots`.
 std::optional<Patch> read_spot(TableReader& table, const ImageSource& images) {
   static const std::vector<std::string> kShapes = {"circle", "square", "rectangle", "image"};
   const auto shape = table.choice("shape", kShapes);
@@ -62,7 +62,7 @@ std::optional<Patch> read_spot(TableReader& table, const ImageSource& images) {
   return patch;
 }
 
-/// The table `shuffled`: which colours, on which places.
+/// Reads the table `shuffled`: the colours and their places.
 ShuffledPatches read_shuffled(TableReader& table) {
   ShuffledPatches shuffled;
   for (TableReader& place : table.tables("places")) {

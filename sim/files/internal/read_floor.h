@@ -9,19 +9,19 @@
 
 namespace swarmsmith {
 
-/// Where the images of a floor come from.
+/// The source of a floor's images.
 struct ImageSource {
-  /// Files of images are relative to it; none: they may not be named, and are in the text.
+  /// The folder of relative file names; without it, images must be in the text and cannot be files.
   std::optional<std::filesystem::path> folder;
   /// See Picture::from_png.
   std::int64_t most_pixels_in_use = Picture::kMostPixelsInUse;
 };
 
-/// The keys `floor`, `spots` and `shuffled` of [mission.arena]. Spots replace all of the preset's,
-/// since one cannot take away what is not named.
+/// Reads the keys `floor`, `spots` and `shuffled` of [mission.arena]. `spots` replaces all spots of
+/// the preset, because there is no way to remove single ones.
 void read_floor(TableReader& arena, const ImageSource& images, Mission& mission);
 
-/// `x`, `y`, `width` and `height`, or for a square `side`.
+/// Reads `x`, `y`, `width` and `height`, or `side` for a square.
 Rectangle read_rectangle(TableReader& table, bool square);
 
 }  // namespace swarmsmith

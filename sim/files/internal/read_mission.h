@@ -9,21 +9,20 @@
 
 namespace swarmsmith {
 
-/// The sections of a mission file, a file a section.
+/// The readers of the sections of a mission file; each section has its own source file.
 
-/// The [mission.arena] table: walls, floor, and what stands in the arena.
+/// Reads the [mission.arena] table: walls, floor, obstacles, objects and lights.
 void read_arena(TableReader& table, const ImageSource& images, Mission& mission);
 
-/// The keys of [mission.arena] that say where walls are. Other walls than the mission had also get
-/// another placement: a dodecagon the disc of the thesis in proportion, other shapes the whole
-/// arena.
+/// Reads the keys of [mission.arena] that define the walls. New walls also change the placement: a
+/// dodecagon gets the disc of the thesis scaled to its size, other shapes get the whole arena.
 void read_walls(TableReader& arena, Mission& mission);
 
-/// `training` of [mission.instances]: where robots start.
+/// Reads `training` of [mission.instances], the placement of robots.
 void read_placement(TableReader& instances, Mission& mission);
 
-/// The [mission.score] table, which replaces the preset's whole score. What is wrong goes to the
-/// reader's complaints; nothing when there is no such kind.
+/// Reads the [mission.score] table, which replaces the whole score of the preset. Errors are added
+/// to the reader's complaints; nothing if the kind does not exist.
 std::optional<ScoreRule> read_score(TableReader& score);
 
 }  // namespace swarmsmith

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Limits<double> kRadius{0.01, 1000};
 
-/// Keys that are not there keep what the mission has, if that is a disc, too.
+/// Missing keys keep the mission's values, if its placement is a disc, too.
 PlaceInDisc read_disc(TableReader& training, const Mission& mission) {
   const auto* before = std::get_if<PlaceInDisc>(&mission.placement);
   PlaceInDisc disc = before != nullptr ? *before : PlaceInDisc{};
@@ -47,7 +47,7 @@ void read_placement(TableReader& instances, Mission& mission) {
   static const std::vector<std::string> kRules = {"uniform", "rectangle", "anywhere", "fixed"};
   const auto given = training->choice("placement", kRules);
   if (training->has("placement") && !given) return;
-  // A radius alone is one for the disc.
+  // A radius without a placement means a disc.
   const std::string rule = given.value_or("uniform");
   if (rule == "uniform") mission.placement = read_disc(*training, mission);
   if (rule == "rectangle") mission.placement = PlaceInRectangle{read_rectangle(*training, false)};

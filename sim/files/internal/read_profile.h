@@ -8,7 +8,7 @@ namespace swarmsmith {
 /// Control periods are written to the microsecond, so that texts read back to the same bits.
 inline constexpr double kMicroseconds_per_period = 100'000;
 
-/// Takes the fields of a profile out of its table and the tables in it. A field that is not there
+/// Reads the fields of a profile from its table and subtables. A field that is missing in the file
 /// keeps its value.
 void read_profile_fields(TableReader& table, Profile& profile);
 

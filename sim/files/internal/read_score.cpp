@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Reads the parameters of a kind, whatever it is, from the keys that it names.
+/// Reads the parameters of any kind of score, by the keys that its fields name.
 class ScoreReader {
  public:
   ScoreReader(TableReader& table, std::string kind) : table_(table), kind_(std::move(kind)) {}
@@ -73,7 +73,7 @@ class ScoreReader {
   }
 
  private:
-  /// Complains when the key must be there and is not.
+  /// Complains when a required key is missing.
   void need(const ScoreField& field, const std::string& example) {
     if (!field.required || table_.has(field.key)) return;
     const std::string key(field.key);
@@ -104,7 +104,7 @@ std::optional<ScoreRule> read_score(TableReader& score) {
   if (score.complaints() == complaints) {
     if (const auto fault = fault_of(*rule)) score.complain(fault->where, fault->message);
   }
-  // For people coming from the examples of the literature; it has one value.
+  // For users who know examples from the literature; only true is allowed.
   if (score.boolean("maximize") == false) {
     score.complain("maximize",
                    "scores are always maximised; give unwanted things a negative weight, as "

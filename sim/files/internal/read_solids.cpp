@@ -16,8 +16,8 @@ constexpr std::size_t kMostCorners = 8;
 constexpr Limits<double> kHeight{0.001, 100};
 constexpr Limits<double> kSolidSize{0.005, 100};
 
-/// Corners in the solid's own frame, whose origin is to be the centre of mass; what is there
-/// to rounding stays, so that what was written before reads back to the same bits.
+/// Moves the corners so that the solid's origin is their centre of mass. Corners that are already
+/// centred within rounding stay, so that written texts read back to the same bits.
 void centre_corners(std::vector<Point>& corners, Pose& pose) {
   const Point middle = centroid(corners);
   if (std::fabs(middle.x) < 1e-12 && std::fabs(middle.y) < 1e-12) return;
@@ -28,14 +28,14 @@ void centre_corners(std::vector<Point>& corners, Pose& pose) {
   pose.y += middle.x * heading.sin + middle.y * heading.cos;
 }
 
-/// The corners of a robot's body are written with fewer digits than a number has.
+/// The corners of a robot's body are written with fewer digits than a double has.
 bool is_centred(const std::vector<Point>& corners) {
   constexpr double kTolerance_m = 1e-5;
   const Point middle = centroid(corners);
   return std::fabs(middle.x) <= kTolerance_m && std::fabs(middle.y) <= kTolerance_m;
 }
 
-/// A tenth of what is_centred tolerates.
+/// A tenth of the tolerance of is_centred.
 std::string micrometres_text(double metres) {
   return number_text(std::round(metres * 1e6) / 1e6 + 0.0);
 }
@@ -76,7 +76,7 @@ std::optional<Outline> read_polygon(TableReader& table, Pose* pose) {
   return PolygonOutline{std::move(corners)};
 }
 
-/// Where a solid stands; a polygon's corners may say it alone.
+/// Reads the pose of a solid; the corners of a polygon may replace x and y.
 Pose read_pose(TableReader& table) {
   const bool by_corners = !table.has("x") && !table.has("y") && table.has("corners");
   const Point place = by_corners ? Point{} : need_point(table);
@@ -128,7 +128,7 @@ std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pos
   }
   if (!shape) {
     for (const char* key : {"diameter", "side", "length", "width", "corners"})
-      table.take(key);  // whose they are is not known
+      table.take(key);  // without a shape, these keys cannot be checked
     return std::nullopt;
   }
   if (*shape == "circle") return CircleOutline{need(table, "diameter", size) / 2};

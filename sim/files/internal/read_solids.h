@@ -7,13 +7,14 @@
 
 namespace swarmsmith {
 
-/// The keys of an outline: `shape` and its sizes. A polygon's corners may lie anywhere: they are
-/// moved so that the origin is their centre of mass, and `pose`, in whose frame they were, with
-/// them. Without a pose they are a robot's, whose other parts lie around the origin: they are
-/// refused if that is not their centre of mass.
+/// Reads the keys of an outline: `shape` and its sizes. The corners of a polygon may have any
+/// origin: they are moved so that the origin becomes their centre of mass, and `pose`, which refers
+/// to the same frame, is moved with them. Without a pose the corners are those of a robot, whose
+/// other parts refer to the same origin: then it is an error if the origin is not their centre of
+/// mass.
 std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose* pose);
 
-/// `obstacles`, `objects` and `lights` of [mission.arena], each in place of the preset's.
+/// Reads `obstacles`, `objects` and `lights` of [mission.arena]; each replaces the preset's list.
 void read_solids(TableReader& arena, Arena& into);
 
 }  // namespace swarmsmith

@@ -12,12 +12,12 @@ namespace swarmsmith {
 namespace {
 
 constexpr int kDodecagon = 12;
-/// A circle's walls; the arena is larger than the circle by a thousandth of its area.
+/// Number of walls for a circle; the arena is larger than the circle by a thousandth of its area.
 constexpr int kCircleSides = 60;
 constexpr std::size_t kMostWallCorners = 200;
 constexpr Limits<double> kArea{0.01, 10'000};
 
-/// Keys of the walls, with the shapes that have them.
+/// A key of the walls, with the shapes that have it.
 struct WallKey {
   std::string_view key;
   std::vector<std::string_view> shapes;
@@ -32,7 +32,7 @@ const std::array<WallKey, 9> kWallKeys = {{{"area", {"dodecagon", "regular"}},
                                            {"corners", {"polygon"}},
                                            {"walls", {"polygon"}}}};
 
-/// A key of another shape is a mistake of its own, not an unknown key.
+/// A key of another shape gets its own complaint, instead of the one about unknown keys.
 bool has_keys_of_other_shapes(TableReader& arena, const std::string& shape) {
   bool found = false;
   for (const WallKey& known : kWallKeys) {
@@ -46,7 +46,7 @@ bool has_keys_of_other_shapes(TableReader& arena, const std::string& shape) {
   return found;
 }
 
-/// By inradius or by area; nothing when neither is there or one is wrong.
+/// Reads an inradius or an area; nothing if both are missing or one is wrong.
 std::optional<double> read_inradius(TableReader& arena, int sides) {
   const auto inradius = arena.number("inradius", {0.05, 100});
   const auto area = arena.number("area", kArea);
@@ -57,7 +57,7 @@ std::optional<double> read_inradius(TableReader& arena, int sides) {
   return area ? inradius_of_area(sides, *area) : inradius;
 }
 
-/// `corners = [[x, y], ...]`, or `walls = [[x1, y1, x2, y2], ...]` that join.
+/// Reads `corners = [[x, y], ...]`, or `walls = [[x1, y1, x2, y2], ...]` that join.
 std::vector<Point> read_polygon(TableReader& arena) {
   if (arena.has("corners") == arena.has("walls")) {
     arena.complain("walls", "shape = \"polygon\" needs `corners` or `walls`, one of them");
@@ -96,14 +96,14 @@ std::vector<Point> read_polygon(TableReader& arena) {
   return corners;
 }
 
-/// Around the origin.
+/// The corners of a rectangle around the origin.
 std::vector<Point> rectangle(double width_m, double height_m) {
   const double x = width_m / 2;
   const double y = height_m / 2;
   return {{x, -y}, {x, y}, {-x, y}, {-x, -y}};
 }
 
-/// The thesis' walls when neither size is there; the placement keeps its proportion to them.
+/// Sets the walls of the thesis if no size is given; the placement is scaled with the walls.
 void set_dodecagon(Mission& mission, std::optional<double> inradius_m) {
   constexpr double kInradius_m = 1.226;
   constexpr double kRadius_m = 1.2;
@@ -113,7 +113,7 @@ void set_dodecagon(Mission& mission, std::optional<double> inradius_m) {
   mission.placement = PlaceInDisc{.centre = {}, .radius_m = radius_m};
 }
 
-/// The corners of all shapes but the dodecagon; none after a complaint.
+/// Reads the corners of all shapes except the dodecagon; empty after a complaint.
 std::vector<Point> read_corners(TableReader& arena, const std::string& shape) {
   if (shape == "circle") {
     return regular_polygon(kCircleSides, need(arena, "diameter", {0.1, 200}) / 2);
@@ -147,7 +147,7 @@ void read_walls(TableReader& arena, Mission& mission) {
   const bool is_clear = given || !arena.has("shape");
   if (!is_clear || has_keys_of_other_shapes(arena, shape)) {
     for (const WallKey& known : kWallKeys)
-      arena.take(known.key);  // what they would say is not known
+      arena.take(known.key);  // without a valid shape, these keys cannot be checked
     return;
   }
   if (shape == "dodecagon") {

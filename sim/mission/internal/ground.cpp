@@ -18,7 +18,7 @@ std::string Ground::blocked_by(const Footprint& solid) const {
   for (const Wall& wall : arena_->walls) {
     if (crosses(solid, wall)) return "a wall";
   }
-  // Who touches no wall is on one side of all with his whole body.
+  // A solid that crosses no wall is inside or outside the arena as a whole.
   if (!is_within(corners_, solid.centre())) return "a wall";
   for (const Standing& other : standing_) {
     if (overlap(solid, other.footprint)) return other.name;

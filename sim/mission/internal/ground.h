@@ -8,16 +8,16 @@
 
 namespace swarmsmith {
 
-/// Who stands where in an arena, to find room for more.
+/// The solids in an arena, used to find room for more.
 class Ground {
  public:
-  /// The arena's obstacles stand on it.
+  /// Begins with the obstacles of the arena.
   explicit Ground(const Arena& arena);
 
-  /// What keeps a solid from standing there: "a wall", "obstacle 1", "object 2", "robot 3" (counted
-  /// from 1); empty when there is room.
+  /// The thing that keeps a solid from being placed there: "a wall", "obstacle 1", "object 2",
+  /// "robot 3" (counted from 1); empty when there is room.
   std::string blocked_by(const Footprint& solid) const;
-  /// `name` as in "robot".
+  /// Adds a solid; `name` is a name such as "robot 1".
   void add(const Footprint& solid, std::string name);
 
   /// The smallest rectangle around the walls.

@@ -9,8 +9,8 @@ namespace swarmsmith {
 
 class ColorRewardScorer;
 
-/// Sum over the robots of the reward of the colour they stand on (thesis eq. 6.3, table 6.1); a
-/// colour without a reward counts 0. With `at` "sum" each cycle on a colour is rewarded.
+/// Sum over the robots of the reward for the colour on which they stand (thesis eq. 6.3, table
+/// 6.1); a colour without a reward counts 0. With `at` "sum", each instant on a colour is rewarded.
 struct ColorReward {
   static constexpr std::string_view kKind = "color_reward";
   using Scorer = ColorRewardScorer;
@@ -39,7 +39,7 @@ class ColorRewardScorer {
 
  private:
   std::vector<Reward> rewards_;
-  FloorCounts counts_;  ///< of the rewards' colours
+  FloorCounts counts_;  ///< counts of the robots on each colour that has a reward
 };
 
 }  // namespace swarmsmith

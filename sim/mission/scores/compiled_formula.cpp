@@ -24,7 +24,7 @@ double most_of(const double* values, int count) {
   return *std::max_element(values, values + count);
 }
 
-/// The library's own functions go: those of the C library have other bits on other computers.
+/// Replaces the library's own functions: those of the C library give other bits on other computers.
 void define_functions(mu::Parser& parser) {
   parser.ClearFun();
   parser.ClearConst();
@@ -44,8 +44,8 @@ void define_functions(mu::Parser& parser) {
   parser.DefineFun("max", most_of);
 }
 
-/// What the library understands and a formula has not: `^` (the C library's bits), and what makes
-/// more than one value of it.
+/// Finds signs that the library accepts but formulas do not have: `^` (it would give the C
+/// library's bits), and signs that give no value or several values.
 std::optional<std::string> forbidden_sign(const std::string& text) {
   const auto at = [](std::size_t position) { return fmt::format("at character {}", position + 1); };
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -65,7 +65,7 @@ std::optional<std::string> forbidden_sign(const std::string& text) {
 constexpr std::array<std::string_view, 12> kFunctions = {
     "abs", "sqrt", "min", "max", "floor", "hypot", "exp", "log", "pow", "sin", "cos", "atan2"};
 
-/// The library's own word for a place, without the blanks that it leaves around.
+/// The token that the library reports, without surrounding blanks.
 std::string token_of(const mu::Parser::exception_type& error) {
   const std::string& token = error.GetToken();
   const std::size_t first = token.find_first_not_of(' ');
@@ -101,7 +101,7 @@ std::string message_of(const mu::Parser::exception_type& error,
 
 struct CompiledFormula::Compiled {
   std::string text;
-  std::vector<std::string_view> names;  ///< of literals
+  std::vector<std::string_view> names;  ///< refer to string literals
   std::vector<double> values;
   mu::Parser parser;
 

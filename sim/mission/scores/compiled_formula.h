@@ -9,10 +9,10 @@
 
 namespace swarmsmith {
 
-/// A formula over named numbers, as campaign files have it: + - * /, comparisons, `&&`, `||`, `!`,
-/// `? :`, `pi`, and the functions abs, sqrt, min, max, floor, hypot, exp, log, pow, sin, cos,
-/// atan2. Its bits are the same on every computer, since the functions are those of base/math.h.
-/// Values may be copied; each copy is for one thread.
+/// A formula over named numbers, as written in campaign files: + - * /, comparisons, `&&`, `||`,
+/// `!`, `? :`, `pi`, and the functions abs, sqrt, min, max, floor, hypot, exp, log, pow, sin, cos,
+/// atan2. Its results have the same bits on every computer, because it uses the functions of
+/// base/math.h. Not thread-safe; copy it for each thread.
 class CompiledFormula {
  public:
   /// Throws std::invalid_argument for a text with a fault.
@@ -23,12 +23,12 @@ class CompiledFormula {
   CompiledFormula& operator=(CompiledFormula&& other) noexcept;
   ~CompiledFormula();
 
-  /// What is wrong with the text and where in it; nothing for a good one.
+  /// The error in the text, with its place; nothing for a valid text.
   static std::optional<std::string> fault(const std::string& text,
                                           std::span<const std::string_view> names);
 
   bool uses(std::string_view name) const;
-  /// `values` in the order of the names.
+  /// `values` must be in the order of the names.
   double operator()(std::span<const double> values) const;
 
  private:

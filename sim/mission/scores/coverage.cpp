@@ -5,7 +5,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Sum of the ages 0, 1, ..., duration - 1 that a tile goes through in `duration` instants.
+/// Sum of the ages 0, 1, ..., duration - 1 of a tile during `duration` instants.
 std::int64_t sum_of_ages(std::int64_t duration) {
   return duration * (duration - 1) / 2;
 }
@@ -14,12 +14,12 @@ std::int64_t sum_of_ages(std::int64_t duration) {
 
 CoverageScorer::CoverageScorer(const Coverage& rule, const Arena& /*arena*/)
     : rule_(rule), tiles_per_metre_(rule.tiles / rule.side_m) {
-  // At the first instant all tiles are of age 0, visited or not (rvr-automode facts, section 8).
+  // At the first instant all tiles have age 0, visited or not (rvr-automode facts, section 8).
   const auto tiles = static_cast<std::size_t>(rule.tiles);
   visited_.assign(tiles * tiles, 1);
 }
 
-/// A robot outside of the square of tiles visits none.
+/// A robot outside the square of tiles visits none.
 void CoverageScorer::observe(const Positions& seen) {
   ++instant_;
   const double tiles = rule_.tiles;

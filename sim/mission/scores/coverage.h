@@ -10,8 +10,8 @@ namespace swarmsmith {
 
 class CoverageScorer;
 
-/// Minus the mean age of the tiles, summed over the control cycles (thesis eq. 6.2): `tiles` x
-/// `tiles` squares over a centred square of side `side_m`, ages in cycles.
+/// Minus the mean age of the tiles, summed over the control cycles (thesis eq. 6.2). There are
+/// `tiles` x `tiles` tiles on a centred square of side `side_m`; ages are in cycles.
 struct Coverage {
   static constexpr std::string_view kKind = "coverage";
   using Scorer = CoverageScorer;
@@ -39,8 +39,8 @@ class CoverageScorer {
  private:
   Coverage rule_;
   double tiles_per_metre_;
-  /// Instead of ages, the instant at which each tile was last of age 0, and the sum of the ages up
-  /// to those instants.
+  /// Instead of ages, the instant at which each tile last had age 0, and the sum of the ages up to
+  /// those instants.
   std::vector<std::int64_t> visited_;
   std::int64_t instant_ = 0;
   std::int64_t age_sum_ = 0;

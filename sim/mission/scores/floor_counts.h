@@ -9,15 +9,15 @@
 
 namespace swarmsmith {
 
-/// How many points lie on floor of each of some colours: at the last instant, or added up over all.
-/// Counts are integers, so that neither the order of the points nor that of the instants matters.
+/// The number of points that lie on each of several floor colours, at the last instant or summed
+/// over all instants. Counts are integers, so the order of points and instants does not matter.
 class FloorCounts {
  public:
-  /// `arena` with the patches of this run; copied.
+  /// `arena` must include the patches of this run.
   FloorCounts(std::vector<Rgb> colors, When at, Arena arena);
 
   void observe(std::span<const Point> points);
-  /// One a colour, in their order.
+  /// One count per colour, in the order of the colours.
   std::vector<std::int64_t> counts() const;
 
  private:
@@ -26,7 +26,8 @@ class FloorCounts {
   std::vector<Rgb> colors_;
   When at_;
   Arena arena_;
-  std::vector<Point> last_;         ///< for the end, which looks at the floor only when asked
+  std::vector<Point> last_;         ///< for the count at the end, which looks up the floor only
+                                    ///< when requested
   std::vector<std::int64_t> sums_;  ///< for the sum
 };
 

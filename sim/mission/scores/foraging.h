@@ -13,7 +13,7 @@ class ForagingScorer;
 /// Number of items that the robots brought from a source to the nest (Francesca et al., AutoMoDe,
 /// Swarm Intelligence 8, 2014, section 4: foraging). Items are not simulated: a robot takes one
 /// when its centre is on floor of the colour `source`, and leaves it when it is on floor of the
-/// colour `nest`. It carries one at a time; sources are never empty.
+/// colour `nest`. A robot carries one item at a time; sources are never empty.
 struct Foraging {
   static constexpr std::string_view kKind = "foraging";
   using Scorer = ForagingScorer;
@@ -35,14 +35,14 @@ class ForagingScorer {
  public:
   ForagingScorer(const Foraging& rule, Arena arena);
 
-  /// A robot keeps its place in `seen.robots` for a whole run.
+  /// A robot must keep its index in `seen.robots` for a whole run.
   void observe(const Positions& seen);
   double score() const;
 
  private:
   Foraging rule_;
   Arena arena_;
-  std::vector<char> carries_;  ///< one a robot
+  std::vector<char> carries_;  ///< one per robot
   std::int64_t items_ = 0;
 };
 

@@ -13,12 +13,13 @@ namespace {
 
 constexpr double kInstantsPerSecond = 10;
 
-/// Names of a formula of robots or objects, then those of the colours; the same places in Values.
+/// Names in a formula for robots or objects, then the names of the colours; in the same order as in
+/// Values.
 enum Name : std::size_t { kX, kY, kT, kSpeed, kNearest, kFromCentre, kFirstColor };
 constexpr std::array<std::string_view, 13> kNames = {
     "x",    "y",     "t",   "speed", "nearest", "from_centre", "black",
     "gray", "white", "red", "green", "blue",    "yellow"};
-/// Of a formula of the swarm. `spread` is in the place of `nearest`, `robots` of `from_centre`.
+/// Names in a formula for the swarm: `spread` replaces `nearest`, `robots` replaces `from_centre`.
 constexpr std::array<std::string_view, 13> kSwarmNames = {
     "x",    "y",     "t",   "speed", "spread", "robots", "black",
     "gray", "white", "red", "green", "blue",   "yellow"};
@@ -35,7 +36,7 @@ double distance(Point a, Point b) {
   return hypot(a.x - b.x, a.y - b.y);
 }
 
-/// The same to the last bit, in whatever order they come.
+/// A sum that has the same bits for any order of the values.
 double ordered_sum(std::vector<double> values) {
   std::ranges::sort(values);
   double sum = 0;
@@ -44,7 +45,7 @@ double ordered_sum(std::vector<double> values) {
   return sum;
 }
 
-/// Sum over `points` of `value(point)` divided by their number; 0 for none.
+/// Mean of `value(point)` over `points`; 0 if there are none.
 template <class Value>
 double mean_of(std::span<const Point> points, Value value) {
   std::vector<double> values;
@@ -58,7 +59,7 @@ Point centre_of(std::span<const Point> points) {
           mean_of(points, [](Point p) { return p.y; })};
 }
 
-/// Metres per second since the instant before; 0 at the first.
+/// Metres per second since the previous instant; 0 at the first.
 double speed_of(std::span<const Point> now, std::span<const Point> before, std::size_t i) {
   return i < before.size() ? distance(now[i], before[i]) * kInstantsPerSecond : 0;
 }

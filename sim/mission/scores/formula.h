@@ -14,9 +14,9 @@ class FormulaScorer;
 inline constexpr std::array<std::string_view, 3> kFormulaSubjects = {"robots", "objects", "swarm"};
 inline constexpr std::array<std::string_view, 4> kFormulaFolds = {"sum", "mean", "min", "max"};
 
-/// What a formula of the campaign file says, so that a user's own score needs no compiler:
-/// `value` is worked out for each robot, each movable object or once for the swarm at an instant,
-/// and put together by `over`. docs/missions.md lists the names that it may use.
+/// A score given by a formula in the campaign file, so that users need no compiler for their own
+/// score. `value` is computed at each instant for each robot, for each movable object, or once for
+/// the swarm; `over` combines the values. docs/missions.md lists the names that a formula may use.
 struct Formula {
   static constexpr std::string_view kKind = "formula";
   using Scorer = FormulaScorer;
@@ -54,7 +54,7 @@ class FormulaScorer {
  public:
   FormulaScorer(const Formula& rule, Arena arena);
 
-  /// A robot or object keeps its place in `seen` for a whole run.
+  /// A robot or object must keep its index in `seen` for a whole run.
   void observe(const Positions& seen);
   double score() const;
 
@@ -68,7 +68,7 @@ class FormulaScorer {
   int instant_ = 0;
   std::vector<Point> robots_;
   std::vector<Point> objects_;
-  std::vector<Point> robots_before_;  ///< as they were at the instant before, for speeds
+  std::vector<Point> robots_before_;  ///< positions at the previous instant, for speeds
   std::vector<Point> objects_before_;
   double sum_ = 0;
 };

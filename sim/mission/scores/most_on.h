@@ -11,10 +11,10 @@ namespace swarmsmith {
 
 class MostOnScorer;
 
-/// Number of robots on the fullest one of the patches of `color`: aggregation where any of some
-/// spots will do (epuck facts, section 6.3: two-spot aggregation, XOR). Patches are counted each
-/// by itself, whatever lies on top of them. The floor around them is one more spot where it has the
-/// colour.
+/// Number of robots on the patch of `color` that has the most: aggregation on any one of several
+/// spots (epuck facts, section 6.3: two-spot aggregation, XOR). Each patch is counted separately,
+/// even if others lie on top of it. The floor around the patches counts as one more spot if it has
+/// the colour.
 struct MostOn {
   static constexpr std::string_view kKind = "most_on";
   using Scorer = MostOnScorer;
@@ -45,10 +45,10 @@ class MostOnScorer {
  private:
   MostOn rule_;
   std::vector<Patch> spots_;
-  std::vector<Patch> patches_;  ///< all of them, where the floor between them counts
+  std::vector<Patch> patches_;  ///< all patches, if the floor between them counts
   bool counts_floor_;
   std::size_t robots_ = 0;
-  std::int64_t last_ = 0;  ///< robots on the fullest spot
+  std::int64_t last_ = 0;  ///< robots on the fullest spot at the last instant
   std::int64_t sum_ = 0;
 };
 

@@ -7,8 +7,8 @@ namespace swarmsmith {
 
 class ObjectsOnScorer;
 
-/// Number of the arena's movable objects whose centre is on floor of `color`: the score of missions
-/// that push things to a place. With `at` "sum" sooner is better.
+/// Number of movable objects whose centre is on floor of `color`: the score for missions in which
+/// robots push objects to a place. With `at` "sum", earlier is better.
 struct ObjectsOn {
   static constexpr std::string_view kKind = "objects_on";
   using Scorer = ObjectsOnScorer;

@@ -7,8 +7,8 @@ namespace swarmsmith {
 
 class RobotsOnScorer;
 
-/// Number of robots on floor of `color` (thesis eq. 6.1); with `at` "sum" the anytime variant,
-/// robot cycles on that floor.
+/// Number of robots on floor of `color` (thesis eq. 6.1). With `at` "sum" it is the anytime
+/// variant: the number of cycles, summed over robots, on that floor.
 struct RobotsOn {
   static constexpr std::string_view kKind = "robots_on";
   using Scorer = RobotsOnScorer;

@@ -12,13 +12,13 @@
 
 namespace swarmsmith {
 
-/// What kinds of score are made of. Each is a struct that lists its parameters with a function
+/// The parts of a kind of score. Each kind is a struct that lists its parameters with a function
 /// template `fields(rule, visitor)`, which calls `visitor(ScoreField, member)` for each of them, in
-/// a fixed order. Campaign files, stored texts and messages are read and written by visitors, so
-/// that they know no kind by name. A parameter is a double, int, bool, Rgb, When, std::string
-/// or std::vector<Reward>. `unit()` says what its score counts, for axes. A kind may have
-/// `std::optional<ScoreFault> fault() const` besides, for what the limits of a parameter cannot
-/// say.
+/// a fixed order. Visitors read and write campaign files, stored texts and messages, without code
+/// for particular kinds. A parameter is a double, int, bool, Rgb, When, std::string or
+/// std::vector<Reward>. `unit()` gives the unit of the score, for axes. A kind may also have
+/// `std::optional<ScoreFault> fault() const`, for errors that the limits of a parameter cannot
+/// express.
 
 /// One parameter of a kind of score, as a key of [mission.score].
 struct ScoreField {
@@ -27,25 +27,25 @@ struct ScoreField {
   /// Limits of numbers and rewards, both included.
   double least = -1e9;
   double most = 1e9;
-  /// A file must say it; else it is what the struct says.
+  /// Whether a file must give it; otherwise the default of the struct is used.
   bool required = false;
-  /// What a text may be; empty: anything.
+  /// The allowed values of a text; empty: any text.
   std::span<const std::string_view> choices{};
 
-  /// Not for NaN.
+  /// False for NaN.
   bool allows(double value) const { return value >= least && value <= most; }
 };
 
-/// What is wrong with a rule.
+/// The error in a rule.
 struct ScoreFault {
   std::string_view key;
-  std::string what;  ///< goes on after "the score's `key`"
+  std::string what;  ///< continues the sentence that begins "the score's `key`"
 };
 
-/// When a score looks at the swarm.
+/// The instants that a score evaluates.
 enum class When {
   End,  ///< once, at the last instant
-  Sum   ///< at every instant of 0.1 s; what it sees is added up, and divided by nothing
+  Sum   ///< every instant of 0.1 s; the values are summed, not averaged
 };
 
 inline constexpr std::array<std::string_view, 2> kWhenNames = {"end", "sum"};
@@ -61,7 +61,8 @@ constexpr std::optional<When> when_from_name(std::string_view name) {
   return std::nullopt;
 }
 
-/// What a score counts that looks at the swarm so: "robots", "robots, summed over instants".
+/// The unit of a score that counts these things at these instants: "robots", "robots, summed over
+/// instants".
 inline std::string summed_unit(std::string_view counted, When at) {
   return std::string(counted) + (at == When::Sum ? ", summed over instants" : "");
 }
@@ -71,7 +72,7 @@ inline constexpr ScoreField kAtField{
     .key = "at",
     .meaning = R"(`"end"`: as it is at the last instant; `"sum"`: summed over all instants)"};
 
-/// What standing on a colour is worth.
+/// The reward for standing on a colour.
 struct Reward {
   Rgb color;
   double reward = 0;
@@ -79,8 +80,8 @@ struct Reward {
   friend bool operator==(const Reward&, const Reward&) = default;
 };
 
-/// What a score sees at an instant: the centres of the robots and those of the arena's movable
-/// objects, the latter in the arena's order.
+/// The input of a score at an instant: the centres of the robots, and of the movable objects in the
+/// arena's order.
 struct Positions {
   std::span<const Point> robots;
   std::span<const Point> objects;
