@@ -26,8 +26,9 @@ using Repair = std::function<Expected<Configuration>(const Configuration&)>;
 /// the end, blocks.
 inline constexpr int kRaceVersion = 2;
 
-/// The budget of a design: max_experiments, possibly raised by min_experiments; 0 with max_time,
-/// where the number of experiments is known only once some have run.
+/// The budget of a design: max_experiments, or, if min_experiments is set, the larger of it and the
+/// smallest budget that works; 0 with max_time, where the number of experiments is known only once
+/// some have run.
 std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario);
 
 /// Elitist iterated racing (Lopez-Ibanez et al., "The irace package", Operations Research

@@ -30,7 +30,8 @@ enum class AblationType { Full, Racing };
 /// describes the default in words, zero means "automatic".
 struct Scenario {
   std::int64_t max_experiments = 0;  ///< the budget: maximum number of experiments
-  /// Raises the budget to this or to the smallest that works.
+  /// If set, the budget is this number, or the smallest that works if that is larger, and
+  /// max_experiments is ignored.
   std::optional<std::int64_t> min_experiments;
   std::int64_t n_instances = 1;
   std::uint64_t seed = 1;
