@@ -47,7 +47,7 @@ class Values {
   std::vector<Scalar> many_;  ///< empty for length one
 };
 
-/// What a node of an expression does. The groups are: leaves; logic; comparisons and %in%;
+/// The operation of a node of an expression. The groups are: leaves; logic; comparisons and %in%;
 /// arithmetic; c() and conversions; functions. The code relies on the order of the groups.
 enum class Operation {
   Constant,

@@ -53,7 +53,7 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 /// - The limit of 1024 configurations per race is an option.
 /// - Runs of a rejected configuration on later tasks of a batch are ignored, so that the result
 ///   does not depend on the number of runs that were asked for at once.
-///   not depend on how much was run at once.
+///
 /// All randomness comes from streams that are derived, each by its name, from the scenario's seed:
 /// "instances" (order and seeds of the pairs, row by row), "initial" (the seed of the Sobol
 /// sequence), "sampling" by iteration (parents and values, one configuration after the other,

@@ -75,8 +75,8 @@ struct Interval {
 
 class Assignment;
 
-/// The parameters that are tuned, in declaration order, and the forbidden configurations; checked
-/// when it is made.
+/// The parameters that are tuned, in declaration order, and the forbidden configurations. A space
+/// is checked when it is made.
 class ParameterSpace {
  public:
   /// An empty space, to be assigned to later.

@@ -105,8 +105,8 @@ struct TimeEstimated {
   std::int64_t runs = 0;       ///< experiments so far
   double used = 0;             ///< time of all experiments so far
   double mean_time = 0;        ///< of one experiment, rounded up to bound_digits
-  std::int64_t remaining = 0;  ///< experiments
-  double bound_max = 0;        ///< from now on
+  std::int64_t remaining = 0;  ///< experiments that fit in the remaining time
+  double bound_max = 0;        ///< the maximum time of a run from now on
   /// (configuration, pair) of the batch, in order; empty after races.
   std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
 };

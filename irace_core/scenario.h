@@ -16,7 +16,8 @@ enum class TestType {
   TTestHolm,
 };
 
-/// The summary of the elites' times (or costs) that bounds the other configurations, when capping.
+/// The statistic of the elites' times (or costs) that bounds the other configurations, when
+/// capping.
 enum class CappingType { Median, Mean, Worst, Best };
 
 /// Whether a bound limits the total of a configuration's runs in a race, or the run on one pair.

@@ -19,8 +19,8 @@ enum class ExpressionUse {
 
 /// Reads an expression over the parameters `names` (irace facts, 8.2). T and F are TRUE and FALSE
 /// unless a parameter has that name. A minus before a number makes a negative constant. Unknown
-/// names, operators and functions are errors, which suggest a replacement. In both, `where` is
-/// line:column, counted from `start`.
+/// names, operators and functions are errors, which suggest a replacement. In errors and warnings,
+/// `where` is line:column, counted from `start`.
 Expected<Expression> parse_expression(std::string_view text, std::span<const std::string> names,
                                       ExpressionUse use, r::Place start,
                                       std::vector<Error>& warnings);

@@ -15,7 +15,7 @@ std::optional<double> number_of(std::string_view text);
 std::string shortest_text(double number);
 
 /// The text as a string of R: in double quotes, with backslashes before quotes and backslashes, and
-/// and \t for line ends and tabs.
+/// \n and \t for line ends and tabs.
 std::string quoted_in_r(std::string_view text);
 
 }  // namespace swarmsmith

@@ -27,7 +27,7 @@ class QualityVariance {
   void add_row(std::span<const Entry> row);
   /// Removes all rows, for instance after columns were dropped.
   void reset();
-  /// Mean over `columns`; nothing for a single row or column.
+  /// The mean variance of `columns`; nothing for a single row or column.
   std::optional<double> value(std::span<const std::size_t> columns) const;
 
  private:

@@ -22,7 +22,8 @@ class TruncatedNormal {
   double sd_;
   double lower_;
   double upper_;
-  /// Whether it is mirrored into the lower tail, where probabilities keep their digits.
+  /// Whether it is mirrored, so that it is computed in the lower tail, where probabilities keep
+  /// their digits.
   bool mirrored_;
   double p_low_ = 0;  ///< probabilities of the mirrored and standardised ends
   double p_high_ = 1;

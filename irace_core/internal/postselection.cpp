@@ -57,7 +57,7 @@ std::vector<std::size_t> choose_for_postselection(
   needs.reserve(considered.size());
   for (const std::size_t i : considered)
     needs.push_back(candidates[i].missing + step);
-  // 14.2 takes those that miss no pair at no cost.
+  // In 14.2, candidates that miss no pair cost nothing.
   std::vector<std::size_t> chosen = step > 0 ? std::vector<std::size_t>{} : complete;
   for (const std::size_t i : largest_set_that_fits(needs, remaining))
     chosen.push_back(considered[i]);

@@ -192,7 +192,7 @@ void Race::close_task() {
   open_.reset();
   SWARMSMITH_ASSERT(progress_.task == static_cast<std::size_t>(step.task) - 1,
                     "tasks come in turn");
-  pass(progress_, ran);  // 9.3.4; rejections (9.3.5) were taken out as their costs came
+  pass(progress_, ran);  // 9.3.4; rejected ones (9.3.5) were removed when their costs arrived
   used_ = progress_.used;
   step.experiments_used = used_;
   if (alive_.empty()) {

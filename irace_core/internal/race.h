@@ -34,7 +34,7 @@ class Race {
   bool finished() const { return stop_.has_value(); }
   /// Why it stopped, in words.
   const std::string& stop_reason() const { return *stop_; }
-  /// All contestants were rejected: there is no result.
+  /// Whether all contestants were rejected, so that there is no result.
   bool nobody_left() const { return alive_.empty(); }
   /// An error of the target with which no race can continue: a time above its bound, or no time
   /// although bounds need one. The race is then finished, and its survivors are meaningless.
@@ -171,7 +171,8 @@ class Race {
   Progress progress_;
   std::int64_t used_ = 0;
   std::int64_t tests_without_drop_ = 0;
-  /// Number of the first tasks, up to the last task on which no alive configuration has a result.
+  /// The number, from 1, of the last task among new and past pairs on which no alive configuration
+  /// has a result; 0 if there is none.
   std::size_t uncovered_ = 0;
 
   RankTable ranks_;

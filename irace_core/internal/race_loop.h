@@ -90,8 +90,8 @@ class IteratedRace::State {
     std::vector<Measurement> runs;
     std::int64_t pairs;
   };
-  /// A run whose result the race has and that no step has reported yet. Most of them are reported
-  /// in a step; those of rejected configurations are ignored.
+  /// A run whose result was given to the race and that no step has reported yet. Most of them are
+  /// reported in a step; those of rejected configurations are ignored.
   struct ToldRun {
     double time;
     bool was_known;

@@ -102,9 +102,9 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
   return std::nullopt;
 }
 
-/// Counts a task on which `ran` (ascending) were run; protected elites that were not run have used
-/// up a known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never increases: after the
-/// last past pair no column is protected.
+/// Counts a task on which the columns `ran` (ascending) were run; protected elites that were not
+/// run have used up a known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never
+/// increases: after the last past pair no column is protected.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   SWARMSMITH_ASSERT(std::ranges::is_sorted(ran), "columns are looked up by halving");
   for (const std::size_t c : alive_) {

@@ -13,9 +13,9 @@
 
 namespace swarmsmith {
 
-/// CMA-ES on a RealBox, starting from its middle, in generations like those of evolution. In the
-/// final stage are the best configurations of the last generation and the mean of the distribution.
-/// A point outside the box is drawn again, up to a hundred times; after that, the nearest point
+/// CMA-ES on a RealBox, starting from its middle, in generations like those of evolution. The final
+/// stage runs the best configurations of the last generation and the mean of the distribution. A
+/// point outside the box is drawn again, up to a hundred times; after that, the nearest point
 /// inside is run, and the distribution is updated with the point that was drawn. Normal numbers of
 /// generation g come from the stream "cma-es" with index g.
 struct CmaEsOptions {

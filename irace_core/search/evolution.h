@@ -39,7 +39,7 @@ struct EvolutionOptions {
   double parents = 0.2;    ///< share of the population that has children
   double elites = 0.2;     ///< share that stays unchanged; at most `parents`
   Mutation mutation = Mutation::Neat;
-  /// Largest (neat) or standard deviation (normal) of a change, in tenths of a range.
+  /// Largest change (neat) or standard deviation of the change (normal), in tenths of a range.
   double step = 1;
   std::int64_t final_runs = 0;  ///< of each member at the end; automatic: the published numbers
 

@@ -62,7 +62,7 @@ class Strategy {
   /// over.
   virtual Expected<void> extend(std::int64_t experiments) = 0;
   virtual Expected<std::int64_t> least_extension() const = 0;
-  /// Adds all state to the digest on which later rounds depend, except for the costs.
+  /// Adds to the digest all state that later rounds depend on, except for the costs.
   virtual void add_to(Digest& digest) const = 0;
 };
 

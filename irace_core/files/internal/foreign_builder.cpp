@@ -236,7 +236,7 @@ Expected<ForeignSpace> ForeignBuilder::build(const ForeignSpaceOptions& options)
   auto space = ParameterSpace::make(std::move(parameters), std::move(forbidden_),
                                     options.digits.value_or(digits()));
   if (!space) return Unexpected(placed(std::move(space.error())));
-  // The text is kept because later steps read irace's format.
+  // Later steps read this text in irace's format, so it is read here as a check.
   auto text = print_parameter_file(*space);
   if (!text) return Unexpected(placed(std::move(text.error())));
   if (auto again = parse_parameter_file({.parameters = {*text, "the converted file"}}); !again) {
