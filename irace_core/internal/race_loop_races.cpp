@@ -74,7 +74,8 @@ void IteratedRace::State::order_pairs(irace::RaceSettings& settings) {
 }
 
 /// Shuffles by blocks, so that each block is tried as a whole (R shuffles single pairs: irace
-/// facts, 25.7). A last block of which rejections left a part unused stays at the end.
+/// facts, 25.7). If rejections left a part of the last block unused, that block stays at
+/// the end.
 void IteratedRace::State::shuffle_past(std::span<std::int64_t> past) const {
   const std::int64_t size = scenario.block_size;
   std::vector<std::int64_t> blocks(past.size() / static_cast<std::size_t>(size));

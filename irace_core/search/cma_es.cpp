@@ -57,8 +57,7 @@ void rotate(std::vector<double>& matrix, std::vector<double>& vectors, std::size
 std::vector<double> eigenvalues(std::vector<double> matrix, std::size_t n,
                                 std::vector<double>& vectors) {
   constexpr int kMostSweeps = 50;
-  constexpr double kSmall =
-      1e-30;  ///< limit for squares off the diagonal, relative to the diagonal
+  constexpr double kSmall = 1e-30;  ///< for squares off the diagonal, relative to the diagonal
   SWARMSMITH_ASSERT(matrix.size() == n * n, "a square matrix");
   vectors.assign(n * n, 0);
   for (std::size_t i = 0; i < n; ++i)
