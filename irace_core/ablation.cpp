@@ -128,7 +128,8 @@ class Ablation final : public Search {
     std::vector<double> costs;  ///< by pair; NaN if it was not run on that pair
   };
 
-  /// As in R's ablation, instances are shuffled one by one, whatever the block size of races is.
+  /// As in R's ablation, instances are shuffled one by one, independently of the block size of
+  /// races.
   static Scenario one_by_one(Scenario scenario) {
     scenario.block_size = 1;
     return scenario;
@@ -140,7 +141,7 @@ class Ablation final : public Search {
 
   Member& member(std::int64_t id) { return members_[static_cast<std::size_t>(id - 1)]; }
 
-  /// In the other iterations, the source or the target is run on all pairs.
+  /// Whether this iteration is a step; in the others, the source or the target is run on all pairs.
   bool is_step() const { return iteration_ > 1 && !(members_.back().configuration == target_); }
 
   void begin(std::vector<Configuration> configurations);

@@ -16,7 +16,7 @@ struct Experiment {
   /// Such calls do not count in the budget. Later races call it again for the same (configuration,
   /// pair); `task` distinguishes these calls.
   bool is_evaluation = false;
-  /// For calls of the targetEvaluator: number of the task in the design, from 1.
+  /// Number of the task in the design, from 1; only for calls of the targetEvaluator.
   std::int64_t task = 0;
 
   friend bool operator==(const Experiment&, const Experiment&) = default;

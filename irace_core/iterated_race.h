@@ -71,9 +71,10 @@ class IteratedRace : public Search {
   ~IteratedRace() override;
 
   bool finished() const override;
-  /// Why there is no result: every configuration was rejected, a dependent domain was empty, only
-  /// forbidden configurations could be sampled, a repair returned a configuration outside the
-  /// space, a time is missing, or the time is too short for one race. Only once finished.
+  /// The reason why there is no result: every configuration was rejected, a dependent domain was
+  /// empty, only forbidden configurations could be sampled, a repair returned a configuration
+  /// outside the space, a time is missing, or the time is too short for one race. Only once
+  /// finished.
   const std::optional<Error>& failure() const override;
 
   /// Everything that the race certainly needs before its next test, in canonical order (task, then

@@ -144,8 +144,8 @@ class ParameterSpace {
   /// expressions read.
   void prepare_conditions();
   void mark_as_read(const Expression& expression);
-  /// Nothing when the condition mentions several parameters, a real, or an integer with a wide
-  /// domain.
+  /// Returns nothing if the condition mentions several parameters, a real, or an integer with a
+  /// wide domain.
   std::optional<ConditionTable> tabulate(const Expression& condition) const;
 
   std::vector<Parameter> parameters_;

@@ -39,7 +39,7 @@ struct Scenario {
   bool sample_instances = true;  ///< shuffle the instances
   bool deterministic = false;    ///< each instance is used at most once
 
-  std::optional<TestType> test_type;  ///< FTest, or TTest when capping
+  std::optional<TestType> test_type;  ///< default: FTest, or TTest when capping
   double confidence = 0.95;
   std::int64_t first_test = 5;  ///< blocks before the first test; a multiple of each_test
   std::int64_t each_test = 1;   ///< blocks between tests

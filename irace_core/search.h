@@ -24,7 +24,7 @@ class Search {
   virtual ~Search() = default;
 
   virtual bool finished() const = 0;
-  /// Why there is no result. Only once finished.
+  /// The reason why there is no result. Only once finished.
   virtual const std::optional<Error>& failure() const = 0;
 
   /// All experiments that the search certainly needs before its next decision, in canonical order

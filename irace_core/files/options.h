@@ -28,7 +28,7 @@ enum class IraceKind {
   Anything  ///< an object of R, whose value is ignored
 };
 
-/// The support for an option in this program.
+/// How this program treats an option.
 enum class IraceMeaning {
   Supported,
   Ignored,  ///< accepted, but without effect; the remark gives the reason
@@ -42,7 +42,7 @@ enum class IraceGroup { Do, Files, Instances, Target, Budget, Race, Capping, Her
 
 /// An option of irace or of `swarmsmith irace` (irace facts, 22).
 struct IraceOption {
-  /// In scenario files; empty for options that exist only on the command line.
+  /// The name in scenario files; empty for options that exist only on the command line.
   std::string_view name;
   std::string_view short_switch;  ///< "-s", or empty
   std::string_view long_switch;   ///< "--scenario", or empty for options that exist only in files

@@ -62,7 +62,8 @@ std::optional<bool> logical_of(const Node& node);
 /// from `start`; the message says what was found and what was expected.
 Expected<Node> parse_expression(std::string_view text, Place start = {});
 
-/// A statement `name = expression` or `name <- expression`; a separate expression has no name.
+/// A statement `name = expression` or `name <- expression`; for an expression without an assignment
+/// the name is empty.
 struct Statement {
   std::string name;
   Node value;

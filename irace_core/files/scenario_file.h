@@ -19,7 +19,7 @@ struct IraceScenarioFile {
 };
 using IraceScenarioFileOrErrors = tl::expected<IraceScenarioFile, std::vector<Error>>;
 
-/// The things outside the text that reading a scenario needs.
+/// The environment in which a scenario is read.
 struct ScenarioSurroundings {
   /// Returns the text of an included file.
   std::function<Expected<std::string>(const std::filesystem::path&)> read;

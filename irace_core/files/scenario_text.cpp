@@ -41,7 +41,8 @@ class Printer {
   }
 
   void print_files() {
-    // Also written if it is empty, which means no log; if it were left out, there would be a log.
+    // This line is also written if the name is empty, which means no log; without it there would be
+    // one.
     line("logFile", setup_.log_file.string());
     line("parameterFile", names_.parameters);
     // Without this line, irace 3.5 would put ./Instances before every instance.

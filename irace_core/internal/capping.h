@@ -9,7 +9,8 @@
 
 namespace swarmsmith::irace {
 
-/// The rules about time for all runs of a race (irace facts, 17); options of the same names.
+/// The rules about time for all runs of a race (irace facts, 17). The members are options of the
+/// same names.
 struct TimeRules {
   double bound_max = 0;
   std::int64_t bound_digits = 0;

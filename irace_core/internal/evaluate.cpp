@@ -100,7 +100,7 @@ Scalar compare(Operation operation, const Scalar& a, const Scalar& b) {
   return Scalar::logical(holds);
 }
 
-/// By squaring for whole exponents, so that powers of small integers are exact.
+/// The power, by repeated squaring for whole exponents, so that powers of small integers are exact.
 double power(double base, double exponent) {
   if (base == 1 || exponent == 0) return 1;
   if (exponent == std::floor(exponent) && std::fabs(exponent) <= 1'000'000) {
@@ -248,7 +248,7 @@ struct Sequence {
   }
 };
 
-/// Nothing when an end is missing or not a number.
+/// The sequence from:to; nothing if an end is missing or not a number.
 std::optional<Sequence> sequence(const Values& from, const Values& to) {
   const Scalar first = convert(from[0], Type::Real);
   const Scalar last = convert(to[0], Type::Real);

@@ -74,7 +74,7 @@ class SamplingModels {
   void restart(std::int64_t id, std::int64_t new_configurations);
   /// Samples a configuration from the model of an elite.
   Expected<Configuration> sample(std::int64_t elite, Rng& rng) const;
-  /// 0 without models.
+  /// The digest of all models; 0 without models.
   std::uint64_t digest() const;
 
  private:

@@ -32,7 +32,7 @@ class Race {
   Race(RaceSettings settings, std::vector<Contestant> contestants);
 
   bool finished() const { return stop_.has_value(); }
-  /// Why it stopped, in words.
+  /// The reason why the race stopped, as text.
   const std::string& stop_reason() const { return *stop_; }
   /// Whether all contestants were rejected, so that there is no result.
   bool nobody_left() const { return alive_.empty(); }
@@ -88,7 +88,7 @@ class Race {
   struct Progress {
     std::size_t task = 0;  ///< tasks that are done
     std::int64_t used = 0;
-    std::vector<std::int64_t> protection;  ///< by column: known pairs that are still to come
+    std::vector<std::int64_t> protection;  ///< by column: known pairs whose tasks are still to come
     std::vector<std::int64_t> results;     ///< by column: number of pairs with a result
   };
 

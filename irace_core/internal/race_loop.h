@@ -31,7 +31,8 @@ struct Candidate {
 
   irace::KeptConfiguration configuration;
   std::int64_t parent = 0;
-  /// False for forbidden initial configurations and for rejected ones.
+  /// Whether it may take part in races: false for forbidden initial configurations and for rejected
+  /// ones.
   bool takes_part = true;
   std::vector<Result> results;  ///< in the order in which they arrived
 
@@ -118,14 +119,17 @@ class IteratedRace::State {
   Expected<void> may_be_extended() const;
 
   // Choice of the configurations of a race.
-  /// Elites of the estimate, then given configurations, then sampled ones.
+  /// The configurations of the first race: elites of the estimate, then given ones, then sampled
+  /// ones.
   Expected<std::vector<std::int64_t>> first_contestants(const irace::RacePlan& plan);
-  /// Elites by rank, then new configurations from their models; sampled again after a soft restart.
+  /// The configurations of a later race: elites by rank, then new ones from their models, which are
+  /// sampled again after a soft restart.
   Expected<std::vector<std::int64_t>> later_contestants(const irace::RacePlan& plan,
                                                         IterationStarted& started);
-  /// Up to `count` new configurations from the initial distribution.
+  /// Samples up to `count` new configurations from the initial distribution.
   Expected<std::vector<std::int64_t>> sample_initial(std::int64_t count, std::int64_t in_iteration);
-  /// Forbidden configurations are replaced, in up to 100 rounds.
+  /// Samples `count` configurations from the models; forbidden ones are replaced, in up to 100
+  /// rounds.
   Expected<std::vector<Candidate>> sample_new(std::int64_t count, Rng& rng);
   /// The elites whose models sampled configurations that are too similar; each once, ascending.
   std::vector<std::int64_t> lines_to_restart(const std::vector<Candidate>& sampled) const;
@@ -172,11 +176,11 @@ class IteratedRace::State {
   Expected<void> end_batch(std::span<const Measurement> costs);
   Expected<void> end_estimate();
   void lower_bound_max(double bound);
-  /// Configurations that were tried, with their overall ranks, in the order of `ids`.
+  /// These configurations, which were tried, with their overall ranks, in the order of `ids`.
   std::vector<Elite> ranked(std::span<const std::int64_t> ids) const;
 
   // Post-selection.
-  /// False if a post-selection race is not possible or not worthwhile.
+  /// Begins the post-selection race; returns false if it is not possible or not worthwhile.
   bool begin_postselection();
   std::vector<std::int64_t> preferred() const;
   /// Chooses the elites after a post-selection race that rejected all its configurations: those of

@@ -92,7 +92,8 @@ class Schedule {
   std::variant<RacePlan, NoMoreRaces> plan(std::int64_t remaining, std::int64_t elites,
                                            std::int64_t old_pairs);
   std::int64_t iteration_budget(std::int64_t remaining) const;
-  /// The number of configurations, elites included; too small a number means a shortage of budget.
+  /// The number of configurations, elites included; at most the number of survivors if the budget
+  /// is too small.
   std::int64_t race_size_for(std::int64_t budget, std::int64_t elites, std::int64_t old_pairs);
   /// Rule 3.5.7: the number of experiments that a race certainly needs.
   std::int64_t needed(std::int64_t size, std::int64_t elites) const;

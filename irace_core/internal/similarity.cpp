@@ -18,7 +18,7 @@ namespace {
 struct Prepared {
   /// Digest of all categorical and ordinal values and of the set of active parameters.
   std::uint64_t choices;
-  /// Of active numeric parameters, as fractions of the width of the domain.
+  /// Positions of the active numeric parameters, as fractions of the width of their domains.
   std::vector<double> positions;
 };
 

@@ -29,7 +29,7 @@ void rotate(std::vector<double>& matrix, std::vector<double>& vectors, std::size
   const double off = matrix[at(n, p, q)];
   if (off == 0) return;
   const double theta = (matrix[at(n, q, q)] - matrix[at(n, p, p)]) / (2 * off);
-  // Of the two possible angles the smaller one, with which the other elements change least.
+  // Of the two possible angles this is the smaller one: the other elements change least with it.
   const double sign = theta < 0 ? -1 : 1;
   const double t = sign / (std::abs(theta) + std::sqrt(square(theta) + 1));
   const double c = 1 / std::sqrt(square(t) + 1);

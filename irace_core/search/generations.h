@@ -67,7 +67,8 @@ class Generations final : public Strategy {
 
   GenerationPlan plan_;
   std::unique_ptr<Breeder> breeder_;
-  /// In the plan; the final stage has the number after the last generation.
+  /// Number of the generation in the plan; the final stage has the number after the last
+  /// generation.
   std::int64_t generation_ = 0;
   std::int64_t iterations_before_ = 0;  ///< iterations of finished plans
   std::int64_t generation_number_ = 0;  ///< over all plans, without final stages

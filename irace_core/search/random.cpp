@@ -117,7 +117,7 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
 namespace swarmsmith {
 namespace {
 
-/// Nothing for a search that was extended, since it has another plan.
+/// The plan of the search; nothing for a search that was extended, since it has another plan.
 std::optional<search::GenerationPlan> draws(const RandomOptions& options,
                                             const SearchPoint& point) {
   if (point.finals > 0) return std::nullopt;

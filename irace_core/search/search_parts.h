@@ -108,7 +108,7 @@ std::string of(std::int64_t whole);
 std::string range(std::string_view what, std::int64_t first, std::int64_t last);
 /// The number of the iteration's candidates that have been run: runs arrive pair by pair.
 std::int64_t ready(const SearchPoint& point);
-/// "12 of 20 members"; empty before the iteration has any.
+/// "12 of 20 members"; empty as long as the iteration has no members.
 std::string members(const SearchWords& words, const SearchPoint& point);
 /// "5 runs each".
 std::string each(const SearchPoint& point);

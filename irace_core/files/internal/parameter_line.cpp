@@ -33,7 +33,7 @@ Expected<void> read_type(LineReader& line, ParameterLine& parameter) {
 }
 
 /// The domain extends to the last ')' before the first '|' or comment; quoted values are skipped.
-/// Nothing if there is no such ')'.
+/// Returns nothing if there is no such ')'.
 struct DomainEnd {
   std::size_t close = 0;  ///< of the ')'
   std::size_t stop = 0;   ///< of the '|' or '#', or the end

@@ -61,7 +61,7 @@ Expected<Vector> combine(const Node& node, const std::vector<Part>& parts, bool 
   return apply(node, "c", Operation::Combine, {Part{{}, std::move(all)}});
 }
 
-/// Nothing for a name that is neither an operator nor a function of conditions.
+/// The operation of an operator or function of conditions; nothing for any other name.
 std::optional<Operation> operation_of(const std::string& name, std::size_t operands) {
   if (name == "-" && operands == 1) return Operation::Negate;
   if (name == "!") return Operation::Not;

@@ -26,7 +26,7 @@ fs::path path_of(const SetupWork& work, std::string_view option) {
                             : absolute_path(std::get<std::string>(setting->value), setting->folder);
 }
 
-/// Empty if no option gives the instances, or after an error.
+/// The instances that the options give; empty if no option gives any, or after an error.
 std::vector<std::string> instances_of(SetupWork& work, const Names& names) {
   if (const IraceSetting* vector = work.settings.find(names.vector)) {
     return std::get<std::vector<std::string>>(vector->value);

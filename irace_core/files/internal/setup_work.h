@@ -17,7 +17,7 @@ namespace swarmsmith::irace {
 struct SetupWork {
   IraceAction action = IraceAction::Run;
   SetupSurroundings around;
-  /// Of the scenario file, overridden by those of the command line.
+  /// The settings of the scenario file, overridden by the settings of the command line.
   IraceSettings settings;
   std::filesystem::path scenario_folder;  ///< empty without a scenario file
   IraceSetup setup;
