@@ -1,5 +1,5 @@
-# swarmsmith_share_units(TARGET SOURCE...): where files are compiled in units of several (CMAKE_UNITY_BUILD, as ./dev
-# does), those of a target share them; swarmsmith_form_units() says how.
+# swarmsmith_share_units(TARGET SOURCE...): in a unity build (CMAKE_UNITY_BUILD, as in ./dev), the source files of a
+# target share compilation units; swarmsmith_form_units() decides which files share one.
 function(swarmsmith_share_units target)
   if(CMAKE_UNITY_BUILD)
     set_property(GLOBAL APPEND_STRING PROPERTY SWARMSMITH_UNITS "${target};${CMAKE_CURRENT_SOURCE_DIR};${ARGN}\n")
@@ -7,7 +7,7 @@ function(swarmsmith_share_units target)
   endif()
 endfunction()
 
-# swarmsmith_form_units(): which files of which target are in one unit; all targets at once, at the end.
+# swarmsmith_form_units(): decides which files of each target share a unit; for all targets together, at the end.
 function(swarmsmith_form_units)
   get_property(targets GLOBAL PROPERTY SWARMSMITH_UNITS)
   file(WRITE ${PROJECT_BINARY_DIR}/units.txt "${targets}")
@@ -21,13 +21,13 @@ function(swarmsmith_form_units)
   endforeach()
 endfunction()
 
-# In a release build -O1 is enough for most rooms, and compiles in two thirds of the time of -O3. With it, GCC 12 sees
-# uninitialised values in moved variants.
+# In a release build, -O1 is enough for most folders, and compiles in two thirds of the time of -O3. With it, GCC 12
+# reports uninitialised values in moved variants.
 set(SWARMSMITH_GNU_RELEASE $<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>)
 add_compile_options($<$<CONFIG:Release>:-O1> $<${SWARMSMITH_GNU_RELEASE}:-Wno-error=maybe-uninitialized>)
 
-# swarmsmith_optimise(): this folder and those below it are compiled with -O3: what computes. To be called before their
-# targets.
+# swarmsmith_optimise(): compiles this folder and its subfolders with -O3, for code that computes much. Call it before
+# their targets are defined.
 macro(swarmsmith_optimise)
   add_compile_options($<$<CONFIG:Release>:-O3>)
   if(SWARMSMITH_WERROR)
@@ -36,11 +36,12 @@ macro(swarmsmith_optimise)
   set(SWARMSMITH_LEVEL _optimised)
 endmacro()
 
-# swarmsmith_precompile(TARGET code|text|test): what nearly all of them include is compiled once for all libraries and
-# programs, for those that use fmt, and for all test programs. As ./dev builds, with ccache or without it; not for the
-# compilers of the gates. GCC takes what is precompiled for our code, in which its optimiser warns:
-# of version 12, that is bug 105651 (see Warnings.cmake). Test programs are compiled by clang then, which does not optimise
-# them and takes less than half of GCC's time, and linked by gold where it is, in a third of the other linker's.
+# swarmsmith_precompile(TARGET code|text|test): headers that nearly all files include are precompiled once for all
+# libraries and programs (code), once for those that use fmt (text), and once for all test programs (test). This is for
+# builds by ./dev, with or without ccache, not for the compilers of the gates. GCC treats precompiled headers as our
+# code, so its optimiser warns about them; in version 12 that is bug 105651 (see Warnings.cmake). Test programs are then
+# compiled by clang, which does not optimise them and takes less than half of GCC's time. They are linked by gold if it
+# is installed, in a third of the other linker's time.
 function(swarmsmith_precompile target kind)
   if(NOT CMAKE_UNITY_BUILD OR SWARMSMITH_SANITIZE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
@@ -55,9 +56,9 @@ function(swarmsmith_precompile target kind)
     endif()
   endif()
   if(SWARMSMITH_LEVEL AND kind STREQUAL "text")
-    set(kind code)  # few of those that compute use fmt
+    set(kind code)  # few of the targets that compute much use fmt
   endif()
-  # One for each level of optimisation: from GCC 13 on, some options of the processor follow from it.
+  # One for each level of optimisation: from GCC 13 on, some processor options depend on it.
   set(common swarmsmith_${kind}_headers${SWARMSMITH_LEVEL})
   if(NOT TARGET ${common})
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${common}.cpp CONTENT "// Headers alone.\n")
@@ -80,7 +81,7 @@ function(swarmsmith_precompile target kind)
   target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
 endfunction()
 
-# swarmsmith_precompile_code(TARGET LIBRARY...): with those of fmt where it is among the libraries.
+# swarmsmith_precompile_code(TARGET LIBRARY...): includes the headers of fmt if fmt is among the libraries.
 function(swarmsmith_precompile_code target)
   if("fmt::fmt" IN_LIST ARGN)
     swarmsmith_precompile(${target} text)
@@ -91,8 +92,8 @@ endfunction()
 
 # swarmsmith_component(NAME SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
 #
-# One folder, one static library swarmsmith_NAME. HEADERS are the folder's public surface; each is
-# compiled on its own by the target all_verify_interface_header_sets. Includes start at the root.
+# A component is one folder and one static library swarmsmith_NAME. HEADERS are the public headers of the folder; the
+# target all_verify_interface_header_sets compiles each of them separately. Paths of includes start at the root.
 function(swarmsmith_component name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
   set(target swarmsmith_${name})
@@ -119,9 +120,10 @@ endfunction()
 
 # swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end [WIDE] [TIMEOUT s] SOURCES ... [OPTIMISED ...] USES ...)
 #
-# One test program a folder, and one ctest each: to start a program takes longer than most of its tests. OPTIMISED:
-# sources whose own code and the inline functions that they call are what it spends its time in. WIDE: `./dev test --long`
-# runs it too, and does more then (tests/support/long_runs.h); its label is unit-wide, say. COST: as for scripts.
+# A folder has one test program, with one ctest: starting a program takes longer than most of its tests. OPTIMISED:
+# sources in whose code, including the inline functions that it calls, the program spends its time. WIDE: `./dev test
+# --long` runs it too, and it then does more (tests/support/long_runs.h); its label is then, for example, unit-wide.
+# COST: as for scripts.
 function(swarmsmith_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "WIDE" "LABEL;TIMEOUT" "SOURCES;OPTIMISED;USES")
   set(label ${arg_LABEL})
@@ -137,7 +139,7 @@ function(swarmsmith_test name)
   set(target ${name}_test)
   set(parts ${target})
   if(arg_OPTIMISED)
-    # Linked first, since of an inline function that several have the first is taken.
+    # Linked first, since the linker takes the first definition of an inline function that several files have.
     add_library(${target}_optimised OBJECT ${arg_OPTIMISED})
     swarmsmith_share_units(${target}_optimised ${arg_OPTIMISED})
     set(optimised $<TARGET_OBJECTS:${target}_optimised>)
@@ -149,7 +151,7 @@ function(swarmsmith_test name)
   foreach(part IN LISTS parts)
     target_link_libraries(${part} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
       swarmsmith_warnings swarmsmith_exact_arithmetic)
-    # The code under test is optimised; by GCC, its tests compile in two thirds of the time.
+    # The code under test is optimised anyway; with -O1, GCC compiles its tests in two thirds of the time.
     target_compile_options(${part} PRIVATE $<$<CONFIG:Release>:-O1>)
     target_compile_definitions(${part} PRIVATE
       SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
@@ -166,9 +168,9 @@ endfunction()
 # swarmsmith_script_test(ROOM.FILE TIMEOUT s [LABEL label] [LONG] [PROCESSORS n] [ORDINARY test...]
 #                        [ENVIRONMENT name=value...])
 #
-# FILE_test.py of this folder, with the real programs. LONG: only by `./dev test --long`. ORDINARY: these of its classes
-# and tests run each time, and all of them as ROOM.FILE_wide, which is long. COST: ctest begins with the longest, and the
-# short ones fill the cores at the end.
+# Runs FILE_test.py of this folder with the real programs. LONG: only `./dev test --long` runs it. ORDINARY: these
+# classes and tests run each time; all of them run as ROOM.FILE_wide, which is long. COST: ctest begins with the longest
+# tests, and the short ones fill the cores at the end.
 function(swarmsmith_script_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "LONG" "TIMEOUT;LABEL;PROCESSORS" "ORDINARY;ENVIRONMENT")
   math(EXPR limit "${arg_TIMEOUT} * ${SWARMSMITH_PATIENCE}")

@@ -1,5 +1,5 @@
-# swarmsmith_embed_file(TARGET SYMBOL FILE): the bytes of FILE, which another command may make, become a constant of
-# TARGET: `extern "C"` SYMBOL_begin and SYMBOL_end, one past its last byte.
+# swarmsmith_embed_file(TARGET SYMBOL FILE): makes the bytes of FILE a constant of TARGET: `extern "C"` SYMBOL_begin and
+# SYMBOL_end, one past its last byte. Another command may generate FILE.
 enable_language(ASM)
 
 function(swarmsmith_embed_file target symbol file)

@@ -1,10 +1,10 @@
-# Rosbag::storage: ROS 1's own reader and writer of bags (Debian: librosbag-storage-dev). Neither its package file for
-# CMake nor the one for pkg-config is used: the first needs ament and the Python modules of it, the second names a
-# package that does not exist.
+# Rosbag::storage: ROS 1's own reader and writer of bags (Debian: librosbag-storage-dev). Its package files for CMake
+# and pkg-config are not used: the first needs ament and ament's Python modules, the second names a package that does
+# not exist.
 find_path(RosbagStorage_INCLUDE_DIR rosbag/bag.h)
 set(RosbagStorage_INCLUDE_DIRS ${RosbagStorage_INCLUDE_DIR})
 set(RosbagStorage_PARTS RosbagStorage_INCLUDE_DIR)
-# What bag.h includes has a folder a package.
+# Each package whose headers bag.h includes has its own folder.
 foreach(header pluginlib/class_loader.hpp class_loader/class_loader.hpp rcpputils/shared_library.hpp
     rcutils/types.h ament_index_cpp/get_package_prefix.hpp)
   string(REGEX REPLACE "/.*" "" package ${header})

@@ -1,6 +1,6 @@
-# swarmsmith_kinds(NAME FOLDER KIND...): the kinds of something, for a variant of them. Each KIND is a header
-# FOLDER/KIND.h, and a source FOLDER/KIND.cpp if there is one, with a struct of the same name in camel case. Sets the lists
-# NAME_headers and NAME_sources, and the texts NAME_includes and NAME_names (of the structs) for made headers.
+# swarmsmith_kinds(NAME FOLDER KIND...): the alternatives of a variant. Each KIND is a header FOLDER/KIND.h, with a
+# source FOLDER/KIND.cpp if it exists, and a struct of the same name in camel case. Sets the lists NAME_headers and
+# NAME_sources, and the texts NAME_includes and NAME_names (of the structs) for generated headers.
 function(swarmsmith_kinds name folder)
   file(REAL_PATH ${folder} there BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
   file(RELATIVE_PATH from_root ${PROJECT_SOURCE_DIR} ${there})
@@ -26,8 +26,8 @@ function(swarmsmith_kinds name folder)
   endforeach()
 endfunction()
 
-# swarmsmith_made_header(TARGET FILE): makes the header FILE, a path from the root, in the build tree out of FILE.in and
-# the texts of swarmsmith_kinds; TARGET and what links it include it by that path.
+# swarmsmith_made_header(TARGET FILE): generates the header FILE, a path from the root, in the build tree from FILE.in
+# and the texts of swarmsmith_kinds. TARGET and the targets that link it include the header by that path.
 function(swarmsmith_made_header target file)
   set(made ${CMAKE_CURRENT_BINARY_DIR}/made)
   configure_file(${PROJECT_SOURCE_DIR}/${file}.in ${made}/${file} @ONLY)

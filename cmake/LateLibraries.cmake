@@ -1,8 +1,9 @@
-# swarmsmith_late_program(NAME LATE beginning... SOURCES ... PRIVATE ...): a program in build/bin that loads shared libraries
-# whose names begin so when one of their functions is first called, and not at its start: `--help` and answers of a shell's
-# completion need none of them. It is linked twice: with all libraries, as build/whole/NAME-whole, whose needs packages and archives
-# are made of; and with a stub for each function that it takes from them (late_libraries.py). The stubs are for x86-64; on
-# other processors, and under sanitizers, it is linked once and loads all at its start.
+# swarmsmith_late_program(NAME LATE beginning... SOURCES ... PRIVATE ...): a program in build/bin. Shared libraries
+# whose names begin with one of LATE are loaded when one of their functions is first called, not at the start: `--help`
+# and shell completion need none of them. The program is linked twice: with all libraries, as build/whole/NAME-whole,
+# from which packages and archives get the list of needed libraries; and with a stub for each function of these
+# libraries that it uses (late_libraries.py). The stubs are for x86-64; on other processors, and under sanitizers, the
+# program is linked once and loads all libraries at its start.
 function(swarmsmith_late_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LATE;SOURCES;PRIVATE")
   if(NOT CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" OR CMAKE_CROSSCOMPILING OR SWARMSMITH_SANITIZE)
@@ -18,7 +19,7 @@ function(swarmsmith_late_program name)
     COMMAND ${Python3_EXECUTABLE} ${script} $<TARGET_FILE:${whole}> ${stubs} ${arg_LATE})
   add_executable(${name} $<TARGET_OBJECTS:${whole}> ${stubs})
   target_link_libraries(${name} PRIVATE ${arg_PRIVATE})
-  # What the stubs have, no library is needed for.
+  # The libraries whose functions all have stubs are not linked.
   target_link_options(${name} PRIVATE -Wl,--as-needed)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
 endfunction()

@@ -1,5 +1,5 @@
-# swarmsmith_messages(NAME FILES ...): a library of the generated code of .proto files. It stays in
-# the build tree, and is compiled and included without our warnings.
+# swarmsmith_messages(NAME FILES ...): a library of the code generated from .proto files. The code is in the build tree,
+# and is compiled and included without our warnings.
 find_package(Protobuf REQUIRED)
 
 function(swarmsmith_messages name)

@@ -1,7 +1,7 @@
-# -DSWARMSMITH_SANITIZE=address,undefined (or thread): the whole tree, tests included. A finding ends
-# the program. Line tables and -O1 are all that a stack trace needs, and compile in two thirds of the time.
-# Tests may take SWARMSMITH_PATIENCE times as long, and what waits within them too.
-# The instrumented code makes GCC 12 see uninitialised values in every moved std::variant.
+# -DSWARMSMITH_SANITIZE=address,undefined (or thread): applies to the whole tree, tests included. A finding ends the
+# program. Line tables and -O1 are enough for stack traces, and compile in two thirds of the time. Tests may take
+# SWARMSMITH_PATIENCE times as long, and so may waits inside them. In instrumented code, GCC 12 reports uninitialised
+# values in every moved std::variant.
 set(SWARMSMITH_PATIENCE 1)
 if(SWARMSMITH_SANITIZE)
   set(SWARMSMITH_PATIENCE 10)

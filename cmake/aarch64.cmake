@@ -1,5 +1,5 @@
-# The toolchain for 64-bit ARM, a Raspberry Pi 4 say: Debian's cross compiler, and libraries in the folder that
-# SWARMSMITH_SYSROOT names (`./dev build --target aarch64` makes it). Programs of the build are run under emulation.
+# The toolchain for 64-bit ARM, for example a Raspberry Pi 4: Debian's cross compiler, and the libraries in the folder
+# SWARMSMITH_SYSROOT (`./dev build --target aarch64` makes it). Programs of the build run under emulation.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

@@ -7,7 +7,7 @@ import re
 import sys
 
 UNNAMED = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.DOTALL | re.MULTILINE)
-# Our code is formatted: what is declared at the level of the namespace begins in the first column.
+# Our code is formatted, so declarations at namespace level begin in the first column.
 NAME = re.compile(
     r"^(?P<template>template <.*> *)?(?:using (?=\w+ =)|(?:struct|class|enum(?: class)?) |"
     r"(?!namespace|using|template|struct|class|enum|static_assert|return|public|private|[A-Z_]+\()\w[^(={;\n]*?[ &*>])(?P<name>\w+)"
@@ -51,7 +51,7 @@ def unit_of(path, units):
         units.append((FULL, {}))
         return len(units) - 1
     names = names_of(text)
-    local = LOCAL.findall(text)  # shadow nothing of those before
+    local = LOCAL.findall(text)  # must not hide names of earlier files
     for number, (files, taken) in enumerate(units):
         if len(files) < FILES_IN_A_UNIT and not clash(names, taken) and not taken.keys() & local:
             break

@@ -16,7 +16,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Nothing when the values do not fit together.
+/// Sets one parameter to its value in `target`; nothing when the values do not fit together.
 std::optional<AblationChange> change(const ParameterSpace& space, const Configuration& current,
                                      const Configuration& target, std::size_t parameter) {
   if (!current.is_active(parameter) || !target.is_active(parameter)) return std::nullopt;
@@ -76,7 +76,7 @@ std::vector<std::size_t> change_between(const ParameterSpace& space, const Confi
 
 std::int64_t most_ablation_runs(const Configuration& source, const Configuration& target,
                                 std::int64_t pairs) {
-  // The source, the target, and with n parameters open a step of n changes at most.
+  // The source, the target, and for each step with n open parameters at most n changes.
   const auto open = static_cast<std::int64_t>(differences(source, target).size());
   return (1 + open * (open + 1) / 2) * pairs;
 }
@@ -125,10 +125,11 @@ class Ablation final : public Search {
  private:
   struct Member {
     Configuration configuration;
-    std::vector<double> costs;  ///< by pair; NaN where it was not run
+    std::vector<double> costs;  ///< by pair; NaN if it was not run on that pair
   };
 
-  /// As R's ablation: instances in turn, whatever the blocks of races are.
+  /// As in R's ablation, instances are shuffled one by one, independently of the block size of
+  /// races.
   static Scenario one_by_one(Scenario scenario) {
     scenario.block_size = 1;
     return scenario;
@@ -140,7 +141,7 @@ class Ablation final : public Search {
 
   Member& member(std::int64_t id) { return members_[static_cast<std::size_t>(id - 1)]; }
 
-  /// Source and target are run on all pairs.
+  /// Whether this iteration is a step; in the others, the source or the target is run on all pairs.
   bool is_step() const { return iteration_ > 1 && !(members_.back().configuration == target_); }
 
   void begin(std::vector<Configuration> configurations);
@@ -148,7 +149,7 @@ class Ablation final : public Search {
   void ask();
   void report_steps();
   void end_iteration();
-  /// The best of the race; nothing when all were rejected.
+  /// The id of the best change of the race; nothing when all were rejected.
   std::optional<std::int64_t> best() const;
   std::vector<double> ranks(std::span<const std::int64_t> ids) const;
   Elite elite(std::int64_t id, double rank) const;
@@ -160,7 +161,7 @@ class Ablation final : public Search {
   Configuration target_;
   irace::InstanceLog pairs_;
   std::vector<Member> members_;     ///< by id
-  std::vector<std::int64_t> path_;  ///< ids
+  std::vector<std::int64_t> path_;  ///< ids of the configurations chosen so far
   std::unique_ptr<irace::Race> race_;
   std::vector<Experiment> wanted_;
   std::vector<RaceEvent> events_;
@@ -169,7 +170,7 @@ class Ablation final : public Search {
   std::int64_t planned_;
   std::int64_t iteration_ = 0;
   std::int64_t steps_ = 0;
-  std::int64_t used_ = 0;  ///< before the race
+  std::int64_t used_ = 0;  ///< runs before the current race
 };
 
 void Ablation::begin(std::vector<Configuration> configurations) {
@@ -296,7 +297,7 @@ void Ablation::end_iteration() {
 }
 
 std::optional<std::int64_t> Ablation::best() const {
-  // As R: the ranks are those of all changes, also of those that the last test dropped.
+  // As in R, all changes are ranked, including those that the last test dropped.
   std::vector<std::int64_t> ids;
   for (std::size_t column = 0; column < race_->size(); ++column) {
     if (!race_->is_rejected(column)) ids.push_back(race_->contestant(column).id);
@@ -314,7 +315,7 @@ std::vector<double> Ablation::ranks(std::span<const std::int64_t> ids) const {
 }
 
 Elite Ablation::elite(std::int64_t id, double rank) const {
-  // Source and target are on the way even when the target rejects them.
+  // Source and target are part of the path even when they are rejected.
   Elite found{.rank = rank, .configuration = id};
   for (const double cost : members_[static_cast<std::size_t>(id - 1)].costs) {
     if (!std::isfinite(cost)) continue;

@@ -15,44 +15,47 @@
 
 namespace swarmsmith {
 
-/// One step of the way from a configuration to another one (irace's ablation; Fawcett and Hoos,
+/// One step of the path from one configuration to another (irace's ablation; Fawcett and Hoos,
 /// "Analysing differences between algorithm configurations through ablation", Journal of Heuristics
 /// 22, 2016).
 struct AblationChange {
   Configuration configuration;
-  std::vector<std::size_t> changed;  ///< parameters: the one that was chosen comes first
+  /// The parameters; the one that was chosen for the change comes first.
+  std::vector<std::size_t> changed;
 };
 
-/// What differs between two configurations, by parameter; two inactive values do not differ.
+/// The parameters in which two configurations differ; two inactive values do not differ.
 std::vector<std::size_t> differences(const Configuration& a, const Configuration& b);
 
-/// `current` with the value of `target` in each of the parameters `open`, one at a time, in their
-/// order. Parameters that become active take the target's value, those that become inactive lose
-/// theirs. Left out are changes that give no configuration of the space, or a forbidden one: they
-/// come later, with others.
+/// For each of the parameters `open`, in their order: `current` with that parameter set to its
+/// value in `target`. Parameters that become active by this take the target's value, and parameters
+/// that become inactive lose theirs. Changes that give a forbidden configuration, or none of the
+/// space, are left out: these parameters change later, together with others.
 std::vector<AblationChange> ablation_changes(const ParameterSpace& space,
                                              const Configuration& current,
                                              const Configuration& target,
                                              std::span<const std::size_t> open);
 
-/// What made `after` of `before` on the way to `target`: a change, or all that was left at the end.
+/// The parameters that changed from `before` to `after` on the path to `target`: those of one
+/// change, or all that were left at the end.
 std::vector<std::size_t> change_between(const ParameterSpace& space, const Configuration& before,
                                         const Configuration& after, const Configuration& target);
 
-/// The most runs that the way can take.
+/// The largest number of runs that the path can take.
 std::int64_t most_ablation_runs(const Configuration& source, const Configuration& target,
                                 std::int64_t pairs);
 
-/// The way from the first of two configurations to the second, as a search whose iterations are:
-/// the source, a step each, the target. All are run on the same `ablation_pairs` pairs of instance
-/// and seed. A step races the changes that are still open, not elitist and without capping, with
-/// the scenario's test (or runs all of them on all pairs), and its elite is the best change by
-/// irace's overall ranks, the first of equals. The elites of the last iteration are all on the way,
-/// best first: more pairs come before fewer.
+/// The path from the first of two configurations to the second, as a search with these iterations:
+/// one for the source, one for each step, one for the target. All configurations are run on the
+/// same `ablation_pairs` pairs of instance and seed. A step races the changes that are still open,
+/// without elitism and capping, with the scenario's test (or runs all of them on all pairs). Its
+/// elite is the best change by irace's overall ranks, or the first of several that are equal. The
+/// elites of the last iteration are all configurations of the path, best first: one with results on
+/// more pairs comes before one with fewer.
 ///
-/// Of the scenario count budget, seed, instances and their order, the test, `bound_max` and whether
-/// there is a targetEvaluator. Errors: not two configurations, or two that are the same; a budget
-/// below most_ablation_runs.
+/// These options of the scenario have an effect: budget, seed, instances and their order, the test,
+/// `bound_max`, and whether there is a targetEvaluator. It is an error if there are not exactly two
+/// configurations, if they are equal, or if the budget is below most_ablation_runs.
 Expected<std::unique_ptr<Search>> start_ablation(ParameterSpace space, const Scenario& scenario,
                                                  const std::vector<Configuration>& ends);
 

@@ -8,13 +8,14 @@
 
 namespace swarmsmith {
 
-/// A point of a parameter space: one value a parameter, by the parameter's index. Categorical and
-/// ordinal parameters hold the 0-based index of their value, integers and reals the number. A
-/// parameter whose condition does not hold is inactive, which differs from every value.
+/// A point of a parameter space: one value per parameter, by the parameter's index. For categorical
+/// and ordinal parameters the value is the 0-based index of the chosen value, for integers and
+/// reals it is the number. A parameter whose condition does not hold is inactive, which differs
+/// from every value.
 class Configuration {
  public:
   Configuration() = default;
-  /// All inactive.
+  /// Starts with all parameters inactive.
   explicit Configuration(std::size_t parameters);
 
   std::size_t size() const { return values_.size(); }
@@ -26,18 +27,18 @@ class Configuration {
     return static_cast<std::size_t>(values_[parameter]);
   }
 
-  /// Minus zero becomes zero, NaN inactive.
+  /// Stores minus zero as zero; NaN makes the parameter inactive.
   void set(std::size_t parameter, double value);
   void deactivate(std::size_t parameter);
 
   /// Equal configurations have equal digests, on every machine.
   std::uint64_t digest() const;
 
-  /// Same active parameters with the same values.
+  /// Whether the same parameters are active and have the same values.
   friend bool operator==(const Configuration& a, const Configuration& b);
 
  private:
-  std::vector<double> values_;  ///< NaN is inactive
+  std::vector<double> values_;  ///< NaN means inactive
 };
 
 }  // namespace swarmsmith

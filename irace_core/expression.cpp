@@ -13,7 +13,7 @@ namespace swarmsmith {
 Scalar Scalar::integer(double value) {
   if (!std::isfinite(value)) return missing_of(Type::Integer);
   if (std::fabs(value) > irace::kLargestInteger) return real(value);
-  return {Type::Integer, false, value + 0.0, {}};  // R's have no negative zero
+  return {Type::Integer, false, value + 0.0, {}};  // R's integers have no negative zero
 }
 
 Scalar Scalar::real(double value) {

@@ -11,8 +11,8 @@
 
 namespace swarmsmith {
 
-/// One value of the expression language, which is R's: a type, and either a value or "missing"
-/// (R's NA; a NaN counts as missing too). Integers are held in the double: exact up to 2^53.
+/// One value of the expression language, which is R's: a type, and either a value or "missing" (R's
+/// NA; a NaN counts as missing too). Integers are stored in the double: exact up to 2^53.
 struct Scalar {
   enum class Type { Logical, Integer, Real, Text };  // in the order in which c() coerces
 
@@ -30,7 +30,8 @@ struct Scalar {
   friend bool operator==(const Scalar&, const Scalar&) = default;
 };
 
-/// A vector of scalars of one type. Nearly all have length one, and those allocate nothing.
+/// A vector of scalars of one type. Nearly all have length one, and such a vector allocates no
+/// memory.
 class Values {
  public:
   Values(Scalar one) : one_(std::move(one)) {}  // NOLINT: a scalar is a vector of length one
@@ -46,8 +47,8 @@ class Values {
   std::vector<Scalar> many_;  ///< empty for length one
 };
 
-/// What a node of an expression does, in groups: leaves; logic; comparisons and %in%; arithmetic;
-/// c() and conversions; functions. The groups' order is used.
+/// The operation of a node of an expression. The groups are: leaves; logic; comparisons and %in%;
+/// arithmetic; c() and conversions; functions. The code relies on the order of the groups.
 enum class Operation {
   Constant,
   Parameter,
@@ -89,11 +90,11 @@ enum class Operation {
   Log,
 };
 
-/// from:to lists fewer numbers than this; longer ones are missing, but for `x %in% from:to`, which
-/// needs no list.
+/// from:to lists fewer numbers than this; a longer range gives a missing value, except in `x %in%
+/// from:to`, which needs no list.
 inline constexpr double kLongestRange = 10'000;
 
-/// How many operands an operation takes.
+/// The number of operands that an operation takes.
 struct Arity {
   std::size_t least;
   std::size_t most;
@@ -101,12 +102,13 @@ struct Arity {
 Arity arity(Operation operation);
 
 /// An expression over parameters, as in conditions, forbidden clauses and dependent bounds: a
-/// syntax tree with the three-valued logic and the coercions of R. What R refuses (arithmetic on
-/// texts, logic on texts) gives a missing value here. Texts are ordered without regard to case
-/// first (punctuation, then digits, then letters), then lower case before upper, in every locale.
+/// syntax tree with the three-valued logic and the coercions of R. Where R reports an error
+/// (arithmetic on texts, logic on texts), the value is missing here. Texts are ordered first
+/// without regard to case (punctuation, then digits, then letters), then lower case before upper,
+/// in every locale.
 ///
 /// A tree is built by these functions or by a parser, bound to a parameter space once, and then
-/// evaluated often.
+/// evaluated many times.
 class Expression {
  public:
   static Expression number(double value) { return constant(Scalar::real(value)); }
@@ -125,22 +127,24 @@ class Expression {
   std::span<const Expression> operands() const { return operands_; }
   /// The name of a parameter node; empty for others.
   const std::string& name() const { return name_; }
-  /// Index of a bound parameter node; -1 before.
+  /// The index of a parameter node once it is bound; -1 before.
   int parameter_index() const { return index_; }
 
-  /// Names of all parameters mentioned, each once, in order of appearance.
+  /// Names of all parameters that the expression mentions, each once, in order of appearance.
   std::vector<std::string> names() const;
-  /// Gives every parameter node the position of its name in `names`; an unknown name is an error.
+  /// Gives every parameter node the index of its name in `names`; an unknown name is an error.
   Expected<void> bind(std::span<const std::string> names);
 
-  /// The value, given those of all parameters by index (missing when inactive). Must be bound.
+  /// The value of the expression. `parameters` has the value of each parameter by index (missing
+  /// when inactive). The expression must be bound.
   Values evaluate(std::span<const Scalar> parameters) const;
-  /// Whether the value is TRUE, and not FALSE, missing, a number or longer than one.
+  /// Whether the value is TRUE. It is false for FALSE, a missing value, a number and a vector
+  /// longer than one.
   bool is_true(std::span<const Scalar> parameters) const;
-  /// The value as a number; nothing when it is missing or no single number.
+  /// The value as a number; nothing when it is missing or not a single number.
   std::optional<double> to_number(std::span<const Scalar> parameters) const;
 
-  /// The same tree over the same names, bound or not.
+  /// Whether both are the same tree over the same names, bound or not.
   friend bool operator==(const Expression& a, const Expression& b);
 
  private:
@@ -152,26 +156,28 @@ class Expression {
   Values evaluate_in(std::span<const Scalar> parameters) const;
 
   Operation operation_ = Operation::Constant;
-  bool is_list_of_constants_ = false;  ///< a Combine of constants of one type: needs no evaluation
+  /// A Combine of constants of one type, which needs no evaluation.
+  bool is_list_of_constants_ = false;
   int index_ = -1;
   std::string name_;
   Scalar constant_;
   std::vector<Expression> operands_;
 };
 
-/// Negative, zero or positive as `a` sorts before, with or after `b`; the order described above.
+/// Negative, zero or positive if `a` sorts before, equal to or after `b`, in the order described
+/// above.
 int compare_texts(std::string_view a, std::string_view b);
 
-/// As R's as.character: at most 15 significant digits, the shorter of fixed and scientific
+/// Like R's as.character: at most 15 significant digits, and the shorter of fixed and scientific
 /// notation for reals (100000 is "1e+05"), integers in full; TRUE and FALSE; "NA" when missing.
 std::string to_text(const Scalar& value);
 
-/// At most 15 significant digits, never in scientific notation, no trailing zeros: how values reach
-/// a command line.
+/// A number as it is written on a command line: at most 15 significant digits, never in scientific
+/// notation, no trailing zeros.
 std::string to_fixed_text(double value);
 
-/// The shortest digits that read back to the same number, never in scientific notation: for
-/// sentences that compare numbers.
+/// The shortest digits from which the same number is read back, never in scientific notation: for
+/// messages that compare numbers.
 std::string exact_text(double value);
 
 }  // namespace swarmsmith

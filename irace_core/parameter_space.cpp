@@ -9,7 +9,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Names that the condition and the bounds of a parameter mention.
+/// The names of the parameters that the condition and the bounds of a parameter mention.
 std::vector<std::string> dependencies(const Parameter& parameter) {
   std::vector<std::string> names;
   const auto add = [&names](const Expression& expression) {
@@ -22,7 +22,7 @@ std::vector<std::string> dependencies(const Parameter& parameter) {
   return names;
 }
 
-/// Levels by repeated relaxation; an error names the first parameter that waits for itself.
+/// Levels by repeated relaxation; the error names the first parameter that depends on itself.
 Expected<std::vector<int>> find_levels(const std::vector<std::vector<std::size_t>>& depends_on,
                                        std::span<const std::string> names) {
   const std::size_t n = depends_on.size();
@@ -38,8 +38,9 @@ Expected<std::vector<int>> find_levels(const std::vector<std::vector<std::size_t
     }
     if (!changed) return levels;
   }
-  // A parameter that waits for a circle without being in it has a larger level than the circle's
-  // members at some point, so we follow the dependencies until one comes twice.
+  // A parameter that depends on a cycle without being part of it has a higher level than the
+  // members of the cycle at some point, so we follow the dependencies until one parameter occurs
+  // twice.
   std::vector<bool> seen(n, false);
   auto at =
       static_cast<std::size_t>(std::max_element(levels.begin(), levels.end()) - levels.begin());
@@ -66,7 +67,7 @@ Expected<std::vector<int>> hierarchy(std::span<const Parameter> parameters,
   return find_levels(depends_on, names);
 }
 
-/// Whether a range of numbers is listed somewhere, which may take long.
+/// Whether the expression lists a range of numbers, which may take long.
 bool has_list(const Expression& expression) {
   const auto operands = expression.operands();
   const bool searched =

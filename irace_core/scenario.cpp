@@ -17,8 +17,8 @@ struct Range {
   double most;
 };
 
-constexpr double kMost = 2147483647;  // irace's numbers are 32 bits wide
-constexpr double kMany = 1e6;         // of what gets multiplied
+constexpr double kMost = 2147483647;  // irace's numbers have 32 bits
+constexpr double kMany = 1e6;         // for numbers that are multiplied with each other
 
 Expected<void> check_ranges(std::span<const Range> ranges) {
   for (const Range& range : ranges) {

@@ -107,7 +107,7 @@ def write_pages(bin_folder, folder):
     folder.mkdir(parents=True, exist_ok=True)
     version = programs.version(bin_folder)
     known = {program: programs.declared(bin_folder, program) for program in programs.built(bin_folder)}
-    # `swarmsmith worker` starts swarmsmith-worker: one page tells of both.
+    # `swarmsmith worker` starts swarmsmith-worker, so one page describes both.
     started = {}
     for program, tells in known.items():
         for command in tells["commands"]:

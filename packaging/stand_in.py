@@ -29,7 +29,7 @@ def main():
     text, versions = [], collections.defaultdict(list)
     machine = said_by(compiler, "-dumpmachine").split("-")[0]
     for size, kind, section, name, version in symbols(library):
-        # A name may be there in several versions.
+        # A name may exist in several versions.
         if section in ("UND", "ABS") or (name, version) not in taken or name in versions[version]:
             continue
         versions[version].append(name)

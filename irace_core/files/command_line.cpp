@@ -7,7 +7,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Takes the words one after the other.
+/// Reads the arguments one after the other.
 class WordReader {
  public:
   WordReader(std::span<const std::string> words, const std::filesystem::path& folder)
@@ -32,7 +32,7 @@ class WordReader {
     const IraceOption* option = find_irace_switch(name);
     if (option == nullptr) {
       complain_unknown(name);
-      // What follows is most likely its value, and needs no complaint of its own.
+      // The next argument is most likely the option's value, so there is no separate error for it.
       const bool is_alone = equals == std::string::npos;
       if (is_alone && next_ < words_.size() && !words_[next_].starts_with('-')) ++next_;
       return;
@@ -48,8 +48,8 @@ class WordReader {
     }
   }
 
-  /// `-q` may stand alone, and 0 or 1 after it can be nothing else than its value. irace lets every
-  /// flag swallow what follows (irace facts, 25.13).
+  /// `-q` may be given without a value; a 0 or 1 after it can only be its value. In irace every
+  /// flag takes the next argument, whatever it is (irace facts, 25.13).
   bool takes_next_word(const IraceOption& option) const {
     if (option.name != "quiet") return option.takes_value();
     return next_ < words_.size() && (words_[next_] == "0" || words_[next_] == "1");
@@ -76,7 +76,7 @@ class WordReader {
   }
 
   void complain_unknown(const std::string& name) {
-    // A name of scenario files is what people most often take for a switch.
+    // Often a name from scenario files is used as a switch.
     const std::size_t dashes = name.find_first_not_of('-');
     const IraceOption* known =
         dashes == std::string::npos ? nullptr : find_irace_option(name.substr(dashes));

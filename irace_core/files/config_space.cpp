@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 constexpr int kDeepest = 100;
 
-/// A value as a target gets it, which is Python's way to write it.
+/// A value as the target gets it, written as in Python.
 Expected<std::string> text_of(const Json& value, const std::string& where) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return std::string(value.get<bool>() ? "True" : "False");
@@ -124,7 +124,7 @@ class ConfigSpaceReader {
   Expected<Expression> read_all(const Json& object, const char* name_key, Operation operation,
                                 int depth, const std::string& where) const;
   Expected<Expression> read_relation(const Json& object, const std::string& where) const;
-  /// Calls `read` for each item of a list that may be missing.
+  /// Calls `read` for each item of a list; the list may be missing.
   template <class Read>
   Expected<void> each(const Json& space, const char* key, Read read) const;
 
@@ -194,7 +194,8 @@ Expected<Expression> ConfigSpaceReader::read_relation(const Json& object,
                    where);
 }
 
-/// A condition, whose parameter is its "parent", or a forbidden clause, whose is its "name".
+/// Reads a condition, where the parameter is under "parent", or a forbidden clause, where it is
+/// under "name".
 Expected<Expression> ConfigSpaceReader::read_test(const Json& object, const char* name_key,
                                                   int depth, const std::string& where) const {
   constexpr std::array<std::pair<std::string_view, Operation>, 5> kTests = {{

@@ -18,7 +18,7 @@ namespace {
 using irace::Cell;
 using Row = std::vector<Cell>;
 
-/// A decimal number; nothing for every other text.
+/// A decimal number; nothing for any other text.
 std::optional<double> to_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
@@ -27,7 +27,7 @@ std::optional<double> to_number(std::string_view text) {
   return value;
 }
 
-/// Reads the rows below a header.
+/// Reads the rows after the header.
 class TableReader {
  public:
   TableReader(const std::string& file, const ParameterSpace& space) : file_(file), space_(space) {}
@@ -38,13 +38,13 @@ class TableReader {
 
  private:
   std::string where(const Cell& cell) const { return file_ + ":" + r::to_string(cell.place); }
-  /// The value of an active parameter; the error has no place.
+  /// The value of an active parameter; an error has no place.
   Expected<double> read_value(std::size_t parameter, const Cell& cell,
                               const Assignment& known) const;
   Expected<double> read_choice(std::size_t parameter, const std::string& text) const;
   Expected<double> read_numeric(std::size_t parameter, const std::string& text,
                                 const Assignment& known) const;
-  /// NA, but not where "NA" in quotes is a value.
+  /// Whether the value is NA; "NA" in quotes may be a value of the parameter.
   bool is_missing(std::size_t parameter, const Cell& cell) const;
 
   const std::string& file_;
@@ -119,7 +119,7 @@ Expected<double> TableReader::read_value(std::size_t parameter, const Cell& cell
 }
 
 Expected<Configuration> TableReader::read_row(const Row& row, std::size_t number) const {
-  const std::size_t skipped = row.size() - columns_;  // a row's name
+  const std::size_t skipped = row.size() - columns_;  // the name of a row
   Assignment values(space_);
   for (const std::size_t i : space_.hierarchy_order()) {
     const Parameter& parameter = space_[i];
@@ -134,7 +134,7 @@ Expected<Configuration> TableReader::read_row(const Row& row, std::size_t number
       continue;
     }
     const Cell& cell = row[skipped + *column_of_[i]];
-    // A value may depend on a parameter that has none, and has then none itself.
+    // A value may depend on a parameter without a value, and is then missing itself.
     const bool needed = active && (!space_.is_numeric(i) || space_.constant_interval(i) != nullptr);
     if (active ? is_missing(i, cell) : cell.is_missing()) {
       if (!needed) {

@@ -11,16 +11,16 @@
 
 namespace swarmsmith {
 
-/// Reads a table of configurations, in the file's order (irace facts, 23.4): the first line has the
-/// parameters' names, fixed ones may be left out, NA and <NA> are inactive. Reals are rounded to
-/// the digits of the space. Errors: `where` is file:line:column; the message has the
-/// configuration's number, the parameter and the reason. Forbidden configurations are read like
-/// others.
+/// Reads a table of configurations, in the order of the file (irace facts, 23.4). The first line
+/// has the names of the parameters; fixed parameters may be left out; NA and <NA> mean inactive.
+/// Reals are rounded to the digits of the space. In errors, `where` is file:line:column, and the
+/// message gives the number of the configuration, the parameter and the reason. Forbidden
+/// configurations are read like others.
 Expected<std::vector<Configuration>> parse_configurations_file(const IraceText& source,
                                                                const ParameterSpace& space);
 
-/// The same table, which reads back as the same configurations. An error names a value that the
-/// format cannot hold.
+/// The same table, from which the same configurations are read back. If the format cannot hold a
+/// value, the error names it.
 Expected<std::string> print_configurations_file(const ParameterSpace& space,
                                                 std::span<const Configuration> configurations);
 

@@ -16,7 +16,8 @@ Unexpected wrong(std::string message, const r::Node& node) {
   return bad_input(std::move(message), r::to_string(node.place));
 }
 
-/// Whether the expression lists more numbers than are evaluated, as far as can be told here.
+/// Whether the expression lists more numbers than the evaluation allows, if this can be determined
+/// without evaluating parameters.
 bool is_long_range(const Expression& expression) {
   if (expression.operation() != Operation::Range) return false;
   for (const Expression& end : expression.operands()) {
@@ -27,7 +28,7 @@ bool is_long_range(const Expression& expression) {
   return first && last && std::fabs(*first - *last) >= kLongestRange;
 }
 
-/// Turns a tree of R into an expression.
+/// Converts a tree of R to an expression.
 class Reader {
  public:
   Reader(std::span<const std::string> names, ExpressionUse use, std::vector<Error>& warnings)
@@ -80,7 +81,7 @@ Expected<Expression> Reader::read_name(const r::Node& node, const std::string& n
                node);
 }
 
-/// Operators first, then functions.
+/// Handles operators first; all other calls are functions.
 Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call) {
   std::string function = call.function;
   if (function == "&&" || function == "||") {
@@ -105,21 +106,21 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
   }
   if (is_sign && function == "-") {
     const auto* number = std::get_if<r::Number>(&call.arguments.front().value.what);
-    // R has no negative 0L: its sign stays an operation, or it would be lost when it is printed.
+    // R has no negative 0L: the minus stays an operation, or it would be lost when printed.
     const bool is_signed = number != nullptr && !(number->is_integer && number->value == 0);
     if (!is_signed) return Expression::call(Operation::Negate, std::move(*operands));
     return Expression::constant(number->is_integer ? Scalar::integer(-number->value)
                                                    : Scalar::real(-number->value));
   }
   if (is_sign) operands->insert(operands->begin(), Expression::integer(0));  // + x is 0L + x
-  // `"+"(1, 2, 3)` looks like an operator and is none.
+  // `"+"(1, 2, 3)` looks like an operator, but is not one.
   if (operands->size() != 2) return wrong("'" + function + "' needs two operands", node);
   return Expression::call(is_sign ? Operation::Add : spelling->operation, std::move(*operands));
 }
 
 Expected<std::vector<Expression>> Reader::read_arguments(const r::Call& call) {
-  // What is printed has up to three levels for one here (an operand, its parentheses, a sign), and
-  // must be read again.
+  // Printed text can have up to three levels for one level here (an operand, its parentheses, a
+  // sign), and it must be possible to read it again.
   constexpr int kDeepestNesting = 100;
   const bool is_operator = call.arguments.size() == 2 && irace::find_operator(call.function);
   std::vector<Expression> operands;

@@ -10,8 +10,8 @@
 
 namespace swarmsmith {
 
-/// Reads irace 3.5's forbiddenFile: one expression a line, comments and blank lines between them
-/// (irace facts, 23.5). Errors and warnings: `where` is file:line:column.
+/// Reads irace 3.5's forbiddenFile: one expression per line; comments and blank lines are allowed
+/// (irace facts, 23.5). `where` of errors and warnings is file:line:column.
 Expected<std::vector<Expression>> parse_forbidden_file(const IraceText& source,
                                                        std::span<const std::string> names,
                                                        std::vector<Error>& warnings);

@@ -11,37 +11,39 @@
 
 namespace swarmsmith {
 
-/// Whose description of parameters a file is.
+/// The format of a description of parameters.
 enum class SpaceFormat {
   Irace,
-  Pcs,         ///< AClib's and SMAC's, the older one and the newer one
+  Pcs,         ///< the older and the newer format of AClib and SMAC
   ConfigSpace  ///< the JSON that ConfigSpace writes
 };
 
-/// By the file's ending and its first line that says something.
+/// Determines the format from the file's extension and the first line that is not empty or a
+/// comment.
 SpaceFormat space_format_of(const IraceText& source);
 
-/// A parameter space of another tool in irace's terms.
+/// A parameter space of another tool, converted for irace.
 struct ForeignSpace {
   ParameterSpace space;
-  std::string text;                      ///< irace's parameter file of the space
-  std::optional<Configuration> initial;  ///< of the defaults, where every parameter has one
-  std::vector<std::string> warnings;     ///< a sentence each, with its place
+  std::string text;                      ///< irace's parameter file for the space
+  std::optional<Configuration> initial;  ///< the default values, if every parameter has one
+  std::vector<std::string> warnings;     ///< one sentence each, with its place
 };
 
 struct ForeignSpaceOptions {
-  bool aclib = false;         ///< switches as aclib's calls want them: without a minus
-  std::optional<int> digits;  ///< decimals of reals; else as many as bounds and defaults need
+  bool aclib = false;  ///< whether switches have the form of AClib's calls: without a minus
+  /// Decimals of reals; if not set, as many as bounds and defaults need.
+  std::optional<int> digits;
 };
 
-/// Reads a PCS file. Names get '_' for what irace's names cannot hold; the switch keeps the old
-/// name: `-name `, as SMAC calls its targets. Errors: `where` is file:line:column; formulas and
-/// what else irace cannot say is refused.
+/// Reads a PCS file. In names, characters that irace does not allow become '_'; the switch keeps
+/// the original name: `-name `, as SMAC calls its targets. `where` of an error is file:line:column;
+/// formulas and everything else that irace cannot express are errors.
 Expected<ForeignSpace> parse_pcs_file(const IraceText& source, const ForeignSpaceOptions& options);
 
-/// Reads ConfigSpace's JSON; switches are `--name `. Errors: `where` is the file with the path
-/// within, as `space.json: conditions[2]`. Distributions other than uniform ones are refused;
-/// weights are left out, with a warning.
+/// Reads ConfigSpace's JSON; switches are `--name `. `where` of an error is the file with the path
+/// inside it, such as `space.json: conditions[2]`. Distributions other than uniform ones are
+/// errors; weights are ignored, with a warning.
 Expected<ForeignSpace> parse_config_space(const IraceText& source,
                                           const ForeignSpaceOptions& options);
 

@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kBlanks = " \t\v\f\r\n";
 constexpr std::string_view kLineEnds = "\r\n";
 
-/// Adds what is in a folder, and then what is in its folders. `above` are the folders that it lies
-/// in, as they really are: a link to one of them is not followed.
+/// Adds the files of a folder, and then those of its subfolders. `above` has the real paths of the
+/// folders that contain it: a link to one of them is not followed.
 std::error_code add_files(const fs::path& folder, std::vector<fs::path>& above,
                           std::vector<std::string>& files) {
   std::error_code error;
@@ -25,7 +25,7 @@ std::error_code add_files(const fs::path& folder, std::vector<fs::path>& above,
        entry.increment(error)) {
     const fs::path path = entry->path();
     if (path.filename().string().starts_with('.')) continue;
-    std::error_code gone;  // a link to nothing is not a file
+    std::error_code gone;  // a broken link is not a file
     if (entry->is_directory(gone)) {
       if (const auto deeper = add_files(path, above, files)) return deeper;
     } else if (entry->exists(gone)) {

@@ -12,23 +12,24 @@
 
 namespace swarmsmith {
 
-/// Everything that an irace user's files and command line say, read and checked: what
-/// `swarmsmith irace` runs and `swarmsmith import` turns into a campaign (irace facts, 21 to 23).
-/// Paths are absolute, with the rules of irace facts, 21.
+/// Everything in an irace user's files and command line, read and checked: `swarmsmith irace` runs
+/// it, and `swarmsmith import` converts it to a campaign (irace facts, 21 to 23). Paths are
+/// absolute, by the rules of irace facts, 21.
 struct IraceSetup {
-  Scenario race;  ///< n_instances is set; the seed only if `seed` is
+  Scenario race;  ///< n_instances is set; the seed is set only if `seed` is
   std::optional<std::uint64_t> seed;
 
-  std::filesystem::path scenario_file;  ///< empty when there was none
+  std::filesystem::path scenario_file;  ///< empty if there was none
   std::filesystem::path parameter_file;
-  std::string parameter_text;  ///< of the file, dependency file worked in
+  std::string parameter_text;  ///< text of the parameter file, with the dependency file included
   ParameterSpace space;
   std::filesystem::path configurations_file;  ///< empty for none
   std::string configurations_text;
   std::vector<Configuration> initial;
 
-  std::vector<std::string> training;      ///< instances, as they reach the target-runner
-  std::filesystem::path training_folder;  ///< where they came from, as far as options say it
+  /// instances, in the form in which the target-runner gets them.
+  std::vector<std::string> training;
+  std::filesystem::path training_folder;  ///< where they came from, if options give it
   std::filesystem::path training_file;
   std::vector<std::string> test;
 
@@ -45,18 +46,20 @@ struct IraceSetup {
   bool rejects_failures = false;  ///< --on-failure reject
   std::string batchmode = "0";    ///< "0", "sge", "pbs", "torque", "slurm", "htcondor"
 
-  std::filesystem::path log_file;  ///< irace's; empty for none
-  /// The file of --store, else the log file with `.db` in place of `.Rdata`; empty: nothing is
-  /// kept.
+  std::filesystem::path log_file;  ///< irace's log file; empty for none
+  /// The file of --store, otherwise the log file with `.db` instead of `.Rdata`; if empty, no store
+  /// is kept.
   std::filesystem::path store;
   std::int64_t test_nb_elites = 1;
   bool test_iteration_elites = false;
-  /// Runs at a time; nothing when no file and no switch says it: as many as there are cores.
+  /// Number of parallel runs; nothing if no file and no switch gives it, which means the number of
+  /// cores.
   std::optional<std::int64_t> parallel;
   bool quiet = false;
   std::int64_t debug_level = 0;
 
-  /// Warnings: one sentence for each option without effect and each notable fact.
+  /// Warnings: one sentence for each option that has no effect and for each fact that the user
+  /// should know.
   std::vector<std::string> warnings;
 };
 

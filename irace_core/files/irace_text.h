@@ -5,7 +5,7 @@
 
 namespace swarmsmith {
 
-/// A file's content and the name that messages call it by.
+/// The content of a file, and the file's name in messages.
 struct IraceText {
   std::string text;
   std::string file;

@@ -16,8 +16,8 @@ std::optional<double> number_of(std::string_view text) {
     text.remove_prefix(2);
     format = std::chars_format::hex;
   }
-  // Letters are only those of exponents and of hexadecimal digits: no "inf", no "nan", no second
-  // sign.
+  // The only letters are those of exponents and hexadecimal digits; "inf", "nan" and a second sign
+  // are not numbers.
   if (text.empty() || text.front() == '-') return std::nullopt;
   double number = 0;
   const auto [end, error] = std::from_chars(text.begin(), text.end(), number, format);

@@ -15,7 +15,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Whole numbers above this are not exact as doubles, which is what R has.
+/// Larger whole numbers are not exact as doubles, which are R's numbers.
 constexpr double kLargestWhole = 9007199254740992.0;
 
 std::string lower_case(std::string_view text) {

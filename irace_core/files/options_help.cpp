@@ -6,7 +6,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kWidth = 80;
-constexpr std::size_t kIndent = 6;  // of what an option means
+constexpr std::size_t kIndent = 6;  // of the explanation of an option
 
 std::string_view heading(IraceGroup group) {
   switch (group) {
@@ -32,7 +32,7 @@ std::string_view heading(IraceGroup group) {
   return {};
 }
 
-/// Indented and broken at the width.
+/// The text, indented and wrapped at the width.
 std::string wrapped(const std::string& text) {
   std::string result(kIndent, ' ');
   std::size_t column = kIndent;
@@ -65,7 +65,7 @@ std::string switches(const IraceOption& option) {
   return text + std::string(option.long_switch);
 }
 
-/// Bars would end a cell of a Markdown table.
+/// Bars are escaped, since they would end a cell of a Markdown table.
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) {

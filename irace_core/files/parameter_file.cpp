@@ -16,7 +16,7 @@ namespace {
 using irace::LineReader;
 using irace::ParameterLine;
 
-/// A parameter file cut into its parts; what mentions other parameters is not read yet.
+/// The parts of a parameter file; text that mentions other parameters is not parsed yet.
 struct Parts {
   std::vector<ParameterLine> parameters;
   std::vector<LineReader> forbidden;
@@ -25,7 +25,7 @@ struct Parts {
 
 enum class Section { Parameters, Forbidden, Global };
 
-/// The section that a line `[name]` begins; nothing for every other line.
+/// The section that a line `[name]` begins; nothing for any other line.
 Expected<std::optional<Section>> read_section(const LineReader& line) {
   if (line.rest().front() != '[') return std::nullopt;
   constexpr std::pair<std::string_view, Section> kSections[] = {{"[forbidden]", Section::Forbidden},
@@ -40,7 +40,7 @@ Expected<std::optional<Section>> read_section(const LineReader& line) {
   return line.expected("[forbidden] or [global]");
 }
 
-/// `digits = 4`, the only option there is.
+/// Reads `digits = 4`, which is the only option.
 Expected<int> read_option(const LineReader& line) {
   const auto statements = r::parse_statements(line.rest());
   if (!statements || statements->size() != 1 || statements->front().name != "digits") {
@@ -85,7 +85,7 @@ Expected<Parts> cut(const IraceText& source) {
   return parts;
 }
 
-/// Reads parts into a space; keeps what all steps need.
+/// Reads the parts into a space; holds the data that all steps need.
 class Builder {
  public:
   explicit Builder(const ParameterSources& sources)
@@ -100,7 +100,7 @@ class Builder {
   Expected<Domain> read_numeric(const ParameterLine& line);
   void round_bound(Bound& bound, const ParameterLine& line);
   Expected<std::vector<Expression>> read_forbidden();
-  /// An error of the space, at the parameter that it names.
+  /// The error of the space, with the place of the parameter that it names.
   Error placed(Error error) const;
 
   const ParameterSources& sources_;
@@ -121,8 +121,8 @@ Expected<void> Builder::collect_names() {
   return {};
 }
 
-/// irace 3.5 rounds the bounds of reals to its option digits; irace 4 wants bounds that fit. Those
-/// that irace 4 takes stay as they are.
+/// irace 3.5 rounds the bounds of reals to its option digits; irace 4 requires bounds that fit.
+/// Bounds that irace 4 accepts stay unchanged.
 void Builder::round_bound(Bound& bound, const ParameterLine& line) {
   double* value = std::get_if<double>(&bound);
   if (value == nullptr || !sources_.digits || parts_.digits) return;

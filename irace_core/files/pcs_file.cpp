@@ -15,7 +15,7 @@ using irace::ForeignParameter;
 using irace::LineReader;
 using irace::trimmed;
 
-/// Up to a blank or one of these letters.
+/// Takes the text up to a blank or one of these letters.
 std::string take_until(LineReader& line, std::string_view letters) {
   const std::string_view rest = line.rest();
   std::size_t end = 0;
@@ -37,7 +37,7 @@ std::vector<std::string> split_list(std::string_view text) {
   }
 }
 
-/// What stands between two brackets; the first one comes next.
+/// Takes the text between two brackets; the opening one must come next.
 Expected<std::string> take_bracketed(LineReader& line, char open, char close) {
   line.skip_blanks();
   const std::string wanted = {open, '.', '.', '.', close};
@@ -49,7 +49,7 @@ Expected<std::string> take_bracketed(LineReader& line, char open, char close) {
   return inside;
 }
 
-/// `name <operator> value`, `name in {a, b}`.
+/// A comparison `name <operator> value` or `name in {a, b}`.
 struct Comparison {
   std::string name;
   Operation operation = Operation::Equal;
@@ -92,7 +92,7 @@ Expected<Comparison> read_comparison(LineReader line) {
   return begin.expected(wanted);
 }
 
-/// Where the next of these separators stands outside of inner brackets.
+/// The position of the next separator outside inner brackets.
 std::size_t find_outside(std::string_view text, std::string_view separator) {
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -123,17 +123,17 @@ class PcsReader {
   Expected<ForeignSpace> read();
 
  private:
-  /// A line's rest without its comment, from here on.
+  /// The rest of a line without its comment, to be read later.
   struct Later {
-    std::string name;  ///< of a conditional
+    std::string name;  ///< of the conditional parameter
     std::string text;
     std::size_t line;
-    std::size_t at;  ///< bytes before the text
+    std::size_t at;  ///< bytes of the line before the text
   };
 
   Expected<void> read_line(std::string_view text, std::size_t number);
   Expected<void> read_parameter(const std::string& name, LineReader line, std::string where);
-  /// Comparisons joined by one operator.
+  /// Reads comparisons joined by one operator.
   Expected<Expression> read_joined(const Later& from, const std::string& separator,
                                    Operation operation) const;
   Expected<void> read_condition(const Later& from);
@@ -146,7 +146,7 @@ class PcsReader {
   std::vector<Later> forbidden_;
 };
 
-/// The older format has `{a, b}[a]` and `[1, 10][5]il`, the newer one a word for the type.
+/// The older format has `{a, b}[a]` and `[1, 10][5]il`; the newer one has a word for the type.
 Expected<void> PcsReader::read_parameter(const std::string& name, LineReader line,
                                          std::string where) {
   constexpr std::array<std::string_view, 4> kTypes = {"categorical", "ordinal", "integer", "real"};
@@ -221,7 +221,7 @@ Expected<Expression> PcsReader::read_joined(const Later& from, const std::string
   while (true) {
     const std::size_t end = find_outside(rest, separator);
     const std::size_t before = from.at + (from.text.size() - rest.size());
-    // The piece with what stands before it as blanks, so that places are those of the file.
+    // Blanks replace the text before the piece, so that places are right for the file.
     const std::string piece = std::string(before, ' ') + std::string(rest.substr(0, end));
     LineReader line(source_.file, piece, from.line);
     line.skip_blanks();
@@ -288,7 +288,7 @@ Expected<ForeignSpace> PcsReader::read() {
   return std::move(builder_).build(options_);
 }
 
-/// `name {`, `name [` or `name real [`: no line of irace begins so.
+/// Whether the line begins with `name {`, `name [` or `name real [`: no line of irace begins so.
 bool is_pcs_line(LineReader line) {
   take_until(line, "{[\"");
   line.skip_blanks();
@@ -310,7 +310,7 @@ SpaceFormat space_format_of(const IraceText& source) {
     if (trimmed(line.rest()) == "{" || line.rest().starts_with("{\"")) {
       return SpaceFormat::ConfigSpace;
     }
-    // irace's own sections.
+    // These are irace's own sections.
     if (line.rest().starts_with('[')) return SpaceFormat::Irace;
     return is_pcs_line(line) ? SpaceFormat::Pcs : SpaceFormat::Irace;
   }

@@ -11,7 +11,8 @@ namespace {
 
 using Type = Scalar::Type;
 
-/// The fewest digits that read back as the same number, without an exponent where that is short.
+/// The fewest digits from which the same number is read back, without an exponent where that is
+/// short.
 std::string shortest(double value) {
   if (std::isinf(value)) return value < 0 ? "-Inf" : "Inf";
   if (value == 0) return std::signbit(value) ? "-0" : "0";
@@ -47,7 +48,7 @@ std::string print_constant(const Scalar& value) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
       text += std::string("\\") + c;
-    } else if (code < 0x20 || code == 0x7F) {  // so that a line stays a line
+    } else if (code < 0x20 || code == 0x7F) {  // so that the text stays on one line
       text += std::string("\\x") + kHexadecimal[code / 16] + kHexadecimal[code % 16];
     } else {
       text += c;
@@ -56,7 +57,7 @@ std::string print_constant(const Scalar& value) {
   return text + "\"";
 }
 
-/// In backticks where R would not read the name as one.
+/// The name, in backticks where R would not read it as a name.
 std::string print_name(const std::string& name) {
   constexpr std::array<std::string_view, 15> kReserved = {
       "TRUE", "FALSE", "NULL",   "NA",    "Inf",  "NaN", "function", "if",
@@ -86,7 +87,7 @@ std::string print_at_least(const Expression& expression, int binding) {
 
 std::string print_binary(const irace::Spelling& op, const Expression& left,
                          const Expression& right) {
-  const bool is_power = op.binding == irace::kBindingOfPower;  // goes on to the right
+  const bool is_power = op.binding == irace::kBindingOfPower;  // groups to the right
   const bool is_tight = is_power || op.operation == Operation::Range;
   const bool may_chain = !is_power && op.binding != irace::kBindingOfComparison;
   const std::string blank = is_tight ? "" : " ";
@@ -103,7 +104,7 @@ std::string print(const Expression& expression) {
   if (operation == Operation::Constant) return print_constant(expression.evaluate({})[0]);
   if (operation == Operation::Parameter) return print_name(expression.name());
   if (operation == Operation::Not) {
-    // Parentheses that are not needed, but that readers of !a == b would like to see.
+    // These parentheses are not needed, but make expressions such as !a == b easier to read.
     const bool plain = binding_of(operands[0]) == irace::kBindingOfAtom ||
                        operands[0].operation() == Operation::Not;
     return plain ? "!" + print(operands[0]) : "!(" + print(operands[0]) + ")";

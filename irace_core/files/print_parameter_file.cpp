@@ -19,8 +19,8 @@ bool is_plain(const std::string& value) {
   });
 }
 
-/// A value with quotes in it can only stand without quotes around it, where commas and others mean
-/// something.
+/// A value that contains quotes can only be written without quotes around it, where commas and some
+/// other characters have a meaning.
 bool fits_without_quotes(const std::string& value) {
   return !value.empty() && value.front() != '"' && irace::trimmed(value).size() == value.size() &&
          value.find_first_of(",|#()") == std::string::npos;

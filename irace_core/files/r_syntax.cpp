@@ -10,10 +10,10 @@
 namespace swarmsmith::r {
 namespace {
 
-constexpr int kDeepestTree = 1000;    // so that walking it cannot exhaust the stack
-constexpr int kDeepestNesting = 400;  // R itself gives up at 50 open parentheses
+constexpr int kDeepestTree = 1000;    // so that recursion over it cannot exhaust the stack
+constexpr int kDeepestNesting = 400;  // R itself stops at 50 open parentheses
 
-/// How tightly operators bind, loosest first (irace facts, 8.2).
+/// The precedence of operators, loosest first (irace facts, 8.2).
 enum Binding {
   kLoosest,
   kOr,
@@ -28,7 +28,7 @@ enum Binding {
   kPower
 };
 
-/// The binding of a binary operator; nothing for every other token.
+/// The binding of a binary operator; nothing for any other token.
 std::optional<Binding> binary_binding(const Token& token) {
   struct Entry {
     std::string_view op;
@@ -73,7 +73,7 @@ class Parser {
 
  private:
   Expected<void> advance();
-  /// Passes over line ends, where an expression cannot be complete yet.
+  /// Skips line ends at a place where an expression cannot be complete.
   Expected<void> skip_lines();
   Unexpected found_instead_of(const std::string& wanted) const {
     return bad_input("found " + describe(token_) + ", expected " + wanted, to_string(token_.place));
@@ -91,8 +91,8 @@ class Parser {
   Expected<Tree> literal(Node node);
 
   Lexer lexer_;
-  Token token_;          ///< the next one
-  int parentheses_ = 0;  ///< within them line ends are blanks
+  Token token_;          ///< the next token
+  int parentheses_ = 0;  ///< inside parentheses, line ends are blanks
   int nesting_ = 0;
 };
 
@@ -130,7 +130,7 @@ Expected<Tree> Parser::operation(const Token& op, std::vector<Tree> operands) {
   return Tree{{std::move(call), op.place}, depth + 1};
 }
 
-/// A prefix operator takes all that binds more tightly than itself, wherever it stands.
+/// A prefix operator applies to everything after it that binds more tightly than the operator.
 Expected<Tree> Parser::prefixed() {
   const Token op = token_;
   if (auto moved = advance(); !moved) return Unexpected(moved.error());
@@ -169,7 +169,7 @@ Expected<Argument> Parser::argument(int& depth) {
   return Argument{name, std::move(named_value->node)};
 }
 
-/// From the opening parenthesis on.
+/// Parses a call, from the opening parenthesis on.
 Expected<Tree> Parser::call(std::string function, Place place) {
   const Place open = token_.place;
   Call call{std::move(function), {}};
@@ -193,7 +193,7 @@ Expected<Tree> Parser::call(std::string function, Place place) {
   return Tree{{std::move(call), place}, depth + 1};
 }
 
-/// A name, a constant that is spelled like one, or a call.
+/// Parses a name, a constant that is written like one, or a call.
 Expected<Tree> Parser::named() {
   constexpr std::array<std::string_view, 9> kReserved = {
       "function", "if", "else", "for", "while", "repeat", "break", "next", "in"};
@@ -236,8 +236,8 @@ Expected<Tree> Parser::operand() {
   return found_instead_of("a value, a name or '('");
 }
 
-/// Everything from here on whose operators bind more tightly than `loosest`, or as tightly for the
-/// prefix operators and ^, which go on to the right.
+/// Parses everything from here on whose operators bind more tightly than `loosest`, or equally
+/// tightly for the prefix operators and ^, which group to the right.
 Expected<Tree> Parser::expression(Binding loosest) {
   if (++nesting_ > kDeepestNesting) {
     return bad_input("this expression is nested too deeply", to_string(token_.place));

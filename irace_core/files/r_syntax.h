@@ -11,7 +11,7 @@
 
 namespace swarmsmith::r {
 
-/// Where a piece of text begins, from 1; columns count characters of UTF-8.
+/// The place where a piece of text begins, from 1; columns count UTF-8 characters.
 struct Place {
   std::size_t line = 1;
   std::size_t column = 1;
@@ -19,8 +19,9 @@ struct Place {
 /// "line:column".
 std::string to_string(Place place);
 
-/// `f(a, name = b)`; operators are calls by their own name: "+", "!", "%in%", "-" with one operand.
-/// Parentheses leave no trace. Assignments are not expressions and only occur at the top.
+/// A call `f(a, name = b)`; operators are calls with the operator as name: "+", "!", "%in%", "-"
+/// with one operand. Parentheses are not kept. Assignments are not expressions and only occur at
+/// the top level.
 struct Argument;
 struct Call {
   std::string function;
@@ -33,8 +34,8 @@ struct Number {
 struct Text {
   std::string value;  ///< without quotes, escapes resolved
 };
-/// Also T and F, as in R, so that a parameter may be called so (see `logical_of`), and NA_real_ and
-/// its sisters.
+/// Also T and F, as in R, so that a parameter may have such a name (see `logical_of`), and NA_real_
+/// and the similar constants.
 struct Name {
   std::string value;
 };
@@ -43,32 +44,33 @@ struct Logical {
 };
 struct Null {};
 
-/// A piece of R as it is written: the part of the language that irace's files use (irace facts, 8.2
-/// and 23.1). No tree is deeper than 1000 nodes, so that those who walk it may recurse.
+/// An expression of R: the part of the language that irace's files use (irace facts, 8.2 and 23.1).
+/// A tree has at most 1000 levels, so that recursion over it is safe.
 struct Node {
   std::variant<Number, Text, Name, Logical, Null, Call> what;
-  Place place;  ///< of the first character; of a binary operator, the operator's
+  Place place;  ///< of the first character; for a binary operator, of the operator
 };
 struct Argument {
-  std::string name;  ///< of a named argument, else empty
+  std::string name;  ///< of a named argument, otherwise empty
   Node value;
 };
 
-/// TRUE, FALSE, T or F; nothing for every other node.
+/// The value of TRUE, FALSE, T or F; nothing for any other node.
 std::optional<bool> logical_of(const Node& node);
 
-/// One expression, which must end with the text. Errors: `where` is line:column, counted on from
-/// `start`; the message says what was found and what was expected.
+/// Parses one expression, which must be the whole text. In errors, `where` is line:column, counted
+/// from `start`; the message says what was found and what was expected.
 Expected<Node> parse_expression(std::string_view text, Place start = {});
 
-/// `name = expression` or `name <- expression`; an expression on a line of its own has no name.
+/// A statement `name = expression` or `name <- expression`; for an expression without an assignment
+/// the name is empty.
 struct Statement {
   std::string name;
   Node value;
   Place place;
 };
-/// A file of statements, one a line or separated by `;`, with comments. As in R, a line goes on in
-/// the next one within parentheses and after an operator.
+/// Parses a file of statements, one per line or separated by `;`, with comments. As in R, a
+/// statement continues on the next line inside parentheses and after an operator.
 Expected<std::vector<Statement>> parse_statements(std::string_view text);
 
 }  // namespace swarmsmith::r

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kInclude = "include.scenario";
 
-/// As a command line would write it; nothing for a missing value.
+/// The value in the form of a command line; nothing for a missing value.
 std::optional<std::string> text_of(const Scalar& scalar) {
   if (scalar.missing) return std::nullopt;
   switch (scalar.type) {
@@ -32,7 +32,7 @@ std::optional<std::string> text_of(const Scalar& scalar) {
   return shortest_text(scalar.number);
 }
 
-/// The value for an option. The error has no place.
+/// The value for an option. An error has no place.
 Expected<IraceValue> value_for(const IraceOption& option, const r::Vector& vector) {
   if (vector.empty()) return IraceValue{};
   if (option.kind == IraceKind::Texts) {
@@ -51,7 +51,7 @@ Expected<IraceValue> value_for(const IraceOption& option, const r::Vector& vecto
   return irace_value_of(option, *text);
 }
 
-/// A file and those that it includes.
+/// Reads a file and the files that it includes.
 class ScenarioReader {
  public:
   ScenarioReader(const fs::path& top, const ScenarioSurroundings& surroundings)
@@ -79,13 +79,13 @@ class ScenarioReader {
   }
 
  private:
-  /// The file as seen from the top one.
+  /// The path of the file relative to the folder of the top file, with the place.
   std::string place(const fs::path& file, const std::string& where) const {
     const std::string name = file.lexically_proximate(top_.parent_path()).string();
     return name + (where.empty() ? "" : ":" + where);
   }
 
-  /// `where` of the error is line:column.
+  /// Adds an error, whose `where` is line:column.
   void complain(const fs::path& file, Error error) {
     error.where = place(file, error.where);
     errors_.push_back(std::move(error));
@@ -94,7 +94,7 @@ class ScenarioReader {
     complain(file, {ErrorKind::BadInput, std::move(message), r::to_string(where)});
   }
 
-  /// Functions of R are what scenarios that cannot be read most often have.
+  /// If a scenario cannot be read, the most frequent reason is that it contains functions of R.
   void complain_about_syntax(const fs::path& file, Error error) {
     if (error.message.find("'function'") != std::string::npos) {
       error.message +=
@@ -120,7 +120,8 @@ class ScenarioReader {
     }
   }
 
-  /// A variable without a value is missing: what uses it is not to be blamed.
+  /// After an error the variable gets a missing value, so that expressions that use it are not
+  /// reported.
   std::optional<r::Vector> assign(const r::Statement& statement, const fs::path& file) {
     auto value = r::evaluate(statement.value, environment_);
     if (!value) complain(file, value.error());
@@ -131,7 +132,7 @@ class ScenarioReader {
   void read_option(const IraceOption& option, const r::Statement& statement, const fs::path& file) {
     IraceValue value;
     if (option.kind == IraceKind::Anything) {
-      // Whatever it is, it is for R; only its absence means something.
+      // Any value is meant for R; only an absent value has a meaning here.
       const auto* text = std::get_if<r::Text>(&statement.value.what);
       const bool is_nothing = std::holds_alternative<r::Null>(statement.value.what) ||
                               (text != nullptr && text->value.empty());
@@ -161,7 +162,7 @@ class ScenarioReader {
                           .folder = top_.parent_path()});
   }
 
-  /// Only include.scenario does something when it stands alone.
+  /// The only call that has an effect as a statement is include.scenario.
   void read_call(const r::Statement& statement, const fs::path& file) {
     const auto* call = std::get_if<r::Call>(&statement.value.what);
     if (call == nullptr || call->function != kInclude) {
@@ -200,7 +201,7 @@ class ScenarioReader {
   const fs::path& top_;
   const ScenarioSurroundings& surroundings_;
   r::Environment environment_;
-  std::vector<fs::path> open_;  ///< those that are being read, the innermost last
+  std::vector<fs::path> open_;  ///< files that are being read, the innermost last
   std::size_t files_ = 0;
   IraceScenarioFile result_;
   std::vector<Error> errors_;

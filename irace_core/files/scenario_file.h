@@ -12,32 +12,32 @@
 
 namespace swarmsmith {
 
-/// What scenario files say; values are those of the table of options.
+/// The content of scenario files; the values are those of the table of options.
 struct IraceScenarioFile {
   IraceSettings settings;
   std::vector<std::string> warnings;  ///< each begins with its place
 };
 using IraceScenarioFileOrErrors = tl::expected<IraceScenarioFile, std::vector<Error>>;
 
-/// What reading a scenario needs of the world around it.
+/// The environment in which a scenario is read.
 struct ScenarioSurroundings {
-  /// The text of an included file.
+  /// Returns the text of an included file.
   std::function<Expected<std::string>(const std::filesystem::path&)> read;
-  /// Nothing for an environment variable that is not set.
+  /// Returns the value of an environment variable; nothing if it is not set.
   std::function<std::optional<std::string>(const std::string& name)> environment_variable;
-  /// Where the process is (getwd); empty: where the scenario is.
+  /// The working directory of the process (getwd); empty: the folder of the scenario.
   std::filesystem::path folder{};
 };
 
-/// Reads a scenario (irace facts, 23.1): options and own variables (whose names begin with a dot),
-/// `include.scenario("other.txt")` (relative to `file`, as all paths). Everything wrong is reported
-/// together, as far as it does not follow from an error before; `where` is file:line:column.
-/// `file`, absolute, is not read.
+/// Reads a scenario (irace facts, 23.1): options, the user's own variables (whose names begin with
+/// a dot), and `include.scenario("other.txt")` (relative to `file`, like all paths). All errors are
+/// reported together, except those that follow from an earlier error; `where` is file:line:column.
+/// `file` must be absolute; it is not opened.
 IraceScenarioFileOrErrors parse_irace_scenario(std::string_view text,
                                                const std::filesystem::path& file,
                                                const ScenarioSurroundings& surroundings);
 
-/// The same for a file, with this process's environment.
+/// Reads a scenario file, with the environment of this process.
 IraceScenarioFileOrErrors read_irace_scenario(const std::filesystem::path& file);
 
 }  // namespace swarmsmith

@@ -14,7 +14,7 @@ namespace {
 /// Options that irace 3.5 does not have (irace facts, 26).
 constexpr std::array<std::string_view, 5> kNewIn4 = {
     "blockSize", "targetRunnerTimeout", "minExperiments", "targetCmdline", "cappingAfterFirstTest"};
-/// Options whose default is another one in irace 3.5: always written for it.
+/// Options with a different default in irace 3.5; they are always written for it.
 constexpr std::array<std::string_view, 3> kOtherDefaultIn35 = {"softRestartThreshold", "capping",
                                                                "budgetEstimation"};
 
@@ -41,10 +41,11 @@ class Printer {
   }
 
   void print_files() {
-    // Also when it is empty, which keeps no log; left out, there would be one.
+    // This line is also written if the name is empty, which means no log; without it there would be
+    // one.
     line("logFile", setup_.log_file.string());
     line("parameterFile", names_.parameters);
-    // irace 3.5 would put ./Instances before every instance.
+    // Without this line, irace 3.5 would put ./Instances before every instance.
     line("trainInstancesDir", names_.training_folder);
     line("trainInstancesFile", names_.training);
     if (!names_.test.empty()) line("testInstancesFile", names_.test);
@@ -62,7 +63,7 @@ class Printer {
     if (field.name == "repairConfiguration") {
       remark(field.name, "is a program here, and a function of R there");
     } else if (is_35 && field.name == "postselection") {
-      // Left out, it is off in 3.5.
+      // If it is left out, it is off in 3.5.
     } else if (is_35 && contains(kNewIn4, field.name)) {
       if (field.name != "targetCmdline" || !print_launcher_arguments()) {
         remark(field.name, "does not exist in irace 3.5");
@@ -74,7 +75,8 @@ class Printer {
     }
   }
 
-  /// The template of irace 4 as irace 3.5's, where one word stands for all; false if it cannot be.
+  /// Converts the template of irace 4 to irace 3.5's, where one word means all arguments; false if
+  /// this is not possible.
   bool print_launcher_arguments() {
     std::string line_of_35 = setup_.target_cmdline;
     const std::size_t place = line_of_35.find(defaults_.target_cmdline);

@@ -8,7 +8,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Nothing, an empty text, or what holds without a word.
+/// Whether the value is missing, an empty text, or the default.
 bool is_default(const IraceOption& option, const IraceValue& value) {
   if (std::holds_alternative<std::monostate>(value)) return true;
   if (const auto* text = std::get_if<std::string>(&value); text != nullptr && text->empty()) {
@@ -18,7 +18,7 @@ bool is_default(const IraceOption& option, const IraceValue& value) {
   return initial && *initial == value;
 }
 
-/// `~` and `~/...` begin in the home folder, as in R, which does not leave that to the shell.
+/// Paths `~` and `~/...` start in the home folder; R expands them itself, without the shell.
 std::filesystem::path with_home(std::string_view path) {
   const bool begins = path == "~" || path.starts_with("~/");
   const std::string home = begins ? environment("HOME") : "";

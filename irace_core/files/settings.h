@@ -13,23 +13,23 @@ namespace swarmsmith {
 /// A value given to an option.
 struct IraceSetting {
   const IraceOption* option = nullptr;
-  IraceValue value;              ///< nothing unsets what was said before
+  IraceValue value;              ///< nothing unsets an earlier value
   std::string where;             ///< "scenario.txt:3:1" or "--seed", for messages
-  std::filesystem::path folder;  ///< which a relative path begins from; absolute
+  std::filesystem::path folder;  ///< start of a relative path; absolute
   bool on_command_line = false;
 };
 
-/// What a file or a command line says: at most one setting an option.
+/// The settings of a file or a command line: at most one per option.
 class IraceSettings {
  public:
-  /// The last one wins.
+  /// Sets an option; the last setting wins.
   void set(IraceSetting setting);
-  /// Takes over what `stronger` says.
+  /// Takes over the settings of `stronger`.
   void override_with(const IraceSettings& stronger);
 
-  /// By the name in scenario files or by the long switch; null if not given or unset.
+  /// The setting with this name in scenario files or long switch; null if not given or unset.
   const IraceSetting* find(std::string_view title) const;
-  /// Whether a flag is given, or a bool is true.
+  /// Whether a flag is given, or a bool option is true.
   bool is_on(std::string_view title) const;
   /// The text or path as written; nothing if not given.
   std::optional<std::string> text(std::string_view title) const;
@@ -41,15 +41,15 @@ class IraceSettings {
   std::vector<IraceSetting> settings_;
 };
 
-/// Why a value cannot be used here, in a sentence: refused options, unless they have their default
-/// or nothing, and older names.
+/// The reason, in one sentence, why a value cannot be used here: a refused option, unless it has
+/// its default value or none, or an older name.
 std::optional<std::string> irace_refusal(const IraceOption& option, const IraceValue& value);
-/// What is to be known about a value that is used: options that mean nothing here, unless they have
-/// their default, and those that newer versions of irace do not read.
+/// A note about a value that is used: an option without effect here, unless it has its default, or
+/// one that newer versions of irace do not read.
 std::optional<std::string> irace_remark(const IraceOption& option, const IraceValue& value);
 
-/// A file or folder as an absolute path without dots, relative to the setting's folder, or to HOME
-/// where it begins with `~/`; empty stays empty.
+/// A file or folder as an absolute path without dots, relative to `folder`, or to HOME if it begins
+/// with `~/`; an empty path stays empty.
 std::filesystem::path absolute_path(std::string_view path, const std::filesystem::path& folder);
 
 }  // namespace swarmsmith

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using irace::SetupWork;
 
-/// The file that the command line names, or the one that lies there; empty for none.
+/// The file that the command line names, or the default file if it exists; empty for none.
 fs::path scenario_of(const IraceCommandLine& line, SetupWork& work) {
   const IraceOption& option = *find_irace_option("scenarioFile");
   if (const IraceSetting* setting = line.settings.find(option.name)) {

@@ -133,7 +133,7 @@ std::string wrapped_comment(const std::string& text) {
   return result + line + "\n";
 }
 
-/// The default as a scenario file writes it.
+/// The default in the form of a scenario file.
 std::string default_text(const IraceOption& option) {
   if (option.initial == "NA") return "NA";
   const auto value = irace_value_of(option, option.initial);

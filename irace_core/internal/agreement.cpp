@@ -35,7 +35,8 @@ void QualityVariance::add_row(std::span<const Entry> row) {
   double square = 0;
   for (const Entry& entry : row)
     square += (entry.cost - mean) * (entry.cost - mean);
-  // The mean of equal costs may be off by a rounding, which must not be standardised.
+  // Rounding may make the mean differ slightly from costs that are all equal; standardising would
+  // amplify that.
   const bool is_constant =
       std::ranges::all_of(row, [&](const Entry& entry) { return entry.cost == row.front().cost; });
   const double sd = is_constant ? 0 : std::sqrt(square / (k - 1));

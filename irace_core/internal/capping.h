@@ -9,7 +9,8 @@
 
 namespace swarmsmith::irace {
 
-/// What all runs of a race have in common about time (irace facts, 17); options of the same names.
+/// The rules about time for all runs of a race (irace facts, 17). The members are options of the
+/// same names.
 struct TimeRules {
   double bound_max = 0;
   std::int64_t bound_digits = 0;
@@ -18,27 +19,29 @@ struct TimeRules {
   double min_measurable_time = 0.01;
 };
 
-/// The elites' times or costs as one number; `values` is not empty.
+/// Summarises the elites' times or costs as one number; `values` is not empty.
 double summarise(std::vector<double> values, CappingType type);
 
 /// The smallest number with `digits` decimals that is not below `value`.
 double round_up(double value, std::int64_t digits);
 
-/// The bound of a run on the `task`th pair of a race (from 1), when the elites' mean time over
-/// these pairs is `elite_time` (at most bound_max) and the candidate has spent `spent` on those
-/// before.
+/// The bound of a candidate's run on the `task`th pair of a race (from 1). `elite_time` is the
+/// elites' mean time over the pairs up to this one (at most bound_max), `spent` the time that the
+/// candidate has spent on the pairs before.
 double candidate_bound(double elite_time, std::size_t task, double spent, const TimeRules& rules);
 
-/// The bound of a run when the elites' time on the same pair is `elite_time`.
+/// The bound of a run on a pair on which the elites' time is `elite_time`.
 double instance_bound(double elite_time, const TimeRules& rules);
 
-/// What a run under capping costs: one that reaches bound_max costs bound_par times that, one that
-/// reaches a smaller bound costs bound_max, if bound_as_timeout. A rejection stays one.
+/// The cost of a run in a race with capping: bound_par times bound_max if its cost reaches
+/// bound_max; with bound_as_timeout, bound_max if its time reaches a smaller bound. A rejection
+/// stays a rejection.
 double capped_cost(double cost, double time, double bound, const TimeRules& rules);
 
-/// The positions whose mean cost is above what the elites' means allow. `means` are those of all
-/// who are alive, `elites` positions among them. Without elites the best `min_survival` stand in
-/// for them; none is dominated where so few are alive.
+/// The positions of the configurations whose mean cost is above the limit given by the elites'
+/// means. `means` are the means of all alive configurations, `elites` the positions of the elites
+/// among them. Without elites, the best `min_survival` configurations take their place. If at most
+/// that many are alive, none is dominated.
 std::vector<std::size_t> dominated(std::span<const double> means,
                                    std::span<const std::size_t> elites, CappingType type,
                                    std::int64_t min_survival);

@@ -26,8 +26,8 @@ bool is_number_or_parameter(const Expression& expression) {
          expression.evaluate({})[0].type != Scalar::Type::Text;
 }
 
-/// Bounds may use + - * / %% min max round floor ceiling trunc; constant ones also what gives one
-/// number from one or two.
+/// Bounds may use + - * / %% min max round floor ceiling trunc; constant bounds may also use the
+/// other functions and operators that give one number from one or two.
 bool only_arithmetic(const Expression& expression, bool is_constant) {
   constexpr Operation kAllowed[] = {Operation::Add,    Operation::Subtract, Operation::Multiply,
                                     Operation::Divide, Operation::Modulo,   Operation::Negate,
@@ -47,7 +47,7 @@ bool only_arithmetic(const Expression& expression, bool is_constant) {
       [is_constant](const Expression& operand) { return only_arithmetic(operand, is_constant); });
 }
 
-/// Binds one bound and checks what it mentions.
+/// Binds one bound and checks the parameters that it mentions.
 Expected<void> bind_bound(Bound& bound, const std::string& owner,
                           std::span<const std::string> names, std::span<const Parameter> all) {
   Expression* expression = std::get_if<Expression>(&bound);

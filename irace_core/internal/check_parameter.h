@@ -10,32 +10,33 @@
 
 namespace swarmsmith::irace {
 
-/// The bounds of a domain that are expressions; none for choices and constants.
+/// The expressions among the bounds of a domain; none for categorical and ordinal domains and
+/// constant bounds.
 std::vector<const Expression*> bound_expressions(const Domain& domain);
 
 /// The values of a categorical or ordinal domain; none for numeric ones.
 std::span<const std::string> choice_values(const Domain& domain);
 
-/// The domain of a numeric parameter with constant bounds, an empty one for choices; nothing when
-/// it depends on other parameters.
+/// The domain of a numeric parameter with constant bounds, an empty interval for categorical and
+/// ordinal ones; nothing for a dependent domain.
 std::optional<Interval> constant_interval(const Domain& domain);
 
 /// Binds condition and bounds to `names`, and turns bounds that mention no parameter into
-/// constants. A bound may mention numeric parameters only, and use arithmetic only. `all` are the
-/// parameters by the order of `names`.
+/// constants. A bound may only mention numeric parameters and only use arithmetic. `all` are the
+/// parameters in the order of `names`.
 Expected<void> bind_parameter(Parameter& parameter, std::span<const std::string> names,
                               std::span<const Parameter> all);
 
-/// Whether a constant bound of a real survives rounding to that many digits, and does not vanish
-/// (irace facts, 23.2).
+/// Whether a constant bound of a real keeps its value when rounded to `digits` decimals, and does
+/// not become zero (irace facts, 23.2).
 bool fits_digits(double bound, int digits);
-/// How many the constant bounds of all reals need, `digits` at least.
+/// The number of decimals that the constant bounds of all reals need, at least `digits`.
 int digits_needed(std::span<const Parameter> parameters, int digits);
 
-/// Whether a bound of an integer is one that doubles hold exactly, with all below it.
+/// Checks that doubles represent the bound of an integer, and all smaller whole numbers, exactly.
 Expected<void> check_whole(double bound, const std::string& name);
 
-/// What can be said of a bound parameter alone: its name, its values or its constant bounds.
+/// Checks a bound parameter without the others: its name, and its values or constant bounds.
 Expected<void> check_parameter(const Parameter& parameter, int digits);
 
 }  // namespace swarmsmith::irace

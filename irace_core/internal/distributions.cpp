@@ -22,7 +22,7 @@ TruncatedNormal::TruncatedNormal(double mean, double sd, double lower, double up
 double TruncatedNormal::sample(Rng& rng) const {
   const double u = (static_cast<double>(rng.next() >> 11U) + 0.5) * 0x1.0p-53;
   if (sd_ < kNoSpread) return mean_;
-  // That far out the tail falls off like an exponential from the end next to the mean.
+  // This far out, the tail falls off like an exponential from the end that is next to the mean.
   const double z = p_high_ > kVanishing ? normal_quantile(p_low_ + u * (p_high_ - p_low_))
                                         : end_ + log(u) / -end_;
   const double x = mirrored_ ? mean_ - sd_ * z : mean_ + sd_ * z;

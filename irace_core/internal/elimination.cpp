@@ -27,8 +27,8 @@ double pseudo_median(std::span<const double> differences) {
   return means.size() % 2 == 1 ? means[middle] : (means[middle - 1] + means[middle]) / 2;
 }
 
-/// Normal approximation with continuity correction (irace facts, 10.2, step 4): z and s are those
-/// of the page, `ties` is its sum(u^3 - u).
+/// Normal approximation with continuity correction (irace facts, 10.2, step 4): z and s are as
+/// defined there, `ties` is the sum(u^3 - u).
 double approximate_p(double v, double n, double ties) {
   const double variance = n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
   double z = v - n * (n + 1) / 4;
@@ -43,8 +43,8 @@ double exact_p(double v, std::size_t n) {
   return std::min(1.0, 2 * std::min(tails.lower, tails.upper));
 }
 
-/// As R's all.equal with its own tolerance: relative to the first, unless that is nearly zero
-/// (irace facts, 10.3, step 2).
+/// Like R's all.equal with its default tolerance: relative to the first value, unless that is
+/// nearly zero (irace facts, 10.3, step 2).
 bool nearly_equal(double first, double second) {
   constexpr double kTolerance = 0x1p-26;
   const double difference = std::fabs(first - second);
@@ -52,14 +52,15 @@ bool nearly_equal(double first, double second) {
   return (size > kTolerance ? difference / size : difference) <= kTolerance;
 }
 
-/// Whether a column's costs differ at all, for a t-test (irace facts, 10.3, step 3).
+/// Whether a column's costs differ at all, which a t-test needs (irace facts, 10.3, step 3).
 bool varies(std::span<const double> costs, double mean) {
   constexpr double kLeastVariance = 10 * std::numeric_limits<double>::epsilon();
   return variance_of(costs, mean) >= kLeastVariance;
 }
 
-/// Student's |t| = |mean(d)| / sqrt(var(d) / n) of the differences; nothing where a difference is
-/// certain without a test: one does not vary, or the best is at least as good in every row.
+/// Student's |t| = |mean(d)| / sqrt(var(d) / n) of the differences. Nothing if the other column is
+/// worse without a test: one of the two does not vary, or the best is at least as good in every
+/// row.
 std::optional<double> paired_t(std::span<const double> best, double best_mean,
                                std::span<const double> other, double other_mean,
                                std::vector<double>& differences) {
@@ -83,7 +84,7 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
   SWARMSMITH_ASSERT(columns.size() >= 3, "Friedman's test compares three or more");
   SWARMSMITH_ASSERT(static_cast<std::size_t>(table.columns()) == columns.size(),
                     "ranks are those among the columns that are compared");
-  // Step 1 of irace facts, 10.1, is the table: R_j are its rank sums.
+  // Step 1 of irace facts, 10.1, was done when the table was filled: R_j are its rank sums.
   const auto n = static_cast<double>(table.rows());
   const auto k = static_cast<double>(columns.size());
   double spread = 0;
@@ -93,7 +94,7 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
     spread += (sum - n * (k + 1) / 2) * (sum - n * (k + 1) / 2);
     square_sums += sum * sum;
   }
-  // Step 2: S. Ties are subtracted, since tied ranks spread less than different ones.
+  // Step 2: S. Ties are subtracted, since tied ranks vary less than different ones.
   TestResult result;
   result.statistic = 12 * spread / (n * k * (k + 1) - table.ties() / (k - 1));
   if (std::isnan(result.statistic)) {  // 0/0: all rows are tied throughout
@@ -102,14 +103,15 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
   }
   // Step 3: S against chi-square with k - 1 degrees of freedom.
   result.p_value = chi_square_upper_tail(result.statistic, k - 1);
-  // One pair leaves no degree of freedom to judge differences by.
+  // With a single pair there is no degree of freedom for comparing columns.
   if (!(result.p_value < alpha) || table.rows() < 2) return result;
 
-  // Step 4: f and D. Rounding can take the difference below 0 where rows agree completely.
+  // Step 4: f and D. Rounding can make the difference negative when the rows agree completely.
   const double dof = (n - 1) * (k - 1);
   const double scatter = std::max(0.0, 2 * (n * table.squares() - square_sums) / dof);
   const double difference = quantiles(static_cast<std::int64_t>(dof)) * std::sqrt(scatter);
-  // Step 5. The least R_j differs from itself by 0, and D is never negative: the best survives.
+  // Step 5. The smallest R_j differs from itself by 0, and D is never negative, so the best
+  // survives.
   double best = table.rank_sum(columns.front());
   for (const std::size_t column : columns)
     best = std::min(best, table.rank_sum(column));
@@ -131,7 +133,7 @@ PairedResult wilcoxon_test(std::span<const double> first, std::span<const double
     never_better = never_better && difference >= 0;
     if (difference != 0) differences.push_back(difference);
   }
-  // Step 1 of irace facts, 10.2: of two equal columns the second goes.
+  // Step 1 of irace facts, 10.2: of two equal columns the second is dropped.
   if (never_worse) return {0, 0, false, true};
   if (never_better) return {0, 0, true, false};
 
@@ -145,7 +147,8 @@ PairedResult wilcoxon_test(std::span<const double> first, std::span<const double
   for (std::size_t i = 0; i < differences.size(); ++i) {
     if (differences[i] > 0) result.statistic += ranked.ranks[i];
   }
-  // Steps 3 and 4: the exact distribution knows neither zeros nor ties, and is that of small n.
+  // Steps 3 and 4: the exact distribution holds only without zeros and ties, and is used for small
+  // n.
   const bool clean = differences.size() == first.size() && ranked.ties == 0;
   const std::size_t n = differences.size();
   result.p_value = clean && n < 50
@@ -166,8 +169,8 @@ std::vector<double> adjusted(std::vector<double> p_values, TestType type) {
       p = std::min(1.0, static_cast<double>(k) * p);
   }
   if (type == TestType::TTestHolm) {
-    // Stepping down: the i-th smallest of k is multiplied by k - i + 1, and is at least as large as
-    // those before it, so that a larger p never passes where a smaller one fails.
+    // Step-down: the i-th smallest of k is multiplied by k - i + 1, and is at least as large as
+    // those before it, so that a larger p is never significant when a smaller one is not.
     std::vector<std::size_t> order(k);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -186,7 +189,7 @@ TestResult paired_t_tests(std::span<const std::span<const double>> costs,
                           std::span<const double> means, std::span<const std::size_t> columns,
                           double alpha, TestType type) {
   SWARMSMITH_ASSERT(columns.size() >= 2 && costs.size() == columns.size(), "columns to compare");
-  // Step 1 of irace facts, 10.3. Its own p stays 1, and so no adjustment drops it.
+  // Step 1 of irace facts, 10.3. The best column's own p stays 1, so that no adjustment drops it.
   const auto best =
       static_cast<std::size_t>(std::min_element(means.begin(), means.end()) - means.begin());
   const std::size_t rows = costs[best].size();

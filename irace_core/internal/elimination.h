@@ -10,7 +10,7 @@
 
 namespace swarmsmith::irace {
 
-/// What an elimination test found.
+/// The result of an elimination test.
 struct TestResult {
   double statistic = 0;
   double p_value = 1;  ///< 0 when decided without a test; NaN when the statistic is undefined;
@@ -18,14 +18,14 @@ struct TestResult {
   std::vector<std::size_t> dropped;  ///< columns, ascending
 };
 
-/// Friedman's test with Conover's multiple comparison on rank sums (irace facts, 10.1): three
-/// columns or more. The best column always survives. `columns` are those that take part, in
+/// Friedman's test with Conover's multiple comparison on rank sums (irace facts, 10.1), for three
+/// or more columns. The best column always survives. `columns` are the columns that take part, in
 /// order; of columns with equal rank sums the earlier one comes first.
 /// Source: Conover, Practical Nonparametric Statistics, the section on the Friedman test.
 TestResult friedman_test(const RankTable& table, std::span<const std::size_t> columns, double alpha,
                          StudentQuantiles& quantiles);
 
-/// Which of two is worse, and how sure that is.
+/// The worse of two configurations, and the p-value.
 struct PairedResult {
   double statistic = 0;  ///< sum of the ranks of positive differences
   double p_value = 1;
@@ -33,21 +33,23 @@ struct PairedResult {
   bool drops_second = false;
 };
 
-/// Wilcoxon's signed-rank test of two configurations on the same pairs (irace facts, 10.2). One
-/// that is never better is dropped without a test; of two equal ones the second.
+/// Wilcoxon's signed-rank test of two configurations on the same pairs (irace facts, 10.2). A
+/// configuration that is never better is dropped without a test; of two equal ones the second is
+/// dropped.
 PairedResult wilcoxon_test(std::span<const double> first, std::span<const double> second,
                            double alpha);
 
-/// Paired t-tests of each column against that with the smallest mean (irace facts, 10.3), two
-/// columns or more. `costs[i]` holds the costs of `columns[i]` on the same pairs and `means[i]`
-/// their mean; `type` says how p-values are adjusted. The statistic is the largest |t| of all tests
-/// that were made.
+/// Paired t-tests of each column against the column with the smallest mean (irace facts, 10.3), for
+/// two or more columns. `costs[i]` holds the costs of `columns[i]` on the same pairs and `means[i]`
+/// their mean; `type` is the adjustment of the p-values. The statistic is the largest |t| of all
+/// tests that were made.
 TestResult paired_t_tests(std::span<const std::span<const double>> costs,
                           std::span<const double> means, std::span<const std::size_t> columns,
                           double alpha, TestType type);
 
-/// p-values for that many tests at once: as they are, or by Bonferroni or Holm (A simple
-/// sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6, 1979).
+/// p-values adjusted for this number of simultaneous tests: not at all, or by Bonferroni or Holm (A
+/// simple sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6,
+/// 1979).
 std::vector<double> adjusted(std::vector<double> p_values, TestType type);
 
 }  // namespace swarmsmith::irace

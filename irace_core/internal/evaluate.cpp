@@ -20,7 +20,8 @@ Scalar missing_logical() {
   return Scalar::missing_of(Type::Logical);
 }
 
-/// R's as.numeric of a text: a decimal number with blanks around it, Inf, or missing.
+/// R's as.numeric of a text: a decimal number, which may have blanks around it, or Inf; otherwise
+/// missing.
 Scalar parse_number(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\n\r";
   const std::size_t first = text.find_first_not_of(kBlanks);
@@ -33,7 +34,7 @@ Scalar parse_number(std::string_view text) {
   return whole ? Scalar::real(value) : Scalar::missing_of(Type::Real);
 }
 
-/// R's coercion of one value to another type; what cannot be coerced is missing.
+/// R's coercion of one value to another type; a value that cannot be coerced becomes missing.
 Scalar convert(const Scalar& value, Type type) {
   if (value.type == type) return value;
   if (value.missing) return Scalar::missing_of(type);
@@ -63,7 +64,7 @@ bool is_true_logical(const Scalar& value) {
   return !value.missing && value.number != 0;
 }
 
-/// And, Or, Xor with three values: a known operand may decide alone.
+/// And, Or, Xor with three values: one known operand may decide the result.
 Scalar logic(Operation operation, const Scalar& left, const Scalar& right) {
   const Scalar a = convert(left, Type::Logical);
   const Scalar b = convert(right, Type::Logical);
@@ -77,7 +78,8 @@ Scalar logic(Operation operation, const Scalar& left, const Scalar& right) {
   return Scalar::logical(operation == Operation::And);
 }
 
-/// Sign of a - b, for two present values; a text among them makes both texts.
+/// Sign of a - b, for two values that are not missing; if one of them is a text, both are compared
+/// as texts.
 int order(const Scalar& a, const Scalar& b) {
   if (is_number(a) && is_number(b)) return a.number < b.number ? -1 : a.number > b.number;
   if (is_number(a)) return compare_texts(to_text(a), b.text);
@@ -85,7 +87,7 @@ int order(const Scalar& a, const Scalar& b) {
   return compare_texts(a.text, b.text);
 }
 
-/// == != < <= > >=; missing when either side is.
+/// == != < <= > >=; missing if either side is missing.
 Scalar compare(Operation operation, const Scalar& a, const Scalar& b) {
   if (a.missing || b.missing) return missing_logical();
   const int sign = order(a, b);
@@ -98,7 +100,7 @@ Scalar compare(Operation operation, const Scalar& a, const Scalar& b) {
   return Scalar::logical(holds);
 }
 
-/// By squaring for whole exponents, so that powers of small integers are exact.
+/// The power, by repeated squaring for whole exponents, so that powers of small integers are exact.
 double power(double base, double exponent) {
   if (base == 1 || exponent == 0) return 1;
   if (exponent == std::floor(exponent) && std::fabs(exponent) <= 1'000'000) {
@@ -114,16 +116,15 @@ double power(double base, double exponent) {
   return base > 0 ? pow(base, exponent) : NAN;
 }
 
-/// + - * / ^ %% %/%: of integers an integer, but for / and ^; of texts missing.
-/// a - floor(a / b) b, with the sign of b: NaN for b = 0; for an infinite b, a of the same sign is
-/// left as it is (R's Arithmetic).
+/// The remainder a - floor(a / b) b, which has the sign of b: NaN for b = 0. For an infinite b the
+/// result is a if both have the same sign, otherwise b (R's Arithmetic).
 double modulo(double a, double b) {
   if (b == 0 || !std::isfinite(a)) return NAN;
   if (std::isinf(b)) return a == 0 || (a < 0) == (b < 0) ? a : b;
   return a - std::floor(a / b) * b;
 }
 
-/// floor(a / b); below 0 it is -1 at least, also where a / b is too small for a number.
+/// floor(a / b); for an infinite b it is 0, or -1 if a and b have opposite signs.
 double whole_quotient(double a, double b) {
   if (std::isinf(b) && std::isfinite(a)) return a == 0 || (a < 0) == (b < 0) ? 0 : -1;
   return std::floor(a / b);
@@ -148,7 +149,7 @@ Scalar calculate(Operation operation, const Scalar& left, const Scalar& right) {
   return typed(whole_quotient(a, b));  // IntegerDivide
 }
 
-/// The functions of one number; `digits` only for Round.
+/// The functions of one number; only Round uses `digits`.
 Scalar transform(Operation operation, const Scalar& x, double digits) {
   if (x.missing || !is_number(x)) return Scalar::missing_of(Type::Real);
   const double v = x.number;
@@ -172,7 +173,7 @@ bool is_comparison(Operation operation) {
   return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
 }
 
-/// Any operation on one element of each side.
+/// Applies an operation to one element of each side.
 Scalar binary(Operation operation, const Scalar& a, const Scalar& b) {
   if (is_logic(operation)) return logic(operation, a, b);
   if (is_comparison(operation)) return compare(operation, a, b);
@@ -195,7 +196,7 @@ Scalar unary(Operation operation, const Scalar& x) {
   return transform(operation, x, 0);
 }
 
-/// Applies `function` to the elements of both, the shorter one repeated.
+/// Applies `function` to the elements of both vectors; the shorter one is repeated.
 template <class Function>
 Values elementwise(const Values& a, const Values& b, Function function) {
   const std::size_t size = std::max(a.size(), b.size());
@@ -208,7 +209,7 @@ Values elementwise(const Values& a, const Values& b, Function function) {
   return Values(std::move(result));
 }
 
-/// c(): all elements in a row, in the type that can hold them all.
+/// c(): all elements in one vector, converted to the most general of their types.
 Values combine(const std::vector<Values>& parts) {
   Type type = Type::Logical;
   for (const Values& part : parts)
@@ -221,7 +222,7 @@ Values combine(const std::vector<Values>& parts) {
   return Values(std::move(all));
 }
 
-/// min() and max() over all elements of all operands; one that is missing makes all missing.
+/// min() and max() over all elements of all operands; missing if one element is missing.
 Values extreme(Operation operation, const std::vector<Values>& parts) {
   const Values all = combine(parts);
   Scalar best = all[0];
@@ -230,11 +231,11 @@ Values extreme(Operation operation, const std::vector<Values>& parts) {
     const int sign = order(all[i], best);
     if (operation == Operation::Min ? sign < 0 : sign > 0) best = all[i];
   }
-  // The extreme of logicals is a number.
+  // The minimum or maximum of logicals is a number.
   return best.type == Type::Logical ? convert(best, Type::Integer) : best;
 }
 
-/// from:to in steps of one, up or down; integers when `from` is whole.
+/// from:to in steps of one, up or down; integers if `from` is a whole number.
 struct Sequence {
   double first = 0;
   double step = 1;
@@ -247,7 +248,7 @@ struct Sequence {
   }
 };
 
-/// Nothing when an end is missing or not a number.
+/// The sequence from:to; nothing if an end is missing or not a number.
 std::optional<Sequence> sequence(const Values& from, const Values& to) {
   const Scalar first = convert(from[0], Type::Real);
   const Scalar last = convert(to[0], Type::Real);
@@ -269,14 +270,15 @@ Values range(const Values& from, const Values& to) {
   return Values(std::move(result));
 }
 
-/// Whether x occurs: missing only matches missing, and a text on either side makes both texts.
+/// Whether x equals an element of a table: missing matches only missing, and if one is a text, both
+/// are compared as texts.
 bool matches(const Scalar& x, const Scalar& candidate) {
   if (x.missing || candidate.missing) return x.missing && candidate.missing;
   if (x.type == Type::Text && candidate.type == Type::Text) return x.text == candidate.text;
   return order(x, candidate) == 0;
 }
 
-/// x %in% from:to without listing the numbers.
+/// x %in% from:to, without making a list of the numbers.
 Scalar is_in_sequence(const Scalar& x, const Sequence& numbers) {
   const Scalar number = convert(x, Type::Real);
   if (number.missing) return Scalar::logical(false);
@@ -284,8 +286,8 @@ Scalar is_in_sequence(const Scalar& x, const Sequence& numbers) {
   return Scalar::logical(i <= numbers.steps && matches(x, numbers.at(i)));
 }
 
-/// x %in% table, for each element of x. Every element of a vector has the same type, so that all
-/// comparisons are between numbers, or all between texts.
+/// x %in% table, for each element of x. All elements of a vector have the same type, so that either
+/// all comparisons are between numbers or all are between texts.
 Values find_each(const Values& x, const Values& table) {
   const bool as_texts = x.type() == Type::Text || table.type() == Type::Text;
   const auto less = [as_texts](const Scalar& a, const Scalar& b) {
@@ -317,7 +319,7 @@ Values choose(const Values& tests, const Values& yes, const Values& no) {
   return Values(std::move(result));
 }
 
-/// Every operation but Constant, Parameter and In, on evaluated operands.
+/// Every operation except Constant, Parameter and In, on evaluated operands.
 Values apply_operation(Operation operation, const std::vector<Values>& parts) {
   if (operation == Operation::Combine) return combine(parts);
   if (operation == Operation::Min || operation == Operation::Max) return extreme(operation, parts);

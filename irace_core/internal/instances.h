@@ -8,8 +8,8 @@
 
 namespace swarmsmith::irace {
 
-/// The growing list of (instance, seed) pairs on which configurations are tried; a pair's number is
-/// its row, from 1. Every configuration sees the same seed on a pair (irace facts, 4).
+/// The growing list of (instance, seed) pairs on which configurations are tried; the number of a
+/// pair is its row, from 1. All configurations get the same seed on a pair (irace facts, 4).
 class InstanceLog {
  public:
   struct Pair {
@@ -17,14 +17,14 @@ class InstanceLog {
     std::int64_t seed;      ///< 1..2147483647
   };
 
-  /// Takes the instances' number, blocks and order from the scenario.
+  /// Reads the number, blocks and order of the instances from the scenario.
   InstanceLog(const Scenario& scenario, Rng rng);
 
-  /// Appends whole repetitions of the list of instances, at least `pairs` pairs; when shuffling,
-  /// each has its blocks in an order of its own. With deterministic targets there is only the first
-  /// repetition, whatever is asked for.
+  /// Appends complete repetitions of the list of instances, at least `pairs` pairs; with shuffling,
+  /// each repetition has its blocks in a new order. With deterministic targets there is only the
+  /// first repetition, for any `pairs`.
   void append(std::int64_t pairs);
-  /// Appends until there are `pairs` pairs or more, if that can be.
+  /// Appends until there are at least `pairs` pairs, if that is possible.
   void extend_to(std::int64_t pairs);
 
   std::int64_t size() const { return static_cast<std::int64_t>(pairs_.size()); }

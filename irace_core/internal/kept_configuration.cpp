@@ -7,15 +7,15 @@
 namespace swarmsmith::irace {
 namespace {
 
-// A byte a parameter: inactive, a whole number below kWhole, or kOther and the bits that follow. A
-// run of inactive ones is kInactive and a byte with its length.
+// One byte per parameter: a whole number below kWhole, or kOther followed by the bits of the value.
+// A run of inactive parameters is kInactive followed by a byte with its length.
 constexpr int kWhole = 254;
 constexpr unsigned char kOther = 254;
 constexpr unsigned char kInactive = 255;
 constexpr std::size_t kLongestRun = 255;
 
 bool is_small(double value) {
-  // Infinity does not come so far as to be converted.
+  // Infinity fails the second comparison, so that it is never converted.
   return value >= 0 && value < kWhole && value == static_cast<double>(static_cast<int>(value));
 }
 
@@ -43,7 +43,7 @@ std::string pack(const Configuration& configuration) {
   return packed;
 }
 
-/// Of as many parameters as `configuration` has; all of them are inactive.
+/// `configuration` must have the right number of parameters, all of them inactive.
 void unpack(const std::string& packed, Configuration& configuration) {
   std::size_t parameter = 0;
   for (std::size_t i = 0; i < packed.size();) {

@@ -18,7 +18,7 @@ void normalise(std::span<double> probabilities) {
     p /= sum;
 }
 
-/// The last value takes what rounding leaves of the sum.
+/// The last value gets the remainder of the sum that rounding leaves.
 std::size_t draw_choice(std::span<const double> probabilities, Rng& rng) {
   double left = rng.uniform();
   for (std::size_t i = 0; i + 1 < probabilities.size(); ++i) {
@@ -32,7 +32,7 @@ bool is_categorical(const Domain& domain) {
   return std::holds_alternative<Categorical>(domain);
 }
 
-/// The part of [0, 1] that a value of a logarithmic domain stands for.
+/// Maps values of a logarithmic domain to [0, 1] and back.
 struct LogScale {
   double low;
   double width;
@@ -43,7 +43,8 @@ struct LogScale {
   double from_unit(double y) const { return exp(low + width * y); }
 };
 
-/// The truncated normal of a numeric parameter's model; that of a logarithmic one lies on [0, 1].
+/// The truncated normal distribution from which a numeric parameter is sampled; for a logarithmic
+/// parameter it is on [0, 1].
 TruncatedNormal numeric_distribution(const Domain& domain, const ParameterModel& model, double sd,
                                      const Interval& interval) {
   const bool whole = is_whole(domain);
@@ -76,8 +77,8 @@ UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
           .most = elitist ? pow(0.2, root) : 1};
 }
 
-/// irace facts, 6.2, categorical. Without the cap all weight would end on one value, and no other
-/// could be sampled again.
+/// irace facts, 6.2, categorical. Without the limit, one value would end up with all the weight,
+/// and no other could be sampled again.
 void update_probabilities(std::span<double> probabilities, std::size_t chosen,
                           const UpdateStrength& strength) {
   for (double& p : probabilities)
@@ -96,7 +97,7 @@ void restart_probabilities(std::span<double> probabilities) {
   normalise(probabilities);
 }
 
-/// irace facts, 7: as it was two updates ago, and no wider than after the first update.
+/// irace facts, 7: the value of two updates ago, but not wider than after the first update.
 double restart_sd(double sd, double initial, std::int64_t new_configurations,
                   int variable_parameters) {
   const auto n = static_cast<double>(new_configurations);
@@ -104,8 +105,8 @@ double restart_sd(double sd, double initial, std::int64_t new_configurations,
                   initial * pow(1 / n, 1.0 / variable_parameters));
 }
 
-/// irace facts, 6.3: E - r + 1 of E (E + 1) / 2 tickets for rank r. In integers, so that no bit of
-/// a sum decides.
+/// irace facts, 6.3: rank r gets E - r + 1 of E (E + 1) / 2 tickets. The arithmetic is in integers,
+/// so that rounding has no influence.
 std::size_t draw_parent(std::size_t elites, Rng& rng) {
   auto ticket = static_cast<std::int64_t>(rng.below(elites * (elites + 1) / 2));
   for (std::size_t rank = 0;; ++rank) {
@@ -114,15 +115,15 @@ std::size_t draw_parent(std::size_t elites, Rng& rng) {
   }
 }
 
-/// Makes the distribution of a numeric or ordinal model anew, where it does not depend on the other
-/// values of a configuration.
+/// Makes the distribution of a numeric or ordinal parameter again, if it does not depend on the
+/// other values of a configuration.
 void SamplingModels::prepare(std::size_t parameter, ParameterModel& model) const {
   const Domain& domain = (*space_)[parameter].domain;
   model.distribution.reset();
   const Interval* interval = space_->constant_interval(parameter);
   if (is_categorical(domain) || std::isnan(model.mean) || interval == nullptr) return;
   if (!space_->is_numeric(parameter)) {
-    // Values are cells of width one, the mean is the middle of one.
+    // Each value is a cell of width one, and the mean is the middle of a cell.
     const auto count = static_cast<double>(space_->value_count(parameter));
     model.distribution = TruncatedNormal(model.mean + 0.5, model.sd, 0, count);
     return;
@@ -150,8 +151,9 @@ SamplingModels::Model SamplingModels::fresh_model(const Configuration& elite) co
   return model;
 }
 
-/// Its own model, else its parent's, else a fresh one (irace facts, 6.2): a new elite goes on from
-/// the model that it was drawn from. Former models are kept for elites that come back.
+/// The elite's own model, otherwise its parent's, otherwise a fresh one (irace facts, 6.2): a new
+/// elite continues with the model from which it was sampled. Former models are kept for
+/// configurations that become elites again.
 SamplingModels::Model SamplingModels::source_of(const EliteLine& elite) const {
   for (const std::int64_t id : {elite.id, elite.parent}) {
     for (const auto* models : {&models_, &former_}) {

@@ -6,7 +6,7 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// Of those that need runs (irace facts, 14); irace tries all subsets of so many.
+/// Limit on the candidates that need runs (irace facts, 14); irace tries all subsets of this many.
 constexpr std::size_t kMostConsidered = 16;
 
 std::int64_t sum_of_smallest(std::span<const std::int64_t> needs, std::size_t count) {
@@ -20,11 +20,11 @@ std::int64_t sum_of_smallest(std::span<const std::int64_t> needs, std::size_t co
 
 std::vector<std::size_t> largest_set_that_fits(std::span<const std::int64_t> needs,
                                                std::int64_t budget) {
-  // The largest size that fits is that of the cheapest ones.
+  // The largest size that fits is the size at which the cheapest ones fit.
   std::size_t size = needs.size();
   while (size > 0 && sum_of_smallest(needs, size) > budget)
     --size;
-  // Greedily in order: each position is taken if the cheapest completion behind it still fits.
+  // Greedily in order: each position is taken if the cheapest completion after it still fits.
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < needs.size() && chosen.size() < size; ++i) {
     const std::size_t open = size - chosen.size() - 1;
@@ -46,7 +46,7 @@ std::vector<std::size_t> choose_for_postselection(
     const bool asks = step > 0 || candidates[i].missing > 0;
     if (asks && considered.size() < kMostConsidered) considered.push_back(i);
   }
-  if (step > 0) {  // 14.1: new pairs can be had
+  if (step > 0) {  // 14.1: new pairs are available
     const auto q = static_cast<std::size_t>(remaining / step);
     if (q > 1 && complete.size() >= q) {
       complete.resize(q);
@@ -57,7 +57,7 @@ std::vector<std::size_t> choose_for_postselection(
   needs.reserve(considered.size());
   for (const std::size_t i : considered)
     needs.push_back(candidates[i].missing + step);
-  // 14.2 takes those that miss nothing for nothing.
+  // In 14.2, candidates that miss no pair cost nothing.
   std::vector<std::size_t> chosen = step > 0 ? std::vector<std::size_t>{} : complete;
   for (const std::size_t i : largest_set_that_fits(needs, remaining))
     chosen.push_back(considered[i]);

@@ -55,7 +55,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
     progress_.results.push_back(known);
   }
   find_uncovered();
-  // Tasks without runs need no answer: the race may be past them at once.
+  // Tasks without runs need no answer, so the race may pass them immediately.
   tell({});
 }
 
@@ -65,7 +65,7 @@ void Race::tell(std::span<const Measurement> measurements) {
   while (!stop_) {
     if (!open_ && !open_task()) break;
     if (!open_->due.empty()) {
-      // Left over from tasks that only rejected ones were to be run on.
+      // Skips runs of tasks in which only rejected configurations were to be run.
       while (at < wanted_.size() && wanted_[at].task < progress_.task)
         ++at;
       if (at == wanted_.size()) break;
@@ -77,7 +77,7 @@ void Race::tell(std::span<const Measurement> measurements) {
   if (!stop_) plan();
 }
 
-/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not looked at for a task without runs, which
+/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not applied to a task without runs, which
 /// costs nothing.
 bool Race::open_task() {
   if (progress_.task == settings_.pairs.size()) {
@@ -96,8 +96,8 @@ bool Race::open_task() {
   task.step.alive_before = static_cast<std::int64_t>(alive_.size());
   task.bounds.resize(contestants_.size(), 0);
   if (settings_.capping) {
-    // The elites' times on this pair are the standard of the others' bounds (irace facts, 17), so
-    // they are run first.
+    // The elites' times on this pair determine the bounds of the others (irace facts, 17), so they
+    // are run first.
     const auto others = std::stable_partition(columns.begin(), columns.end(),
                                               [&](auto c) { return progress_.protection[c] > 0; });
     task.later.assign(others, columns.end());
@@ -114,7 +114,7 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
   std::vector<std::size_t> answered;
   for (; at < wanted_.size() && wanted_[at].task == progress_.task && !stop_; ++at) {
     const RaceRun& run = wanted_[at];
-    if (rejected_[run.column]) continue;  // on an earlier task of the batch: void
+    if (rejected_[run.column]) continue;  // rejected on an earlier task of the batch: ignored
     answered.push_back(run.column);
     if (run.is_evaluation) {
       take_evaluation(run.column, measurements[at].cost);
@@ -123,7 +123,8 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
     }
   }
   if (stop_) return;
-  // All that were alive then were asked for. Those rejected since are left out on both sides.
+  // Every configuration that was alive then was asked for. Those rejected since then are left out
+  // on both sides.
   SWARMSMITH_ASSERT(answered == open_->due, "all that is due was asked for");
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
@@ -160,7 +161,7 @@ void Race::take_run(const RaceRun& run, const Measurement& measurement) {
 
 void Race::take_evaluation(std::size_t column, double cost) {
   if (settings_.capping) {
-    // Those that were not run in this task reached no bound in it.
+    // A configuration that was not run in this task reached no bound in it.
     const bool ran = contains(open_->ran, column);
     cost = capped_cost(cost, ran ? times_[column][progress_.task] : 0,
                        ran ? open_->bounds[column] : settings_.bound_max, settings_.time_rules());
@@ -191,7 +192,7 @@ void Race::close_task() {
   open_.reset();
   SWARMSMITH_ASSERT(progress_.task == static_cast<std::size_t>(step.task) - 1,
                     "tasks come in turn");
-  pass(progress_, ran);  // 9.3.4; rejections (9.3.5) were taken out as their costs came
+  pass(progress_, ran);  // 9.3.4; rejected ones (9.3.5) were removed when their costs arrived
   used_ = progress_.used;
   step.experiments_used = used_;
   if (alive_.empty()) {
@@ -209,7 +210,7 @@ void Race::close_task() {
     eliminate(step);  // 9.3.6 to 9.3.8
     SWARMSMITH_ASSERT(!alive_.empty(), "a test drops some of those alive, and never all");
   }
-  // 9.3.9. A task on which only elites were run has no test, and counts no more than one without
+  // 9.3.9. A task on which only elites were run has no test, and counts no more than a task without
   // runs.
   const bool counts = !ran.empty() && !only_elites && !anybody_protected(progress_) &&
                       step.task > settings_.first_test && is_test_point(progress_.task);

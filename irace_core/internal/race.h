@@ -16,40 +16,41 @@
 
 namespace swarmsmith::irace {
 
-/// One race (irace facts, 9), as ask and tell; elitist or not.
+/// One race (irace facts, 9), elitist or not, as ask and tell.
 ///
-/// Nothing is dropped between two tests, so that all runs up to the next test are asked for at
-/// once. Results are consumed in the order (task, id). After a rejection the runs of the rejected
-/// one on later tasks, and all runs that follow a stop, are void: neither counted nor used.
+/// No configuration is dropped between two tests, so that all runs up to the next test are asked
+/// for at once. Results are used in the order (task, id). Two kinds of runs are neither counted nor
+/// used: runs of a rejected configuration on later tasks, and all runs that follow a stop.
 ///
-/// Where the next question depends on the last answers, less is asked for: one task at a time if
-/// that is wanted; with a targetEvaluator a task's runs and then its calls; with capping the
-/// protected elites that have not seen the pair first, bounded by bound_max, then the others,
-/// bounded by the elites' times.
+/// If the next question depends on the last answers, fewer runs are asked for at once: one task at
+/// a time with one_task_at_a_time; with a targetEvaluator, a task's runs and then its calls; with
+/// capping, first the protected elites that have not been run on the pair, bounded by bound_max,
+/// then the others, bounded by the elites' times.
 class Race {
  public:
-  /// Elites come first among the contestants.
+  /// The elites come first among the contestants.
   Race(RaceSettings settings, std::vector<Contestant> contestants);
 
   bool finished() const { return stop_.has_value(); }
-  /// Why it stopped, in words.
+  /// The reason why the race stopped, as text.
   const std::string& stop_reason() const { return *stop_; }
-  /// All contestants were rejected: there is no result.
+  /// Whether all contestants were rejected, so that there is no result.
   bool nobody_left() const { return alive_.empty(); }
-  /// What a target did that no race can go on with: a time above its bound, or none where bounds
-  /// need one. The race is finished then, and its survivors mean nothing.
+  /// An error of the target with which no race can continue: a time above its bound, or no time
+  /// although bounds need one. The race is then finished, and its survivors are meaningless.
   const std::optional<Error>& failure() const { return failure_; }
 
   std::span<const RaceRun> wanted() const { return wanted_; }
-  /// What came of all wanted runs, in their order; infinite costs reject. Times below
-  /// min_measurable_time are raised to it, 0 is an unknown time. Adds to the steps.
+  /// Takes the results of all wanted runs, in their order; infinite costs reject. Times below
+  /// min_measurable_time are raised to it; 0 is an unknown time. Adds steps for take_steps().
   void tell(std::span<const Measurement> measurements);
-  /// What would be wanted next on up to `pairs` further pairs, in canonical order, if the coming
-  /// tests dropped none (and went on all the same: elitist_limit is not looked at). Nothing where
-  /// results decide more than who is alive: bounds, calls of a targetEvaluator; and nothing with
-  /// one_task_at_a_time, which asks for nothing that may be in vain.
+  /// The runs that would be wanted next on up to `pairs` further pairs, in canonical order, if the
+  /// coming tests dropped no configuration (and the race did not stop because of elitist_limit).
+  /// Empty if results decide more than which configurations are alive (bounds, calls of a
+  /// targetEvaluator), and with one_task_at_a_time, which never asks for runs that may be in vain.
   std::vector<RaceRun> ahead(std::int64_t pairs) const;
-  /// The tasks since the last call; ids are filled in, iteration and generators are the caller's.
+  /// The tasks since the last call. Ids are filled in; the caller adds the iteration and the
+  /// generators.
   std::vector<RaceStep> take_steps();
 
   std::int64_t used() const { return used_; }
@@ -64,12 +65,12 @@ class Race {
     std::int64_t pair;
     double cost;
     double time = 0;
-    /// Not run here: the targetEvaluator was called again for a past pair, and `cost` takes the
-    /// place of the one that was known, from which it differs. The time stays as it was.
+    /// True if this was not run here: the targetEvaluator was called again for a past pair, and
+    /// `cost` replaces the known cost, from which it differs. The time does not change.
     bool replaces = false;
   };
-  /// All results of a contestant that were run in this race (or replaced, see `replaces`), in the
-  /// order of the tasks.
+  /// All results of a contestant from runs in this race (or replaced, see `replaces`), in the order
+  /// of the tasks.
   std::vector<Result> results(std::size_t column) const;
   bool is_rejected(std::size_t column) const { return rejected_[column]; }
 
@@ -78,81 +79,83 @@ class Race {
     std::size_t column;
     double rank;
   };
-  /// Who is left at the end, best first.
+  /// The configurations left at the end, best first.
   std::vector<Survivor> survivors() const;
 
  private:
-  /// What the rules look at that changes from task to task while none is dropped.
+  /// The state that the rules use and that changes from task to task while no configuration is
+  /// dropped.
   struct Progress {
     std::size_t task = 0;  ///< tasks that are done
     std::int64_t used = 0;
-    std::vector<std::int64_t> protection;  ///< by column: known pairs still to come
-    std::vector<std::int64_t> results;     ///< by column: pairs with a result
+    std::vector<std::int64_t> protection;  ///< by column: known pairs whose tasks are still to come
+    std::vector<std::int64_t> results;     ///< by column: number of pairs with a result
   };
 
-  /// A task that has begun. `due` is what has to be answered now, `later` what is run after it.
+  /// A task that has begun. The runs `due` must be answered now; the runs `later` come after them.
   struct OpenTask {
     RaceStep step;
     std::vector<std::size_t> due;    ///< columns, in the order in which they are asked for
-    std::vector<std::size_t> later;  ///< the same
-    bool evaluates = false;          ///< `due` are calls of the targetEvaluator
-    bool only_elites = false;        ///< only protected ones are run; with capping
-    std::vector<std::size_t> ran;    ///< columns
-    std::vector<double> bounds;      ///< by column: of the run in this task, 0 for none
+    std::vector<std::size_t> later;  ///< columns, in the same order
+    bool evaluates = false;          ///< whether `due` are calls of the targetEvaluator
+    bool only_elites = false;        ///< whether only protected elites are run; with capping
+    std::vector<std::size_t> ran;    ///< columns that were run
+    std::vector<double> bounds;      ///< by column: bound of the run in this task, 0 for none
   };
 
-  // race.cpp: how a task goes on
+  // race.cpp: how a task proceeds
   /// Begins the next task unless a rule stops the race.
   bool open_task();
-  /// Uses the answers from `at` on to all that is due; moves `at` behind them.
+  /// Takes the answers, from `at` on, to all runs that are due; moves `at` past them.
   void take_in(std::span<const Measurement> measurements, std::size_t& at);
   void take_run(const RaceRun& run, const Measurement& measurement);
   void take_evaluation(std::size_t column, double cost);
-  /// After all that was due has been answered: asks for more of the task, or closes it.
+  /// Called when all that was due has been answered: asks for more runs of the task, or closes it.
   void go_on();
-  /// Rules 9.3.4 to 9.3.10, whose results are in place.
+  /// Applies rules 9.3.4 to 9.3.10 to the results of the task.
   void close_task();
   void reject_infinite(std::span<const std::size_t> columns, RaceStep& step);
   void fail(const RaceRun& run, const std::string& what);
 
-  // race_plan.cpp: who has to be run, and when a race ends
-  /// Known from before or run in this race.
+  // race_plan.cpp: which runs are needed, and when a race ends
+  /// Whether the result is known from before or was measured in this race.
   bool has_result(std::size_t column, std::size_t task) const;
   bool anybody_protected(const Progress& progress) const;
   /// Columns that are alive and have no result on the next task, by id (rule 9.3.1).
   std::vector<std::size_t> to_run(const Progress& progress) const;
   std::vector<std::size_t> by_id(std::vector<std::size_t> columns) const;
-  /// Why no task follows on which `runs` would be run.
+  /// The reason for stopping before a task with this number of runs.
   std::optional<std::string> reason_to_stop(const Progress& progress, std::size_t runs) const;
-  /// Rule 9.3.2, where the elites are done.
+  /// Applies rule 9.3.2; called if the elites are done.
   std::optional<std::string> rule_to_stop(const Progress& progress, std::size_t runs) const;
   bool elites_are_done(const Progress& progress) const;
-  /// Whether a test follows the first `task` tasks.
+  /// Whether there is a test after the first `task` tasks.
   bool is_test_point(std::size_t task) const;
   void pass(Progress& progress, std::span<const std::size_t> ran) const;
   void plan();
-  /// All runs up to the next test are asked for at once, and later ones can be foretold.
+  /// Whether all runs up to the next test are asked for at once, so that later ones can be
+  /// predicted.
   bool asks_ahead() const;
-  /// Sets the bounds of all that is due.
+  /// Sets the bounds of all runs that are due.
   void set_bounds();
-  /// What the bounds of others are taken from; nothing without protected elites.
+  /// The elites' time, which determines the bounds of the others; nothing without protected elites.
   std::optional<double> elite_time() const;
 
-  // race_elimination.cpp: who is dropped, and the sums that decide it
+  // race_elimination.cpp: which configurations are dropped, and the sums that decide it
   void eliminate(RaceStep& step);
-  /// Those that the test would drop, protected ones included; ascending.
+  /// The columns that the test would drop, protected ones included; ascending.
   std::vector<std::size_t> worse_by_test(RaceStep& step);
   TestResult test_of_two();
   TestResult t_tests();
-  /// Those that capping would drop, protected ones included; ascending.
+  /// The columns that capping would drop, protected ones included; ascending.
   std::vector<std::size_t> worse_by_times() const;
   bool is_capping_point() const;
   std::span<const double> costs_so_far(std::size_t column) const;
-  /// Means of all who are alive over the tasks that are done.
+  /// Mean costs of all alive columns over the finished tasks.
   std::vector<double> means() const;
-  /// The task's costs of all who are alive enter the rank sums.
+  /// Adds the task's costs of all alive columns to the rank sums.
   void add_ranked_row(std::size_t task);
-  /// Takes columns out of the race and out of all sums.
+  /// Removes columns from the race and from all sums.
   void drop(const std::vector<std::size_t>& columns);
   void find_uncovered();
   void describe_best(RaceStep& step) const;
@@ -168,7 +171,8 @@ class Race {
   Progress progress_;
   std::int64_t used_ = 0;
   std::int64_t tests_without_drop_ = 0;
-  /// Number of leading tasks up to the last one without a result of one alive.
+  /// The number, from 1, of the last task among new and past pairs on which no alive configuration
+  /// has a result; 0 if there is none.
   std::size_t uncovered_ = 0;
 
   RankTable ranks_;

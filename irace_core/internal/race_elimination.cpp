@@ -28,9 +28,9 @@ void Race::eliminate(RaceStep& step) {
   if (caps) slower = worse_by_times();
   std::vector<std::size_t> worse;
   if (tests) worse = worse_by_test(step);
-  // Capping comes first in irace's loop (rule 9.3.6, before 9.3.7), but both look at the same rows,
-  // those of the task with all who are alive: neither sees what the other dropped.
-  // Where none passes both, capping alone counts (irace facts, 17).
+  // Capping comes first in irace's loop (rule 9.3.6, before 9.3.7), but both use the same rows,
+  // with all alive configurations: neither sees which ones the other dropped. If none passes both,
+  // only capping counts (irace facts, 17).
   std::vector<std::size_t> losers = united(worse, slower);
   if (losers.size() == alive_.size()) losers = slower;
   SWARMSMITH_ASSERT(losers.size() < alive_.size(), "the best one is never dropped");
@@ -39,8 +39,8 @@ void Race::eliminate(RaceStep& step) {
   std::vector<std::size_t> dropped;
   for (std::size_t i = 0; i < alive_.size(); ++i) {
     const std::size_t c = alive_[i];
-    // A protected one has not been seen on all its known pairs: dropped now, it would have lost to
-    // runs on fewer pairs than those that made it an elite (rule 9.3.7).
+    // A protected elite still has known results on later pairs: dropped now, it would lose to a
+    // configuration with runs on fewer pairs than those that made it an elite (rule 9.3.7).
     if (!contains(losers, c) || progress_.protection[c] > 0) continue;
     dropped.push_back(c);
     step.eliminations.push_back(
@@ -105,7 +105,8 @@ bool Race::is_capping_point() const {
          (!settings_.capping_after_first_test || task >= settings_.first_test);
 }
 
-/// Without a gap: protected ones have their known results, all others were run on every task.
+/// The costs have no gap: protected elites have their known results, all others were run on every
+/// task.
 std::span<const double> Race::costs_so_far(std::size_t column) const {
   SWARMSMITH_ASSERT(costs_[column].size() >= progress_.task, "who is alive has seen every task");
   return std::span(costs_[column]).first(progress_.task);
@@ -119,7 +120,7 @@ std::vector<double> Race::means() const {
   return means;
 }
 
-/// Each one alive has a cost here, known or run: the ranks of a row are those among all of them.
+/// Each alive column has a cost here, known or measured: a row ranks all of them.
 void Race::add_ranked_row(std::size_t task) {
   std::vector<Entry> row;
   row.reserve(alive_.size());
@@ -138,7 +139,7 @@ void Race::drop(const std::vector<std::size_t>& columns) {
     keeps[c] = true;
   ranks_.keep(keeps);
   find_uncovered();
-  // Unlike sums of ranks, standardised rows cannot be shrunk: they are made again.
+  // Unlike rank sums, standardised rows cannot be reduced to fewer columns, so they are made again.
   quality_.reset();
   std::vector<Entry> row;
   for (std::size_t task = 0; task < static_cast<std::size_t>(ranks_.rows()); ++task) {
@@ -150,8 +151,8 @@ void Race::drop(const std::vector<std::size_t>& columns) {
   }
 }
 
-/// A rejection can take away the only results on past pairs (irace facts, 9.3.2: they must have a
-/// result of one that is alive before a race may stop).
+/// A rejection can remove the only results on past pairs (irace facts, 9.3.2: before a race may
+/// stop, an alive configuration must have a result on each of them).
 void Race::find_uncovered() {
   uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
   const auto anybody_has = [&](std::size_t task) {
@@ -162,7 +163,7 @@ void Race::find_uncovered() {
     --uncovered_;
 }
 
-/// irace facts, 9.3.10: the least rank (11), the first of equals.
+/// irace facts, 9.3.10: the smallest rank (11); of several that are equal, the first.
 void Race::describe_best(RaceStep& step) const {
   SWARMSMITH_ASSERT(!alive_.empty() && progress_.task > 0, "a task is done, and one is left");
   std::size_t best = 0;
@@ -187,15 +188,15 @@ void Race::describe_agreement(RaceStep& step) const {
   step.qvar = quality_.value(alive_);
 }
 
-/// What the rest of the race follows from. Two replays that agree here step by step have told the
-/// race the same costs, as far as they decide.
+/// Digest of everything that determines the rest of the race. If two replays agree here in each
+/// step, the race was given the same costs, as far as they have an effect.
 std::uint64_t Race::digest(const RaceStep& step) const {
   Digest digest;
   digest.add(step.task);
   for (const std::size_t c : alive_) {
     digest.add(contestants_[c].id);
     digest.add(ranks_.rank_sum(c));
-    // Ranks do not tell everything that means decide on.
+    // Means depend on more than the ranks.
     if (settings_.test_type != TestType::FTest) digest.add(costs_[c][progress_.task - 1]);
     if (settings_.capping) digest.add(times_[c][progress_.task - 1]);
   }

@@ -144,10 +144,11 @@ void IteratedRace::State::advance() {
   }
 }
 
-/// The loop of irace facts, 2: the budget's rules (3.5), models (6), contestants, and the race.
+/// The loop of irace facts, 2: the rules of the budget (3.5), models (6), contestants, and the
+/// race.
 Expected<void> IteratedRace::State::begin_race() {
-  // A race that ran nothing leaves budget and results as they were: the next one would do the same,
-  // without end.
+  // A race that ran nothing leaves budget and results unchanged: the next one would do the same,
+  // endlessly.
   const auto next =
       nothing_was_run_
           ? irace::NoMoreRaces{"not enough budget for the first task of a race"}
@@ -174,7 +175,7 @@ Expected<void> IteratedRace::State::begin_race() {
                            .soft_restart = false,
                            .postselection = false,
                            .model_digest = 0};
-  // Sampling reports its configurations; the iteration is announced before them.
+  // Sampling reports its configurations, so the event of the iteration is added before.
   const std::size_t place = events.size();
   events.emplace_back(started);
   auto contestants = races_ == 0 ? first_contestants(plan) : later_contestants(plan, started);
@@ -229,7 +230,8 @@ Expected<std::int64_t> IteratedRace::State::least_extension() const {
     enough *= 2;
     if (enough > kMost) return bad_input("its options allow no further iteration");
   }
-  // Rounding down (irace facts, 3.2 and 3.3) can make a little more too little again: no bisection.
+  // Because of rounding down (irace facts, 3.2 and 3.3), a slightly larger budget can be too small
+  // again, so bisection is not possible.
   std::int64_t least = 1;
   while (!is_enough(least))
     ++least;

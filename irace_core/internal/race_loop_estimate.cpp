@@ -58,7 +58,7 @@ Expected<bool> IteratedRace::State::ask_estimate(std::int64_t count) {
   return !batch.empty();
 }
 
-/// As in a race, where the race looks.
+/// Makes the check that a race makes in its own runs.
 Expected<void> IteratedRace::State::check_bounds(std::span<const Measurement> measurements) const {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const Experiment& run = wanted[i];

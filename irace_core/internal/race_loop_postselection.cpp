@@ -9,8 +9,8 @@
 
 namespace swarmsmith {
 
-/// The elites of the last iteration, of the one before, and so on, then all others by id; no
-/// rejected ones.
+/// The elites of the last iteration, then those of the one before, and so on, then all others by
+/// id; without rejected ones.
 std::vector<std::int64_t> IteratedRace::State::preferred() const {
   std::vector<std::int64_t> ids;
   std::set<std::int64_t> seen;
@@ -62,7 +62,7 @@ bool IteratedRace::State::begin_postselection() {
                        .postselection = true,
                        .model_digest = models_.digest()});
   irace::RaceSettings settings = common_settings(left);
-  settings.first_test = pairs_seen_;  // only once all past pairs are covered
+  settings.first_test = pairs_seen_;  // tests only after all past pairs
   settings.min_survival = 1;
   settings.elitist_limit = 0;
   order_pairs(settings);
@@ -70,7 +70,7 @@ bool IteratedRace::State::begin_postselection() {
   return true;
 }
 
-/// irace ends without elites there; a design that had some keeps the next best ones.
+/// irace ends without elites in this case; here a design that had elites keeps the next best ones.
 void IteratedRace::State::fall_back() {
   for (auto ended = ended_.rbegin(); ended != ended_.rend() && elites.empty(); ++ended) {
     std::copy_if(ended->begin(), ended->end(), std::back_inserter(elites),

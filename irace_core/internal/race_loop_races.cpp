@@ -43,13 +43,13 @@ irace::RaceSettings IteratedRace::State::settings_of(const irace::RacePlan& plan
   return settings;
 }
 
-/// Elitist: first pairs that none has seen, so that elites cannot live on luck with the past
-/// ones; then the past ones, on which new configurations must beat them; then the other unused
-/// ones. Otherwise: the unused ones; of a deterministic target all, from the first (irace
-/// facts, 9.1).
+/// With elitism: first the new pairs, so that elites do not stay elites only by luck on past pairs;
+/// then the past pairs, on which new configurations must beat the elites; then the other unused
+/// pairs. Without elitism: the unused pairs, or all pairs from the first if the target is
+/// deterministic (irace facts, 9.1).
 void IteratedRace::State::order_pairs(irace::RaceSettings& settings) {
-  // Enough pairs that the budget ends first: a task on a fresh pair costs one run of more than
-  // those that survive, once it may be the last (rule 9.3.2 a of irace facts).
+  // Enough pairs that the budget ends first: when a race may stop, a task on a new pair costs at
+  // least min_survival + 1 runs (rule 9.3.2 a of irace facts).
   const std::int64_t fresh = settings.max_experiments / settings.min_survival + 1 +
                              settings.new_pairs + settings.first_test +
                              settings.pairs_between_tests;
@@ -73,8 +73,9 @@ void IteratedRace::State::order_pairs(irace::RaceSettings& settings) {
                past.end());
 }
 
-/// By blocks, so that each is tried as a whole (R shuffles single pairs: irace facts, 25.7). A
-/// block that rejections left unseen in part stays last, before its rest.
+/// Shuffles by blocks, so that each block is tried as a whole (R shuffles single pairs: irace
+/// facts, 25.7). If rejections left a part of the last block unused, that block stays at
+/// the end.
 void IteratedRace::State::shuffle_past(std::span<std::int64_t> past) const {
   const std::int64_t size = scenario.block_size;
   std::vector<std::int64_t> blocks(past.size() / static_cast<std::size_t>(size));
@@ -143,7 +144,7 @@ void IteratedRace::State::ask() {
     asked_.push_back(i);
     Experiment& experiment = wanted.emplace_back(experiment_of(run));
     if (!run.is_evaluation) continue;
-    // The first wanted run belongs to the step that comes next.
+    // The first wanted run belongs to the next step.
     const auto later = static_cast<std::int64_t>(run.task - runs_.front().task);
     experiment.is_evaluation = true;
     experiment.task = steps_ + 1 + later;
@@ -161,7 +162,8 @@ Experiment IteratedRace::State::experiment_of(const irace::RaceRun& run) const {
 
 std::vector<Experiment> IteratedRace::State::ahead(std::int64_t pairs) const {
   std::vector<Experiment> experiments;
-  // With max_time the rest of the budget, and so the questions, depend on times to come.
+  // With max_time the remaining budget, and so the questions, depend on times that are not known
+  // yet.
   if (finished || !race || time) return experiments;
   for (const irace::RaceRun& run : race->ahead(pairs)) {
     if (!is_known(run)) experiments.push_back(experiment_of(run));
@@ -186,7 +188,7 @@ bool IteratedRace::State::keeps_track() const {
   return time || (scenario.deterministic && !scenario.elitist);
 }
 
-/// Adds up the times of what was run and counts, and leaves out of the step what was known.
+/// Adds up the times of the runs that count, and removes known runs from the step.
 void IteratedRace::State::count_runs(RaceStep& step) {
   std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
   for (const auto& [id, pair] : step.evaluated) {
@@ -224,7 +226,7 @@ void IteratedRace::State::reject(std::int64_t id) {
   forbidden_.add_rejected(candidate(id).configuration.get());
 }
 
-/// After a race pairs_seen_ pairs from the first on have been tried by a candidate: tasks take
+/// After a race, some candidate has been tried on each of the first pairs_seen_ pairs: tasks use
 /// unused pairs in the order of the list.
 void IteratedRace::State::take_over_results() {
   for (std::size_t column = 0; column < race->size(); ++column) {
@@ -274,8 +276,8 @@ void IteratedRace::State::put_away_losers() {
   }
 }
 
-/// The survivors by rank, each configuration once, as many as survive (irace facts, 13): two elites
-/// that are copies would only narrow the models.
+/// Takes the survivors by rank, each configuration once, up to the number of survivors (irace
+/// facts, 13): two elites that are copies would only narrow the models.
 void IteratedRace::State::choose_elites() {
   elites.clear();
   for (const Race::Survivor& survivor : race->survivors()) {

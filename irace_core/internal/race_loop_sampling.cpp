@@ -72,16 +72,17 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
     const RacePlan& plan, IterationStarted& started) {
   const std::vector<EliteLine> lines = elite_lines();
   const std::int64_t wanted_new = plan.configurations - static_cast<std::int64_t>(elites.size());
-  // Models begin with the first race's elites (irace facts, 6.1), then each follows its elite
-  // (6.2).
+  // Models start with the first race's elites (irace facts, 6.1), then each is updated with its
+  // elite (6.2).
   if (models_.empty()) models_.initialise(lines);
   models_.update(lines, irace::update_strength(plan.iteration, plan.iterations, wanted_new,
                                                space.variable_count(), scenario.elitist));
   Rng rng = root_.split("sampling", static_cast<std::uint64_t>(plan.iteration));
   auto sampled = sample_new(wanted_new, rng);
   if (!sampled) return Unexpected(sampled.error());
-  // irace facts, 7: similar configurations mean that a model is too narrow to tell anything new, so
-  // it is widened and all are sampled again, once. The numbers that were drawn stay drawn.
+  // irace facts, 7: similar configurations mean that a model is too narrow to give new information,
+  // so it is widened and all configurations are sampled again, once. The random numbers already
+  // drawn stay used.
   if (scenario.soft_restart) {
     const std::vector<std::int64_t> restarted = lines_to_restart(*sampled);
     for (const std::int64_t id : restarted)

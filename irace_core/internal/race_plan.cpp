@@ -8,7 +8,7 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// Why a rule ended the race, with both sides of its comparison.
+/// The reason why a rule ended the race, with both sides of its comparison.
 std::string compared(const char* what, std::int64_t left, const char* sign, const char* other,
                      std::int64_t right) {
   return std::string(what) + " (" + std::to_string(left) + ") " + sign + " " + other + " (" +
@@ -43,7 +43,8 @@ std::vector<std::size_t> Race::to_run(const Progress& progress) const {
   return by_id(std::move(columns));
 }
 
-/// The canonical order within a task; that of the columns has the elites by rank.
+/// The canonical order within a task is by id; in the order of the columns the elites are sorted by
+/// rank.
 std::vector<std::size_t> Race::by_id(std::vector<std::size_t> columns) const {
   std::sort(columns.begin(), columns.end(),
             [&](std::size_t a, std::size_t b) { return contestants_[a].id < contestants_[b].id; });
@@ -55,11 +56,11 @@ bool Race::is_test_point(std::size_t task) const {
   return t >= settings_.first_test && t % settings_.pairs_between_tests == 0;
 }
 
-/// Rule 9.3.2 of irace facts, its first sentences. The last pair that the elites brought along, or
-/// that comes first as a new one, must have been seen by somebody alive, and everybody must have
-/// seen whole steps between tests.
+/// The first sentences of rule 9.3.2 of irace facts. An alive configuration must have a result on
+/// each new pair and each past pair, and the number of results of every alive configuration must be
+/// a multiple of the steps between tests.
 bool Race::elites_are_done(const Progress& progress) const {
-  if (settings_.past_pairs == 0) return true;  // the first race, or not an elitist one
+  if (settings_.past_pairs == 0) return true;  // the first race, or a race without elitism
   if (progress.task < uncovered_) return false;
   return std::all_of(alive_.begin(), alive_.end(), [&](std::size_t c) {
     return progress.results[c] % settings_.pairs_between_tests == 0;
@@ -70,7 +71,7 @@ std::optional<std::string> Race::reason_to_stop(const Progress& progress, std::s
   if (elites_are_done(progress)) {
     if (auto reason = rule_to_stop(progress, runs)) return reason;
   }
-  // A race may go over its share, for pairs that elites miss, but not over the whole budget.
+  // A race may exceed its share for pairs that elites miss, but not the whole budget.
   const std::int64_t next_task = progress.used + static_cast<std::int64_t>(runs);
   if (next_task > settings_.experiments_left) {
     return compared("experiments of the next task", next_task, ">", "budget that is left",
@@ -87,7 +88,7 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
   }
   const std::int64_t next_test =
       progress.used + static_cast<std::int64_t>(runs) * settings_.pairs_between_tests;
-  // 9.3.2 b. A race that could not pay for the next test would spend runs that decide nothing.
+  // 9.3.2 b. A race that cannot pay for the next test would spend runs without effect.
   if (is_test_point(progress.task) && next_test > settings_.max_experiments) {
     return compared("experiments up to the next test", next_test, ">", "budget of the race",
                     settings_.max_experiments);
@@ -101,9 +102,9 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
   return std::nullopt;
 }
 
-/// Counts a task on which `ran` (ascending) were run; protected ones that were not have used up a
-/// known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never grows: behind the last past
-/// pair none is protected.
+/// Counts a task on which the columns `ran` (ascending) were run; protected elites that were not
+/// run have used up a known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never
+/// increases: after the last past pair no column is protected.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   SWARMSMITH_ASSERT(std::ranges::is_sorted(ran), "columns are looked up by halving");
   for (const std::size_t c : alive_) {
@@ -117,9 +118,9 @@ void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   ++progress.task;
 }
 
-/// Asks for all that is due, and, where nothing that follows depends on it, for all runs up to the
-/// next test, supposing that none of them is a rejection. `ahead` is what `progress_` will be then,
-/// so that the rules to stop say now what they will say there.
+/// Asks for all runs that are due, and, if nothing that follows depends on them, for all runs up to
+/// the next test, assuming that none of them is a rejection. `ahead` is the future value of
+/// `progress_`, so that the stopping rules already give the answer that they will give then.
 void Race::plan() {
   SWARMSMITH_ASSERT(open_ && wanted_.empty(), "a batch is planned when the last one was answered");
   for (const std::size_t c : open_->due) {
@@ -167,7 +168,7 @@ void Race::set_bounds() {
   OpenTask& task = *open_;
   if (task.due.empty() || settings_.bound_max <= 0) return;
   task.step.bound = settings_.bound_max;
-  // Protected elites that are run are those that the others are measured by.
+  // These runs of protected elites give the time that determines the bounds of the others.
   const bool elites = progress_.protection[task.due.front()] > 0;
   const std::optional<double> standard = settings_.capping && !elites ? elite_time() : std::nullopt;
   if (standard) task.step.bound = std::min(*standard, settings_.bound_max);

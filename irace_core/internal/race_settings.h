@@ -12,32 +12,33 @@
 
 namespace swarmsmith::irace {
 
-/// What one race is asked to do.
+/// The settings of one race.
 struct RaceSettings {
   bool elitist = true;
   TestType test_type = TestType::FTest;
   std::int64_t first_test = 5;           ///< T_f, in pairs
   std::int64_t pairs_between_tests = 1;  ///< T_e
-  std::int64_t block_size = 1;           ///< pairs in a block; capping drops after whole blocks
+  /// Pairs in a block; capping drops configurations only after whole blocks.
+  std::int64_t block_size = 1;
   std::int64_t elitist_limit = 2;
   double confidence = 0.95;
   std::int64_t min_survival = 1;
-  std::int64_t max_experiments = 0;  ///< looked at where a race may stop (irace facts, 9.3.2)
-  /// The rest of the design's budget: no task begins that would need more.
+  std::int64_t max_experiments = 0;  ///< limit for the rules that stop a race (irace facts, 9.3.2)
+  /// The remaining budget of the design: a task that needs more does not begin.
   std::int64_t experiments_left = std::numeric_limits<std::int64_t>::max();
-  /// Pairs in the order of the tasks: `new_pairs` that none has seen, `past_pairs` that some
-  /// elites have seen, then unused ones.
+  /// Pairs in the order of the tasks: `new_pairs` that no configuration has been run on,
+  /// `past_pairs` that some elites have been run on, then unused ones.
   std::vector<std::int64_t> pairs;
   std::int64_t new_pairs = 0;
   std::int64_t past_pairs = 0;
-  /// One task at a time is asked for.
+  /// Asks for one task at a time.
   bool one_task_at_a_time = false;
-  /// The costs come from calls of the targetEvaluator, for all who are alive, after each task's
-  /// runs.
+  /// The costs come from calls of the targetEvaluator, for all alive configurations, after the runs
+  /// of each task.
   bool target_evaluator = false;
 
-  /// Bounds on times and capping (irace facts, 17); without `capping` every run is bounded by
-  /// `bound_max`, if that is not 0, and costs are taken as they come.
+  /// Bounds on times, and capping (irace facts, 17). Without `capping`, every run is bounded by
+  /// `bound_max`, if that is not 0, and costs are not changed.
   bool capping = false;
   bool capping_after_first_test = false;
   CappingType capping_type = CappingType::Median;
@@ -53,8 +54,8 @@ struct RaceSettings {
   }
 };
 
-/// A configuration that takes part. `past` holds what an elite cost on the past pairs, in the order
-/// of the tasks, NaN where it was not tried; empty for a new one.
+/// A configuration that takes part. `past` holds an elite's costs on the past pairs, in the order
+/// of the tasks, NaN where it was not run; empty for a new configuration.
 struct Contestant {
   std::int64_t id;
   std::vector<double> past;
@@ -63,15 +64,16 @@ struct Contestant {
 
 /// One experiment that the race asks for.
 struct RaceRun {
-  std::size_t task;            ///< 0-based
-  std::size_t column;          ///< position among the contestants
-  double bound = 0;            ///< most time of the run; 0 for none
-  bool is_evaluation = false;  ///< a call of the targetEvaluator after the runs of the task
+  std::size_t task;    ///< 0-based
+  std::size_t column;  ///< position among the contestants
+  double bound = 0;    ///< maximum time of the run; 0 for none
+  /// Whether this is a call of the targetEvaluator after the runs of the task.
+  bool is_evaluation = false;
 
   friend bool operator==(const RaceRun&, const RaceRun&) = default;
 };
 
-/// Whether a column is among `sorted` (ascending).
+/// Whether `sorted` (ascending) contains a column.
 inline bool contains(std::span<const std::size_t> sorted, std::size_t column) {
   return std::binary_search(sorted.begin(), sorted.end(), column);
 }

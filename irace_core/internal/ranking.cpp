@@ -14,7 +14,7 @@ namespace {
 
 using Group = std::vector<std::size_t>;
 
-/// The rows that all of `group` have.
+/// The rows on which all configurations of `group` were tried.
 std::vector<std::size_t> common_rows(const std::vector<std::vector<double>>& costs,
                                      const Group& group) {
   std::vector<std::size_t> rows;
@@ -57,7 +57,7 @@ std::vector<double> ranks_of_means(const std::vector<std::vector<double>>& costs
   return average_ranks(means).ranks;
 }
 
-/// By position in the group; 1 for a group of one.
+/// The ranks by position in the group; 1 in a group of one.
 std::vector<double> group_ranks(const std::vector<std::vector<double>>& costs, const Group& group,
                                 TestType type) {
   if (group.size() == 1) return {1.0};

@@ -8,7 +8,7 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// Calls `group(first, last, rank)` for every run of equal costs of a sorted row.
+/// Calls `group(first, last, rank)` for every run of equal costs in a sorted row.
 template <class Function>
 void for_each_group(std::span<const Entry> sorted, Function group) {
   std::size_t first = 0;

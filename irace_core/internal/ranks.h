@@ -15,16 +15,17 @@ struct Entry {
 
 /// Average ranks of costs within rows, summed over the rows, for a shrinking set of columns.
 ///
-/// Rows are kept sorted, so that a row costs its sorting once and a linear pass whenever columns
-/// are dropped. All sums are multiples of 1/4 far below 2^53: exact, whatever the order of adding.
+/// Rows are kept sorted, so that a row is sorted only once and takes a linear pass whenever columns
+/// are dropped. All sums are multiples of 1/4 far below 2^53, so that they are exact for any order
+/// of summation.
 class RankTable {
  public:
-  /// Columns are 0 .. columns-1 and all take part.
+  /// The columns are 0 .. columns-1, and all take part.
   explicit RankTable(std::size_t columns);
 
-  /// A row with one finite cost for every column that takes part.
+  /// Adds a row with one finite cost for every column that takes part.
   void add_row(std::vector<Entry> row);
-  /// Forgets the columns for which `keeps` is false.
+  /// Removes the columns for which `keeps` is false.
   void keep(const std::vector<bool>& keeps);
 
   std::int64_t rows() const { return static_cast<std::int64_t>(rows_.size()); }

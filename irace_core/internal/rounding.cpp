@@ -13,7 +13,7 @@ double round_to_digits(double value, int digits) {
   SWARMSMITH_ASSERT(digits >= 0 && digits <= 15, "decimals lie in 0..15");
   const double power = kPowersOfTen[static_cast<std::size_t>(digits)];
   const double magnitude = std::fabs(value);
-  // Of so many decimals that the number has no more: R's fround.
+  // With this many decimals, rounding would not change the number (R's fround).
   constexpr double kLog10Of2 = 0.301029995663981195;
   constexpr int kDigits = 15;
   if (!std::isfinite(value) || value == 0 ||

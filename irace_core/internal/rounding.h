@@ -2,14 +2,14 @@
 
 namespace swarmsmith::irace {
 
-/// R's integers end here: what is larger is a real, as irace has all values of parameters.
+/// The largest integer of R; larger values are reals, as all parameter values are in irace.
 inline constexpr double kLargestInteger = 2147483647;
-/// Values are doubles: beyond this not every whole number is one.
+/// Values are doubles; above this limit, doubles do not represent every whole number.
 inline constexpr double kLargestWhole = 9007199254740991;
 
 /// `value` with `digits` decimals (0 to 15), by R's rule since 4.0.0: of the two neighbouring
 /// decimals the one that is nearer in double arithmetic; on a tie the one whose last digit is even.
-/// Values of 15 and more significant digits before that decimal are returned as they are.
+/// A value that would keep more than 15 significant digits is returned unchanged.
 double round_to_digits(double value, int digits);
 
 }  // namespace swarmsmith::irace

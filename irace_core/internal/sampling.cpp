@@ -125,8 +125,8 @@ Expected<std::vector<Configuration>> InitialSampler::sample(std::int64_t wanted,
     const auto have = static_cast<std::int64_t>(batch.size());
     if (have == wanted) break;
     if (i + 1 != wanted) continue;
-    // Step 4 of irace facts, 5: a larger batch, once. Its first points are those that are there, so
-    // that only the further ones are made.
+    // Step 4 of irace facts, 5: a larger batch, once. Its first points are the ones already made,
+    // so only the further ones are made.
     const auto n = static_cast<double>(wanted);
     const double larger =
         std::ceil(n + (n - static_cast<double>(have)) * (2 - static_cast<double>(have) / n));

@@ -14,22 +14,22 @@
 namespace swarmsmith::irace {
 
 /// The value of a parameter at quantile `p` in [0, 1) of its uniform distribution over `domain`
-/// (irace facts, 6.6); `domain` is not looked at for choices.
+/// (irace facts, 6.6); `domain` is ignored for categorical and ordinal parameters.
 double quantile_value(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                       double p);
 
-/// Brings a draw from a numeric parameter's continuous domain (integers: up to upper + 1) into the
-/// domain: floor or rounding to the digits of the space.
+/// Converts a draw from a numeric parameter's continuous domain (integers: up to upper + 1) to a
+/// value of the domain: floor, or rounding to the digits of the space.
 double to_domain(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                  double drawn);
 
-/// Whether a numeric parameter is sampled in its logarithm.
+/// Whether a numeric parameter is sampled on a logarithmic scale.
 bool is_logarithmic(const Domain& domain);
 bool is_whole(const Domain& domain);
 
-/// Fills a configuration parameter by parameter in hierarchy order: inactive ones stay so, fixed
-/// ones get their value, `draw(parameter, domain)` gives all others. Fails when a dependent domain
-/// is empty.
+/// Fills in a configuration parameter by parameter in hierarchy order: inactive parameters stay
+/// inactive, fixed ones get their value, and all others get the result of `draw(parameter,
+/// domain)`. Fails when a dependent domain is empty.
 template <class Draw>
 Expected<Configuration> sample_configuration(const ParameterSpace& space, Draw draw) {
   Assignment values(space);
@@ -47,8 +47,8 @@ Expected<Configuration> sample_configuration(const ParameterSpace& space, Draw d
   return values.configuration();
 }
 
-/// Decides which configurations must not be tried: those of the space's forbidden clauses, and
-/// those that contain all values of one that was rejected.
+/// The configurations that must not be tried: those that a forbidden clause of the space matches,
+/// and those that contain all values of a rejected configuration.
 class ForbiddenList {
  public:
   explicit ForbiddenList(const ParameterSpace& space) : space_(&space) {}
@@ -61,27 +61,29 @@ class ForbiddenList {
   std::vector<Configuration> rejected_;
 };
 
-/// What the repair makes of a configuration that was sampled, or the configuration itself without a
-/// repair (irace facts, 8.5). One that is not in the space then is an error that shows it.
+/// The result of the repair for a sampled configuration; without a repair the configuration itself
+/// (irace facts, 8.5). If the repaired configuration is not in the space, the error shows it.
 Expected<Configuration> repaired(const ParameterSpace& space, const Repair& repair,
                                  Configuration sampled);
 
-/// Gives the first configurations of a design: points of a Sobol sequence, one dimension for each
-/// parameter that is not fixed, in declaration order; independent uniform ones where there are more
-/// parameters than the sequence has dimensions (irace facts, 5). Nothing comes twice.
+/// Gives the first configurations of a design: points of a Sobol sequence, with one dimension for
+/// each parameter that is not fixed, in declaration order; independent uniform configurations if
+/// there are more parameters than the sequence has dimensions (irace facts, 5). No configuration
+/// occurs twice.
 class InitialSampler {
  public:
-  /// `space` must outlive the sampler. One number is drawn from `rng` at once: the sequence's seed.
+  /// `space` must outlive the sampler. The constructor draws one number from `rng`: the sequence's
+  /// seed.
   InitialSampler(const ParameterSpace& space, Rng rng);
 
   bool uses_sobol() const { return sequence_.has_value(); }
-  /// The next `wanted` points, repaired, without forbidden ones and those that came before. When
-  /// some are lost the sequence is followed further, as far as irace's second and larger batch
-  /// would reach; fewer than wanted may result, even none. Fails with a bad repair, and when a
-  /// dependent domain is empty.
+  /// The next `wanted` points, repaired, without forbidden and repeated ones. If some are dropped,
+  /// the sequence is continued as far as irace's second and larger batch would reach; there may be
+  /// fewer than wanted, even none. Fails if a repair returns a configuration outside the space, and
+  /// if a dependent domain is empty.
   Expected<std::vector<Configuration>> sample(std::int64_t wanted, const ForbiddenList& forbidden,
                                               const Repair& repair);
-  /// How many points were looked at.
+  /// The number of points taken from the sequence.
   std::uint32_t position() const { return position_; }
 
  private:
@@ -93,7 +95,8 @@ class InitialSampler {
   std::vector<std::size_t> dimension_;  ///< by parameter
   std::vector<double> point_;
   std::uint32_t position_ = 0;
-  std::set<std::uint64_t> seen_;  ///< digests; with 64 bits, equal ones are equal configurations
+  /// digests; with 64 bits, equal digests are taken as equal configurations.
+  std::set<std::uint64_t> seen_;
 };
 
 }  // namespace swarmsmith::irace

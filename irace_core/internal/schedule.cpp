@@ -10,7 +10,7 @@ namespace swarmsmith::irace {
 
 std::int64_t default_count(int variable_parameters) {
   SWARMSMITH_ASSERT(variable_parameters >= 1, "something varies");
-  // floor(log2 d) is the place of the highest bit.
+  // floor(log2 d) is the position of the highest bit.
   return 1 + static_cast<std::int64_t>(std::bit_width(static_cast<unsigned>(variable_parameters)));
 }
 
@@ -110,12 +110,13 @@ std::int64_t Schedule::race_size_for(std::int64_t budget, std::int64_t elites,
                             .most = scenario_.max_configurations_per_race};
   std::int64_t size = race_size(question);
   if (size > min_survival_ || !scenario_.elitist) return size;
-  // irace facts, 3.3.1: what new pairs cost goes to configurations, for the rest of the run.
+  // irace facts, 3.3.1: the experiments for new pairs are used for configurations, in the rest of
+  // the run.
   new_pairs_ = 0;
   question.new_pairs = 0;
   size = race_size(question);
   if (size > min_survival_) return size;
-  // 3.3.2: as small a race as there can be, so that at least one test is possible.
+  // 3.3.2: the smallest possible race in which at least one test is possible.
   question.iteration = 1;
   question.mu = 1;
   return race_size(question);
@@ -152,7 +153,7 @@ std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::
 std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::int64_t elites,
                                                    std::int64_t old_pairs) {
   for (;; ++iteration_) {
-    // The rules of irace facts, 3.5, in their order; 3.5.2 is the caller's.
+    // The rules of irace facts, 3.5, in their order; the caller applies 3.5.2.
     if (remaining <= 0) return NoMoreRaces{"budget exhausted"};
     if (iteration_ > iterations_) {
       if (scenario_.nb_iterations > 0) return NoMoreRaces{"limit of iterations"};
@@ -174,7 +175,7 @@ std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::
           "not enough budget to race more than the minimum number of configurations"};
     }
     if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
-    // Asked for by the iteration, a budget may be more than the rest, and irace spends it.
+    // With nb_experiments_per_iteration, a budget may be more than the rest, and irace spends it.
     if (needed(size, elites) > std::min(budget, remaining)) {
       return NoMoreRaces{"not enough budget for the first test of a race"};
     }

@@ -12,8 +12,8 @@ namespace swarmsmith::irace {
 /// floor(2 + log2 d): default number of iterations and of survivors for d variable parameters.
 std::int64_t default_count(int variable_parameters);
 
-/// How many configurations a race with `budget` experiments gets (irace facts, 3.3), without the
-/// shortage rules.
+/// The number of configurations of a race with `budget` experiments (irace facts, 3.3), without the
+/// rules for a shortage of budget.
 struct RaceSizeQuestion {
   std::int64_t budget;
   std::int64_t iteration;
@@ -26,8 +26,8 @@ struct RaceSizeQuestion {
 };
 std::int64_t race_size(const RaceSizeQuestion& question);
 
-/// The smallest budget that works (irace facts, 3.4); the largest number there is when it is beyond
-/// that.
+/// The smallest budget that works (irace facts, 3.4); if it is too large for the type, the largest
+/// number of the type.
 struct MinimumBudgetQuestion {
   bool elitist = true;
   std::int64_t iterations;
@@ -38,10 +38,10 @@ struct MinimumBudgetQuestion {
 };
 std::int64_t minimum_budget(const MinimumBudgetQuestion& question);
 
-/// What comes next: a race ...
+/// The next part of the run: a race ...
 struct RacePlan {
   std::int64_t iteration;
-  std::int64_t iterations;  ///< as many as are planned now
+  std::int64_t iterations;  ///< as planned now
   std::int64_t budget;
   std::int64_t configurations;  ///< elites included
   std::int64_t new_pairs;       ///< 0 in the first race, and without elitism
@@ -62,27 +62,29 @@ class Schedule {
   std::int64_t pairs_before_test() const { return pairs_before_test_; }      ///< T_f
   std::int64_t pairs_between_tests() const { return pairs_between_tests_; }  ///< T_e
   std::int64_t minimum_budget() const;
-  /// The budget that the scenario asks for, raised by its min_experiments; 0 with max_time.
+  /// max_experiments, or, if min_experiments is set, the larger of it and minimum_budget(); 0 with
+  /// max_time.
   std::int64_t total_budget() const;
 
   /// With max_time, before the first race: plans fewer iterations and smaller races until
-  /// `remaining` experiments are enough. Whether anything was changed; an error when not even one
-  /// iteration fits.
+  /// `remaining` experiments are enough. Returns whether anything was changed; an error if not even
+  /// one iteration fits.
   Expected<bool> shrink_to(std::int64_t remaining);
-  /// What to do when there is no first race, behind the reason; often nothing.
+  /// Advice that is added to the reason when there is no first race; often empty.
   std::string advice_for_first_race(std::int64_t remaining) const;
-  /// No more than so many new pairs in a race from now on: a deterministic run has no others.
+  /// Limits the new pairs of each later race to `unused`: a deterministic run has no others.
   void limit_new_pairs(std::int64_t unused);
 
-  /// After the end: `remaining` experiments are there now, and races after number `last_iteration`
-  /// (of a post-selection, perhaps). A limit of iterations that was set rises by as many as they
-  /// are for: one, or what nb_experiments_per_iteration makes of them.
+  /// Continues a finished run: `remaining` experiments are available now, and the races are
+  /// numbered after `last_iteration` (possibly a post-selection race). A limit of iterations that
+  /// the user set increases by the number of iterations that the experiments allow: one, or more
+  /// with nb_experiments_per_iteration.
   void extend(std::int64_t last_iteration, std::int64_t remaining);
 
-  /// The plan of the next race, given the remaining budget and what was made so far: the elites
-  /// (before the first race those of the time estimate), and how many pairs were seen. Each call
-  /// that returns a race counts as an iteration; one that returns the end leaves no trace (an
-  /// extension plans as if it had not been made).
+  /// The plan of the next race, given the remaining budget, the number of elites (before the first
+  /// race, those of the time estimate) and the number of pairs used so far. A call that returns a
+  /// race counts as an iteration; a call that returns the end changes nothing, so that an extension
+  /// plans as if it had not been made.
   std::variant<RacePlan, NoMoreRaces> next(std::int64_t remaining, std::int64_t elites,
                                            std::int64_t old_pairs);
 
@@ -90,16 +92,17 @@ class Schedule {
   std::variant<RacePlan, NoMoreRaces> plan(std::int64_t remaining, std::int64_t elites,
                                            std::int64_t old_pairs);
   std::int64_t iteration_budget(std::int64_t remaining) const;
-  /// How many configurations, elites included; fewer than those that survive for too few.
+  /// The number of configurations, elites included; at most the number of survivors if the budget
+  /// is too small.
   std::int64_t race_size_for(std::int64_t budget, std::int64_t elites, std::int64_t old_pairs);
-  /// Rule 3.5.7: what a race certainly needs.
+  /// Rule 3.5.7: the number of experiments that a race certainly needs.
   std::int64_t needed(std::int64_t size, std::int64_t elites) const;
 
   Scenario scenario_;
   std::int64_t pairs_before_test_;
   std::int64_t pairs_between_tests_;
   std::int64_t mu_;
-  std::int64_t new_pairs_;  ///< a shortage sets it to 0 for good
+  std::int64_t new_pairs_;  ///< a shortage of budget sets it to 0 permanently
   std::int64_t iterations_;
   std::int64_t min_survival_;
   std::int64_t iteration_ = 1;

@@ -13,10 +13,13 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// A configuration prepared for comparing: what must agree as one number, numbers in their domain.
+/// A configuration prepared for comparison: one number for everything that must be equal, and
+/// positions of numeric values in their domains.
 struct Prepared {
-  std::uint64_t choices;          ///< digest of all choices and of the set of active parameters
-  std::vector<double> positions;  ///< of active numeric parameters, as multiples of their width
+  /// Digest of all categorical and ordinal values and of the set of active parameters.
+  std::uint64_t choices;
+  /// Positions of the active numeric parameters, as fractions of the width of their domains.
+  std::vector<double> positions;
 };
 
 Prepared prepare(const ParameterSpace& space, const Configuration& configuration) {
@@ -35,7 +38,8 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
     if (constant == nullptr && !values) values.emplace(space, configuration);
     SWARMSMITH_ASSERT(constant != nullptr || values, "a dependent domain needs what it depends on");
     const Interval domain = constant != nullptr ? *constant : **space.interval(i, *values);
-    // Logarithmic parameters are sampled, and so compared, in the logarithm (irace facts, 25.8).
+    // Logarithmic parameters are sampled, and so compared, on a logarithmic scale (irace facts,
+    // 25.8).
     const bool in_logarithm = is_logarithmic(space[i].domain);
     const auto scaled = [&](double value) { return in_logarithm ? log(value) : value; };
     const double lower = scaled(domain.lower);
@@ -46,7 +50,7 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
   return prepared;
 }
 
-/// Rounding of the positions must not decide at the threshold itself.
+/// The tolerance keeps rounding of the positions from deciding at the threshold.
 bool near(const Prepared& a, const Prepared& b, double threshold) {
   constexpr double kRounding = 1e-15;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {

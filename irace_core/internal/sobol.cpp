@@ -20,8 +20,8 @@ std::uint32_t reverse_bits(std::uint32_t x) {
   return reversed;
 }
 
-/// The rounds and multipliers of skeeto's hash-prospector, after mixing in the scrambler's own
-/// constant; neighbouring seeds give unrelated permutations.
+/// The rounds and multipliers of skeeto's hash-prospector, after mixing in the constant of the
+/// scrambler; neighbouring seeds give unrelated permutations.
 std::uint32_t hash_seed(std::uint32_t seed) {
   std::uint32_t x = 0x6217c6e1U ^ (seed + 0xa14a177dU * 0x9e3779b9U);
   x = (x ^ (x >> 17U)) * 0xed5ad4bbU;
@@ -30,8 +30,8 @@ std::uint32_t hash_seed(std::uint32_t seed) {
   return x ^ (x >> 14U);
 }
 
-/// A permutation in which each bit depends on the lower ones only (Laine and Karras' kind); on
-/// reversed bits that is a nested scrambling in the sense of Owen.
+/// A permutation in which each bit depends only on the lower ones (as proposed by Laine and
+/// Karras); on reversed bits it is a nested scrambling in the sense of Owen.
 std::uint32_t permute(std::uint32_t x, std::uint32_t hashed_seed) {
   x ^= x * 0x3d20adeaU;
   x += hashed_seed;
@@ -92,7 +92,7 @@ void SobolSequence::point(std::uint32_t index, std::span<double> coordinates) co
     for (std::size_t i = 0; i < dimensions_; ++i)
       bits[i] ^= row[i];
   }
-  // Single precision as in irace; rounded to the nearest 24 bits, and never up to 1.
+  // Single precision as in irace; rounded to the nearest 24 bits, but never up to 1.
   constexpr float kBelowOne = 0x1.fffffep-1F;
   for (std::size_t i = 0; i < dimensions_; ++i) {
     coordinates[i] = std::min(static_cast<float>(bits[i]) * 0x1p-32F, kBelowOne);

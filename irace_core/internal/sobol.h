@@ -7,10 +7,10 @@
 
 namespace swarmsmith::irace {
 
-/// Points of a Sobol sequence, in the order of a seed (irace facts, 5): the seed permutes the
-/// index, so that every seed gives other points of the same even spread, and the values stay those
-/// of the sequence. The same on every machine: the arithmetic is whole numbers, and one exact
-/// conversion.
+/// Points of a Sobol sequence, in an order given by a seed (irace facts, 5): the seed permutes the
+/// index, so that every seed gives other points with the same even spread, and the coordinates are
+/// still those of the sequence. The points are the same on every machine: the arithmetic uses whole
+/// numbers and one exact conversion.
 ///
 /// Sources: Joe and Kuo (2008), see sobol_numbers.h; B. Burley, Practical hash-based Owen
 /// scrambling, Journal of Computer Graphics Techniques 9(4), 2020, with the hash of N. Vegdahl,

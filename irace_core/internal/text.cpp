@@ -11,14 +11,14 @@
 namespace swarmsmith {
 namespace {
 
-/// A decimal number taken apart: 0.d1d2d3... * 10^point, without trailing zeros.
+/// The parts of a decimal number: 0.d1d2d3... * 10^point, without trailing zeros.
 struct Decimal {
   std::string digits;
   int point = 0;
   bool negative = false;
 };
 
-/// The shortest digits, 15 at most, that show `value` to 15 significant digits.
+/// The shortest digits, at most 15, that show `value` to 15 significant digits.
 Decimal to_decimal(double value) {
   std::array<char, 40> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::fabs(value),
@@ -38,7 +38,7 @@ Decimal to_decimal(double value) {
 }
 
 /// Fixed notation with as many decimals as 15 significant digits need. Whole numbers show all their
-/// digits, also beyond the fifteenth.
+/// digits, also after the fifteenth.
 std::string fixed(double value, const Decimal& decimal) {
   std::array<char, 800> buffer{};  // 309 digits before the point, 324 + 15 after it
   const int decimals = std::max(0, static_cast<int>(decimal.digits.size()) - decimal.point);
@@ -61,7 +61,7 @@ std::string scientific(const Decimal& decimal) {
   return text;
 }
 
-/// Sorting key of one character: its class, then the letter without its case.
+/// Sorting key of one character: its class, then the letter without regard to case.
 int collation_key(char c) {
   const auto code = static_cast<unsigned char>(c);
   if (c >= '0' && c <= '9') return 1000 + code;

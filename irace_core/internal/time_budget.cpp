@@ -52,7 +52,7 @@ double TimeBudget::mean_time() const {
 
 void TimeBudget::estimate() {
   const double left = max_time_ - used_;
-  // More than can ever be run, and few enough for counting.
+  // More than can ever be run, and small enough to be an exact integer.
   constexpr double kMost = 1e12;
   remaining_ =
       left <= 0

@@ -7,36 +7,38 @@
 
 namespace swarmsmith::irace {
 
-/// The estimate tries no more configurations than a race of irace holds.
+/// The largest number of configurations in the estimate; a race of irace has no more.
 inline constexpr std::int64_t kMostForEstimate = 1024;
 
-/// How many experiments max_time is good for (irace facts, 16): the sum of all times so far, and
-/// before the first race an estimate from a part of the time.
+/// The number of experiments that max_time allows (irace facts, 16): it is computed from the times
+/// of all experiments so far; before the first race, a fraction of max_time is used for an
+/// estimate.
 class TimeBudget {
  public:
-  /// `pairs`: T_f, on which configurations are tried for the estimate.
+  /// `pairs`: T_f, the number of pairs on which configurations are tried for the estimate.
   TimeBudget(const Scenario& scenario, std::int64_t pairs);
 
-  /// An experiment took so long.
+  /// Counts an experiment that took this time.
   void count(double time);
   std::int64_t runs() const { return runs_; }
   double used() const { return used_; }
 
-  /// The least bound with which the first configurations fit into the estimate's time; 0 when
-  /// bound_max (1 without one) does.
+  /// The bound with which the first configurations fit into the estimate's time, at least
+  /// min_measurable_time; 0 when they fit with bound_max (1 if it is not set).
   double bound_for_estimate() const;
-  /// With how many configurations the estimate begins.
+  /// The number of configurations with which the estimate begins.
   std::int64_t first_configurations() const;
-  /// How many more the estimate tries, after the `tried` so far; 0 at its end.
+  /// The number of further configurations that the estimate tries, after `tried` so far; 0 at its
+  /// end.
   std::int64_t more_configurations(std::int64_t tried) const;
-  /// From now on mean times are not rounded any more.
+  /// From now on mean times are not rounded.
   void end_estimate() { estimating_ = false; }
 
-  /// Of an experiment; during the estimate rounded up to bound_digits.
+  /// The mean time of an experiment; during the estimate rounded up to bound_digits.
   double mean_time() const;
-  /// Experiments that the rest of the time is good for; 0 when it is used up.
+  /// The number of experiments that fit in the remaining time; 0 when it is used up.
   std::int64_t remaining() const { return remaining_; }
-  /// Takes over the mean time as it is now.
+  /// Computes remaining() from the mean time so far.
   void estimate();
 
  private:

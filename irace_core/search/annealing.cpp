@@ -17,7 +17,8 @@
 namespace swarmsmith::search {
 namespace {
 
-constexpr std::int64_t kScaleSample = 20;  ///< random configurations that say what 1 is
+/// Number of random configurations that define a temperature of 1.
+constexpr std::int64_t kScaleSample = 20;
 
 // The published schedule, in score units (docs/methods.md).
 constexpr double kPublishedStart = 125;
@@ -28,12 +29,12 @@ std::int64_t scale_runs_of(const AnnealingOptions& options) {
   return (kScaleSample + 1) * options.window;
 }
 
-/// Of an iteration, when incumbent and best are two.
+/// The number of runs of an iteration, if incumbent and best are different configurations.
 std::int64_t most_runs_of(const AnnealingOptions& options) {
   return options.window + 2 * options.moved;
 }
 
-/// The end temperature as a factor of the start temperature.
+/// The factor between the start temperature and the temperature after `used` runs.
 double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
   const auto walked = static_cast<double>(used - scale_runs_of(options));
   const auto all = static_cast<double>(budget - scale_runs_of(options) - 2 * options.final_runs);
@@ -42,7 +43,7 @@ double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t
   return pow(end, share);
 }
 
-/// Who walks: its id and its costs on the window.
+/// A configuration of the search: its id and its costs on the window.
 struct Walker {
   std::int64_t id = 0;
   Configuration configuration;
@@ -81,7 +82,7 @@ class Annealing final : public Strategy {
         neighbourhood_(std::move(neighbourhood)),
         rng_(scenario.seed) {}
 
-  /// The least that works.
+  /// The smallest budget that works.
   std::int64_t least_budget() const { return scale_runs() + most_runs() + 2 * options_.final_runs; }
 
   Expected<std::optional<Round>> next(std::int64_t next_id) override {
@@ -130,8 +131,8 @@ class Annealing final : public Strategy {
   std::int64_t scale_runs() const { return scale_runs_of(options_); }
   std::int64_t most_runs() const { return most_runs_of(options_); }
 
-  /// Temperatures are in standard deviations of the costs of random configurations, so that they
-  /// mean the same in each mission (docs/methods.md).
+  /// Temperatures are in standard deviations of the costs of random configurations, so that a
+  /// temperature means the same in every mission (docs/methods.md).
   Expected<std::optional<Round>> scale_round(std::int64_t next_id) {
     Round round;
     Rng rng = rng_.split("scale");
@@ -169,8 +170,8 @@ class Annealing final : public Strategy {
             .alive = {incumbent_.id}};
   }
 
-  /// The window of pairs moves on by `moved`: the incumbent and the best are run on the new pairs
-  /// alone, the candidate on all of the window, so that all three are compared on the same pairs.
+  /// The window of pairs moves on by `moved`: the incumbent and the best are run only on the new
+  /// pairs, the candidate on the whole window, so that all three are compared on the same pairs.
   Expected<std::optional<Round>> step_round(std::int64_t next_id) {
     step_rng_ = rng_.split("perturb", static_cast<std::uint64_t>(++steps_));
     auto perturbed = neighbourhood_.perturb(incumbent_.configuration, step_rng_);
@@ -220,7 +221,8 @@ class Annealing final : public Strategy {
     return ended;
   }
 
-  /// The Metropolis criterion. The draw is made in any case, so that nothing hangs on it.
+  /// The Metropolis criterion. The random number is drawn in any case, so that later draws do not
+  /// depend on the costs.
   bool is_accepted() {
     const double draw = step_rng_.uniform();
     const double now = candidate_.mean();
@@ -236,8 +238,8 @@ class Annealing final : public Strategy {
     return scale_ * options_.start_temperature * cooled(options_, budget_, used_);
   }
 
-  /// The published schedule halves after each three iterations, and at its end begins again from
-  /// the best (docs/methods.md, `cooling`).
+  /// The published schedule halves the temperature after every third iteration; at its end it
+  /// starts again, from the best configuration (docs/methods.md, `cooling`).
   void cool() {
     if (options_.cooling != Cooling::Published) return;
     if (steps_ % kPublishedHold == 0) published_temperature_ /= 2;
@@ -246,7 +248,7 @@ class Annealing final : public Strategy {
     incumbent_ = best_;
   }
 
-  /// Incumbent and best, on pairs behind the last window: the lower mean wins.
+  /// Runs incumbent and best on pairs after the last window: the lower mean wins.
   Expected<std::optional<Round>> final_round() {
     phase_ = Phase::Final;
     Round round;
@@ -271,7 +273,7 @@ class Annealing final : public Strategy {
     return verdict;
   }
 
-  /// Those of the walker on the window that is now.
+  /// Updates the costs of a walker to the current window.
   void keep_costs(Walker& walker, std::span<const double> costs) const {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       if (runs_[i].first == walker.id) walker.costs[runs_[i].second] = costs[i];
@@ -281,7 +283,8 @@ class Annealing final : public Strategy {
                       "a walker has been run on the whole window");
   }
 
-  /// Best first.
+  /// The ids of the best configuration and the incumbent, in this order; only one if they are the
+  /// same.
   std::vector<std::int64_t> elite_ids() const {
     if (incumbent_.id == best_.id) return {best_.id};
     return {best_.id, incumbent_.id};
@@ -294,14 +297,14 @@ class Annealing final : public Strategy {
   Rng rng_;
   Rng step_rng_{0};
   Phase phase_ = Phase::Scale;
-  std::vector<std::pair<std::int64_t, std::int64_t>> runs_;  ///< of the round
+  std::vector<std::pair<std::int64_t, std::int64_t>> runs_;  ///< of the current round
   Walker incumbent_;
   Walker best_;
   Walker candidate_;
-  std::int64_t window_begin_ = 1;  ///< its first pair
+  std::int64_t window_begin_ = 1;  ///< first pair of the window
   std::int64_t steps_ = 0;
   std::int64_t used_ = 0;
-  double scale_ = 0;  ///< of the costs: a temperature of 1
+  double scale_ = 0;  ///< standard deviation of the costs at a temperature of 1
   double published_temperature_ = 0;
 };
 
@@ -356,7 +359,7 @@ Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configura
 namespace swarmsmith {
 namespace {
 
-/// Iterations that are over; the first steps are those of the scale.
+/// The number of finished iterations; the first steps only measure the scale.
 std::int64_t walked(const AnnealingOptions& options, const SearchPoint& point) {
   return std::max<std::int64_t>(0, point.step - options.window);
 }
@@ -367,8 +370,8 @@ std::vector<SearchFault> AnnealingOptions::faults() const {
   std::vector<SearchFault> faults;
   if (moved > window)
     faults.push_back({{"moved"}, "`moved` is at most `window`: a window moves on by parts of it"});
-  // The published schedule has temperatures of its own. The usual values may stand there, as they
-  // do in the text that stores have.
+  // The published schedule has its own temperatures. The default values are allowed here, since
+  // they are in the text that stores contain.
   const AnnealingOptions usual;
   const auto refuse = [&](std::string_view key, double value, double usually) {
     if (cooling != Cooling::Published || value == usually) return;
@@ -425,10 +428,10 @@ StageTexts AnnealingOptions::texts(const SearchPoint& point) const {
   char temperature[32];
   std::snprintf(temperature, sizeof temperature, "%.3g",
                 search::told_temperature(*this, point.budget, point.used, number));
-  // A continued campaign does not know its step before the next one.
+  // A continued campaign knows its step only after the next step.
   const std::string where =
       point.step > 0 ? "iteration " + std::to_string(number) : "an iteration of " + name;
-  // A walk does not know how many runs its iterations take: the line is the name.
+  // The number of runs of the iterations is not known in advance, so the line is just the name.
   return {.name = name, .line = name, .stage = where + ", temperature " + temperature};
 }
 

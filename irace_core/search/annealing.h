@@ -16,19 +16,22 @@ namespace swarmsmith {
 
 enum class Cooling {
   Geometric,  ///< from start to end temperature over the whole budget, in standard deviations
-  Published,  ///< from 125 score units, halved every third iteration, again and again
+  /// Starts at 125 score units, is halved after every third iteration, and restarts at its end.
+  Published,
 };
 
 inline constexpr std::array<std::string_view, 2> kCoolingNames = {"geometric", "published"};
 
-/// Simulated annealing in the manner of IcePop (docs/methods.md). A window of pairs moves on with
-/// each iteration: the incumbent and the best so far are run on its new pairs, the perturbed
-/// configuration on all. It is accepted when it is not worse by the window's mean, else with the
-/// probability exp(-loss / T); T = 0 throughout is iterative improvement. All runs count. The best
-/// and the last incumbent are run again at the end on further pairs, and the better mean wins.
+/// Simulated annealing in the manner of IcePop (docs/methods.md). Configurations are compared on a
+/// window of pairs that moves on with each iteration: the incumbent and the best configuration so
+/// far are run on the new pairs, the perturbed configuration on all pairs of the window. The
+/// perturbed configuration is accepted if its mean on the window is not worse than the incumbent's,
+/// otherwise with probability exp(-loss / T); with T = 0 throughout, the search is iterative
+/// improvement. All runs count in the budget. At the end, the best configuration and the last
+/// incumbent are run on further pairs, and the one with the better mean wins.
 ///
-/// Twenty random configurations on the first window say what a temperature of 1 is: the standard
-/// deviation of their means. Iteration i draws from the stream "perturb" with index i.
+/// Twenty random configurations are run on the first window, and the standard deviation of their
+/// means defines a temperature of 1. Iteration i draws from the stream "perturb" with index i.
 struct AnnealingOptions {
   static constexpr SearchWords kWords{
       .name = "annealing",
@@ -40,13 +43,14 @@ struct AnnealingOptions {
           "annealing cannot be extended: its temperatures follow from the whole "
           "budget. Run the campaign with the larger budget into a new store"};
 
-  std::int64_t window = 10;  ///< pairs on which machines are compared
+  std::int64_t window = 10;  ///< pairs on which configurations are compared
   std::int64_t moved = 1;    ///< pairs of the window that each iteration replaces
   Cooling cooling = Cooling::Geometric;
   double start_temperature = 1;   ///< in standard deviations of random configurations' costs
   double end_temperature = 1e-3;  ///< the same
-  std::int64_t final_runs = 100;  ///< of the best and the last
-  bool start_at_random = false;   ///< else at the smallest machine
+  /// Runs of the best configuration and of the last incumbent at the end.
+  std::int64_t final_runs = 100;
+  bool start_at_random = false;  ///< otherwise at the smallest machine
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visitor) {
@@ -59,8 +63,8 @@ struct AnnealingOptions {
     visitor(SearchField{.key = "start_at_random"}, self.start_at_random);
   }
   std::vector<SearchFault> faults() const;
-  /// Without a neighbourhood, it changes one parameter at a time from the first of the given
-  /// configurations or a random one. Errors: a budget that is too small.
+  /// Without a neighbourhood, the search changes one parameter at a time, and starts at the first
+  /// of the given configurations or at a random one. A budget that is too small is an error.
   Expected<std::unique_ptr<search::Strategy>> start(search::Start from) const;
   SearchPoint planned(SearchPoint point) const;
   StageTexts texts(const SearchPoint& point) const;
@@ -69,17 +73,18 @@ struct AnnealingOptions {
 
 namespace search {
 
-inline constexpr std::int64_t kAnnealingBlock = 100;  ///< iterations of it in one of the events
+/// Iterations of annealing that form one iteration in the events.
+inline constexpr std::int64_t kAnnealingBlock = 100;
 
-/// Whether there is room for a further iteration before the final stage.
+/// Whether the budget allows a further iteration before the final stage.
 bool walks_on(const AnnealingOptions& options, std::int64_t budget, std::int64_t used);
-/// The temperature of iteration `number`, from 1, as it is shown: in the unit of the
-/// options, and in score units where it is the published one.
+/// The temperature of iteration `number`, from 1, as it is shown to the user: in the unit of the
+/// options, or in score units for the published cooling.
 double told_temperature(const AnnealingOptions& options, std::int64_t budget, std::int64_t used,
                         std::int64_t number);
 
-/// The neighbourhood of any space: one active parameter gets another value, drawn uniformly;
-/// parameters that become active with it are drawn, too. `space` must outlive it.
+/// A neighbourhood for any space: one active parameter gets another value, drawn uniformly; values
+/// are also drawn for parameters that become active by this. `space` must outlive it.
 Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configuration start);
 
 }  // namespace search

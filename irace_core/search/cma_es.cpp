@@ -17,7 +17,7 @@ double square(double x) {
   return x * x;
 }
 
-/// Of a matrix row by row.
+/// The index of an element in a matrix that is stored row by row.
 std::size_t at(std::size_t n, std::size_t row, std::size_t column) {
   return row * n + column;
 }
@@ -29,7 +29,7 @@ void rotate(std::vector<double>& matrix, std::vector<double>& vectors, std::size
   const double off = matrix[at(n, p, q)];
   if (off == 0) return;
   const double theta = (matrix[at(n, q, q)] - matrix[at(n, p, p)]) / (2 * off);
-  // The smaller of the two angles that do it: the other elements change least.
+  // Of the two possible angles this is the smaller one: the other elements change least with it.
   const double sign = theta < 0 ? -1 : 1;
   const double t = sign / (std::abs(theta) + std::sqrt(square(theta) + 1));
   const double c = 1 / std::sqrt(square(t) + 1);
@@ -57,12 +57,12 @@ void rotate(std::vector<double>& matrix, std::vector<double>& vectors, std::size
 std::vector<double> eigenvalues(std::vector<double> matrix, std::size_t n,
                                 std::vector<double>& vectors) {
   constexpr int kMostSweeps = 50;
-  constexpr double kSmall = 1e-30;  ///< squared, beside the diagonal
+  constexpr double kSmall = 1e-30;  ///< for squares off the diagonal, relative to the diagonal
   SWARMSMITH_ASSERT(matrix.size() == n * n, "a square matrix");
   vectors.assign(n * n, 0);
   for (std::size_t i = 0; i < n; ++i)
     vectors[at(n, i, i)] = 1;
-  // Sweeps over all pairs until nothing is left beside the diagonal; it shrinks quadratically.
+  // Sweeps over all pairs until all elements off the diagonal are zero; they shrink quadratically.
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double off = 0;
     double diagonal = 0;
@@ -89,7 +89,8 @@ CmaEs::CmaEs(std::vector<double> mean, double step, std::int64_t population)
   const auto half = static_cast<std::size_t>(population / 2);
   SWARMSMITH_ASSERT(half > 0 && dimensions() > 0, "CMA-ES has two points and a dimension or more");
   SWARMSMITH_ASSERT(step > 0, "the first step size spreads the first generation");
-  // Only the better half counts, the best most: weights by the logarithm of the rank (table 1).
+  // Only the better half counts, and the best counts most: the weights use the logarithm of the
+  // rank (table 1).
   double sum = 0;
   for (std::size_t i = 1; i <= half; ++i) {
     weights_.push_back(log((static_cast<double>(population) + 1) / 2) -
@@ -119,7 +120,7 @@ CmaEs::CmaEs(std::vector<double> mean, double step, std::int64_t population)
 }
 
 void CmaEs::decompose() {
-  // Rounding may make the shortest axis a little negative.
+  // Rounding may make the smallest eigenvalue slightly negative.
   constexpr double kLeast = 1e-20;
   lengths_ = eigenvalues(covariance_, dimensions(), axes_);
   for (double& length : lengths_)
@@ -168,7 +169,7 @@ void CmaEs::update(std::span<const std::vector<double>> points) {
     length += square(step_path_[i]);
   }
   length = std::sqrt(length);
-  // h_sigma stalls the other path while the step size grows fast (text below equation 45).
+  // h_sigma stops the other path while the step size grows fast (text below equation 45).
   double remembered = 1;
   for (std::int64_t i = 0; i < 2 * generation_ && remembered > 1e-20; ++i)
     remembered *= 1 - c_sigma_;
@@ -214,7 +215,8 @@ class CmaEsBreeder final : public Breeder {
     for (std::int64_t i = 0; i < size; ++i) {
       std::vector<double> point = draw(rng);
       Configuration configuration = box_.to_configuration(point);
-      // What was run is what is learned from, but for points that had to be moved inside.
+      // The distribution learns from the rounded point that was run, except for points outside the
+      // box.
       if (is_inside(point)) point = box_.to_point(configuration);
       SWARMSMITH_ASSERT(point.size() == box_.dimensions(), "a point has the box's dimensions");
       points_.emplace(next_id + i, std::move(point));
@@ -226,8 +228,8 @@ class CmaEsBreeder final : public Breeder {
   Expected<Brood> finalists(std::int64_t count, std::int64_t,
                             std::span<const Scored> last) override {
     learn(last);
-    // The mean of the distribution, its estimate of the best point, takes part in place of the
-    // worst (docs/methods.md).
+    // The distribution's mean, which is its estimate of the best point, replaces the worst member
+    // (docs/methods.md).
     SWARMSMITH_ASSERT(static_cast<std::int64_t>(last.size()) >= count - 1, "finalists were run");
     Brood brood;
     for (const Scored& one : last.first(static_cast<std::size_t>(count - 1)))
@@ -237,7 +239,7 @@ class CmaEsBreeder final : public Breeder {
   }
 
   std::vector<Scored> elites(std::span<const Scored> generation) override {
-    constexpr std::size_t kElites = 5;  ///< one of so many, as evolution has
+    constexpr std::size_t kElites = 5;  ///< one of this many is an elite, as in evolution
     const auto best = generation.first(std::max<std::size_t>(1, generation.size() / kElites));
     return {best.begin(), best.end()};
   }
@@ -256,7 +258,7 @@ class CmaEsBreeder final : public Breeder {
         point, [](double x) { return x >= -RealBox::kHalfWidth && x <= RealBox::kHalfWidth; });
   }
 
-  /// A point outside of the box is drawn again. After a hundred times it stays outside, and its
+  /// A point outside the box is drawn again. After a hundred times it stays outside, and its
   /// configuration is on the border: the distribution may have left the box.
   std::vector<double> draw(Rng& rng) {
     constexpr int kTries = 100;
@@ -271,7 +273,7 @@ class CmaEsBreeder final : public Breeder {
     return point;
   }
 
-  /// From a generation, once.
+  /// Updates the distribution with a generation, only once.
   void learn(std::span<const Scored> last) {
     if (last.empty() || !points_.contains(last.front().id)) return;
     std::vector<std::vector<double>> order;
@@ -285,7 +287,7 @@ class CmaEsBreeder final : public Breeder {
   RealBox box_;
   Rng rng_;
   CmaEs distribution_;
-  std::map<std::int64_t, std::vector<double>> points_;  ///< of the generation, by id
+  std::map<std::int64_t, std::vector<double>> points_;  ///< points of the generation, by id
 };
 
 }  // namespace

@@ -13,11 +13,11 @@
 
 namespace swarmsmith {
 
-/// CMA-ES on a RealBox from its middle, in generations as evolution has them; the final stage has
-/// the best of the last generation and the distribution's mean. Points outside of the box are drawn
-/// again, up to a hundred times; then the nearest point inside is run, and the distribution follows
-/// the one that was drawn. Normal numbers of generation g come from the stream "cma-es" with index
-/// g.
+/// CMA-ES on a RealBox, starting from its middle, in generations like those of evolution. The final
+/// stage runs the best configurations of the last generation and the mean of the distribution. A
+/// point outside the box is drawn again, up to a hundred times; after that, the nearest point
+/// inside is run, and the distribution is updated with the point that was drawn. Normal numbers of
+/// generation g come from the stream "cma-es" with index g.
 struct CmaEsOptions {
   static constexpr SearchWords kWords{.name = "cma-es",
                                       .round = "generation",
@@ -28,8 +28,8 @@ struct CmaEsOptions {
 
   std::int64_t population = 100;
   std::int64_t runs = 10;
-  double step = 2;              ///< first standard deviation, in tenths of a range
-  std::int64_t final_runs = 0;  ///< as those of evolution
+  double step = 2;              ///< first standard deviation, in tenths of a parameter's range
+  std::int64_t final_runs = 0;  ///< as for evolution
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visitor) {
@@ -38,7 +38,7 @@ struct CmaEsOptions {
     visitor(SearchField{"step", 1e-6, 10}, self.step);
     visitor(SearchField{"final_runs", 0, kMostRuns}, self.final_runs);
   }
-  /// Errors as those of evolution.
+  /// The errors are the same as for evolution.
   Expected<std::unique_ptr<search::Strategy>> start(search::Start from) const;
   SearchPoint planned(SearchPoint point) const;
   friend bool operator==(const CmaEsOptions&, const CmaEsOptions&) = default;
@@ -46,18 +46,18 @@ struct CmaEsOptions {
 
 namespace search {
 
-/// The distribution of CMA-ES: a normal one whose mean, step size and covariance matrix follow the
-/// best half of each generation. Hansen, "The CMA Evolution Strategy: A Tutorial",
-/// arXiv:1604.00772, with its standard parameters; plain loops in a fixed order and our own
-/// eigenvectors, so that every machine gets the same bits.
+/// The distribution of CMA-ES: a normal distribution whose mean, step size and covariance matrix
+/// follow the best half of each generation. Hansen, "The CMA Evolution Strategy: A Tutorial",
+/// arXiv:1604.00772, with its standard parameters. Plain loops in a fixed order and our own
+/// eigenvectors give the same bits on every machine.
 class CmaEs {
  public:
   /// `population` is lambda; `step` the first standard deviation.
   CmaEs(std::vector<double> mean, double step, std::int64_t population);
 
-  /// mean + step * B D z of standard normal numbers z.
+  /// The point mean + step * B D z for standard normal numbers z.
   std::vector<double> point_of(std::span<const double> normals) const;
-  /// The points of a generation, best first: at least the best half of `population`.
+  /// `points` are those of a generation, best first: at least the best half of `population`.
   void update(std::span<const std::vector<double>> points);
 
   std::span<const double> mean() const { return mean_; }
@@ -68,11 +68,11 @@ class CmaEs {
 
  private:
   std::size_t dimensions() const { return mean_.size(); }
-  /// Of the covariance: its eigenvectors are the columns of `axes_`, and `lengths_` the roots of
-  /// its eigenvalues.
+  /// Decomposes the covariance matrix: `axes_` gets its eigenvectors as columns, and `lengths_` the
+  /// square roots of its eigenvalues.
   void decompose();
 
-  std::vector<double> weights_;  ///< of the best half, sum 1
+  std::vector<double> weights_;  ///< weights of the best half; their sum is 1
   double mu_eff_ = 0;
   double c_sigma_ = 0;
   double d_sigma_ = 0;

@@ -13,14 +13,15 @@
 namespace swarmsmith::search {
 namespace {
 
-/// Below the first share a weight stays, below the second it is replaced, else it is added to.
+/// With a random number below the first share a weight stays, below the second it is replaced,
+/// otherwise the change is added to it.
 struct Shares {
   double kept = 0;
   double replaced = 0;
 };
 
 /// NEAT's mutation of weights (NEAT 1.2.1; docs/methods.md, `evolution`): half of the genomes
-/// change severely; of the others the last fifth changes more than the rest.
+/// change severely; in the other half, the last fifth of the weights changes more than the rest.
 void mutate_neat(std::vector<double>& weights, double step, Rng& rng) {
   constexpr Shares kSevere{0.1, 0.3};
   constexpr Shares kTail{0.3, 0.5};
@@ -54,7 +55,8 @@ class EvolutionBreeder final : public Breeder {
     return last.empty() ? first(size, next_id, rng) : next(size, next_id, last, rng);
   }
 
-  /// The generation after the last one. An extension goes on from before it.
+  /// Breeds the generation after the last one. The members are restored, so that an extension
+  /// continues from the last generation.
   Expected<Brood> finalists(std::int64_t count, std::int64_t next_id,
                             std::span<const Scored> last) override {
     Rng rng = rng_.split("evolution, final stage", static_cast<std::uint64_t>(next_id));
@@ -84,7 +86,7 @@ class EvolutionBreeder final : public Breeder {
     return std::clamp<std::size_t>(count, 1, population);
   }
 
-  /// Weights in [-1, 1], and what the user gave before them.
+  /// The configurations that the user gave come first; the others have weights in [-1, 1].
   Brood first(std::int64_t size, std::int64_t next_id, Rng& rng) {
     Brood brood;
     for (std::int64_t i = 0; i < size; ++i) {
@@ -98,8 +100,8 @@ class EvolutionBreeder final : public Breeder {
     return brood;
   }
 
-  /// The elites go on as they are, and are run again with their children, on the same pairs; all
-  /// else are mutated children of parents drawn uniformly, without crossover, as in EvoStick
+  /// The elites stay unchanged, and are run again with their children, on the same pairs; all
+  /// others are mutated children of parents drawn uniformly, without crossover, as in EvoStick
   /// (docs/methods.md).
   Brood next(std::int64_t size, std::int64_t next_id, std::span<const Scored> last, Rng& rng) {
     const std::size_t parents = count_of(options_.parents, last.size());
@@ -123,7 +125,7 @@ class EvolutionBreeder final : public Breeder {
     return brood;
   }
 
-  /// The rounded weights are what the search goes on with.
+  /// The search continues with the rounded weights.
   void add(std::vector<double> weights, std::int64_t parent, std::int64_t next_id, Brood& brood) {
     Configuration configuration = box_.to_configuration(weights);
     members_.emplace(next_id + static_cast<std::int64_t>(brood.newcomers.size()),

@@ -21,11 +21,11 @@ enum class Mutation {
 
 inline constexpr std::array<std::string_view, 2> kMutationNames = {"neat", "normal"};
 
-/// EvoStick's genetic algorithm: the best fifth of a generation goes on unchanged and is run again
-/// on the next generation's pairs; the rest are mutated copies of these, each of a parent drawn
-/// uniformly; no crossover. After the last generation the next one is made once more, and its best
-/// mean on further pairs wins (ARGoS3-NEAT, params/evostick*.ne with NEAT 1.2.1; docs/methods.md).
-/// Draws of generation g come from the stream "evolution" with index g.
+/// EvoStick's genetic algorithm: the best fifth of a generation stays unchanged and is run again on
+/// the next generation's pairs; the other members are mutated copies of these, each of a parent
+/// drawn uniformly, without crossover. After the last generation one more is bred; its members are
+/// run on further pairs, and the best mean wins (ARGoS3-NEAT, params/evostick*.ne with NEAT 1.2.1;
+/// docs/methods.md). Draws of generation g come from the stream "evolution" with index g.
 struct EvolutionOptions {
   static constexpr SearchWords kWords{.name = "evolution",
                                       .round = "generation",
@@ -35,12 +35,13 @@ struct EvolutionOptions {
                                       .wants_reals = true};
 
   std::int64_t population = 100;
-  std::int64_t runs = 10;  ///< of each member of a generation, on pairs of its own
+  std::int64_t runs = 10;  ///< runs of each member of a generation, on pairs of that generation
   double parents = 0.2;    ///< share of the population that has children
-  double elites = 0.2;     ///< share that goes on unchanged; at most `parents`
+  double elites = 0.2;     ///< share that stays unchanged; at most `parents`
   Mutation mutation = Mutation::Neat;
-  double step = 1;  ///< largest (neat) or standard (normal) change, in tenths of a range
-  std::int64_t final_runs = 0;  ///< of each member at the end; automatic: the published ones
+  /// Largest change (neat) or standard deviation of the change (normal), in tenths of a range.
+  double step = 1;
+  std::int64_t final_runs = 0;  ///< of each member at the end; automatic: the published numbers
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visitor) {
@@ -53,7 +54,7 @@ struct EvolutionOptions {
     visitor(SearchField{.key = "mutation", .choices = kMutationNames}, self.mutation);
   }
   std::vector<SearchFault> faults() const;
-  /// Errors: a space that is not a RealBox, a budget that is too small.
+  /// A space that is not a RealBox and a budget that is too small are errors.
   Expected<std::unique_ptr<search::Strategy>> start(search::Start from) const;
   SearchPoint planned(SearchPoint point) const;
   friend bool operator==(const EvolutionOptions&, const EvolutionOptions&) = default;
@@ -61,11 +62,12 @@ struct EvolutionOptions {
 
 namespace search {
 
-/// Changes weights, units as RealBox has them, each towards [-5, 5].
+/// Changes weights that are in the units of RealBox, where the range is [-5, 5].
 ///
-/// Neat: with probability 1/2 severely, each weight 70 % += U, 20 % = U, 10 % as it is; else each
-/// weight += U, but those of the last fifth of ten weights or more 50 %, 20 % and 30 %. U is
-/// uniform in (-step, step). Normal: each weight += a normal number of standard deviation `step`.
+/// Neat: with probability 1/2 the mutation is severe: of the weights, 70 % += U, 20 % = U, and 10 %
+/// stay unchanged. Otherwise every weight += U; if there are ten weights or more, the last fifth
+/// has 50 %, 20 % and 30 % instead. U is uniform in (-step, step). Normal: each weight += a normal
+/// number with standard deviation `step`.
 void mutate(std::vector<double>& weights, Mutation mutation, double step, Rng& rng);
 
 }  // namespace search

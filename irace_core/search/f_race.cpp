@@ -7,7 +7,8 @@
 namespace swarmsmith {
 namespace {
 
-/// What irace plans for a configuration of a first race: until the first test, and on to the next.
+/// The runs that irace plans for a configuration of a first race: up to the first test, and on to
+/// the next one.
 std::int64_t first_test_cost(const Scenario& scenario) {
   return std::max(scenario.mu, scenario.first_test * scenario.block_size) +
          scenario.each_test * scenario.block_size;
@@ -19,7 +20,7 @@ std::int64_t f_race_budget(const Scenario& scenario) {
 
 Expected<void> check_f_race(const Scenario& scenario, const FRaceOptions& options) {
   if (auto checked = check(scenario); !checked) return checked;
-  // Both need elites, which one race has not.
+  // Both need elites, which a single race does not have.
   if (scenario.max_time > 0)
     return bad_input("is for irace alone: the budget of f-race is max_experiments", "max_time");
   if (uses_capping(scenario))
@@ -35,7 +36,7 @@ Expected<void> check_f_race(const Scenario& scenario, const FRaceOptions& option
                    "max_experiments");
 }
 
-/// One race is all of it: a further one would draw around the best, as iterated racing does.
+/// The search is a single race: a further one would sample around the best, like iterated racing.
 class FRace final : public IteratedRace {
  public:
   explicit FRace(IteratedRace race) : IteratedRace(std::move(race)) {}

@@ -8,7 +8,7 @@
 
 namespace swarmsmith {
 
-/// One race of uniform draws (Vanilla).
+/// A single race of uniform draws (Vanilla).
 struct FRaceOptions {
   static constexpr SearchWords kWords{
       .name = "f-race",
@@ -22,7 +22,8 @@ struct FRaceOptions {
           "follows from the whole budget. Run the campaign with the larger budget into "
           "a new store"};
 
-  std::int64_t configurations = 0;  ///< in the race; automatic: budget / 20
+  /// Number of configurations in the race; automatic: budget / 20.
+  std::int64_t configurations = 0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visitor) {
@@ -36,8 +37,8 @@ struct FRaceOptions {
   friend bool operator==(const FRaceOptions&, const FRaceOptions&) = default;
 };
 
-/// The options of a race that make it one F-race of so many configurations (Birattari et al., GECCO
-/// 2002; docs/methods.md).
+/// The scenario with the options that make a race an F-race with this number of configurations
+/// (Birattari et al., GECCO 2002; docs/methods.md).
 Scenario f_race_scenario(Scenario scenario, const FRaceOptions& options);
 
 }  // namespace swarmsmith

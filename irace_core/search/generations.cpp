@@ -8,7 +8,8 @@
 namespace swarmsmith::search {
 namespace {
 
-/// Runs of each member at the end. Between the published budgets a fifth of the budget.
+/// Runs of each member in the final stage. Between the published budgets the stage gets a fifth of
+/// the budget.
 std::int64_t published_final_runs(std::int64_t budget, std::int64_t population) {
   constexpr std::int64_t kLargeBudget = 200'000;
   if (budget >= kLargeBudget) return 500;
@@ -23,10 +24,10 @@ Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t popu
   if (is_automatic) final_runs = published_final_runs(budget, population);
   const std::int64_t least = population * (runs + (is_automatic ? 1 : final_runs));
   if (budget < least) return Unexpected(too_small(budget, least));
-  // With a small budget the first generation comes first.
+  // With a small budget, runs for the first generation are reserved first.
   if (is_automatic) final_runs = std::min(final_runs, (budget - population * runs) / population);
   const std::int64_t generations = (budget - population * final_runs) / (population * runs);
-  // What is less than a generation makes the final stage longer: the budget is used.
+  // Runs that are not enough for a generation go to the final stage, so that the budget is used up.
   const std::int64_t left = budget - generations * population * runs;
   SWARMSMITH_ASSERT(generations >= 1 && left >= population, "there is a generation, and an end");
   return GenerationPlan{.generations = generations,
@@ -52,8 +53,8 @@ Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
     ids.push_back(next_id + static_cast<std::int64_t>(i));
   round.newcomers = std::move(brood->newcomers);
   SWARMSMITH_ASSERT(static_cast<std::int64_t>(ids.size()) == size, "a brood has its size");
-  // The final stage is on pairs that no generation has seen: the winner is not the one that was
-  // lucky on its own.
+  // The final stage uses pairs that no generation has used, so that the winner is not just the
+  // member that was lucky on its own pairs.
   const std::int64_t pairs = is_final() ? plan_.final_runs : plan_.runs;
   const std::int64_t first_pair = plan_.fresh_pairs || is_final() ? next_pair_ : 1;
   next_pair_ = std::max(next_pair_, first_pair + pairs);

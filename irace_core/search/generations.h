@@ -8,44 +8,46 @@
 
 namespace swarmsmith::search {
 
-/// How a search by generations spends its budget.
+/// How a search by generations uses its budget.
 struct GenerationPlan {
   std::int64_t generations = 0;
-  std::int64_t population = 0;  ///< of each generation; the last one of random search is smaller
+  /// Members of each generation; random search's last one may be smaller.
+  std::int64_t population = 0;
   std::int64_t configurations = 0;  ///< of all generations together
   std::int64_t runs = 0;            ///< of each member, on pairs that its generation shares
-  bool fresh_pairs = true;          ///< each generation has pairs of its own
-  std::int64_t finalists = 0;       ///< that the final stage runs again
-  std::int64_t final_runs = 0;      ///< of each of them, on fresh pairs
+  bool fresh_pairs = true;          ///< whether each generation has new pairs
+  std::int64_t finalists = 0;       ///< members that the final stage runs again
+  std::int64_t final_runs = 0;      ///< of each finalist, on new pairs
 
-  /// Where all share their pairs, generations are but parts of one: the last may be smaller.
+  /// If all generations share their pairs, they are only parts of one large generation, and the
+  /// last one may be smaller.
   bool may_be_cut() const { return !fresh_pairs; }
 };
 
-/// Who is in a generation: those that are known, by their ids, and new ones.
+/// The members of a generation: known ones, by their ids, and new ones.
 struct Brood {
   std::vector<std::int64_t> known;
   std::vector<Newcomer> newcomers;
 };
 
-/// What differs between searches by generations.
+/// The part in which searches by generations differ.
 class Breeder {
  public:
   virtual ~Breeder() = default;
-  /// Generation `generation`, from 1, of `size` members; `last` is the one before, best first, and
-  /// empty for the first. The first newcomer gets the id `next_id`.
+  /// Makes generation `generation`, from 1, with `size` members. `last` is the generation before,
+  /// best first; it is empty for the first generation. The first newcomer gets the id `next_id`.
   virtual Expected<Brood> breed(std::int64_t generation, std::int64_t size, std::int64_t next_id,
                                 std::span<const Scored> last) = 0;
-  /// Who takes part in the final stage; `last` as above.
+  /// Chooses the members of the final stage; `last` as above.
   virtual Expected<Brood> finalists(std::int64_t count, std::int64_t next_id,
                                     std::span<const Scored> last) = 0;
-  /// The elites after a generation, best first; it is given best first.
+  /// The elites after a generation, best first; `generation` is in the same order.
   virtual std::vector<Scored> elites(std::span<const Scored> generation) = 0;
   virtual void add_to(Digest& digest) const = 0;
 };
 
-/// Generations of one size on common pairs, then a final stage, whose best mean wins: what a
-/// generation says of its best is too good, the more so the larger it is.
+/// Generations of one size on common pairs, then a final stage, in which the best mean wins: the
+/// mean of a generation's best member is too optimistic, and more so the larger the generation is.
 class Generations final : public Strategy {
  public:
   Generations(GenerationPlan plan, std::unique_ptr<Breeder> breeder)
@@ -65,24 +67,27 @@ class Generations final : public Strategy {
 
   GenerationPlan plan_;
   std::unique_ptr<Breeder> breeder_;
-  std::int64_t generation_ = 0;         ///< of the plan; one more is the final stage
-  std::int64_t iterations_before_ = 0;  ///< of plans that are over
-  std::int64_t generation_number_ = 0;  ///< through all plans, final stages left out
-  std::int64_t bred_ = 0;               ///< configurations of the plan so far
-  std::int64_t next_pair_ = 1;          ///< that no candidate has seen
+  /// Number of the generation in the plan; the final stage has the number after the last
+  /// generation.
+  std::int64_t generation_ = 0;
+  std::int64_t iterations_before_ = 0;  ///< iterations of finished plans
+  std::int64_t generation_number_ = 0;  ///< over all plans, without final stages
+  std::int64_t bred_ = 0;               ///< configurations that the plan has made so far
+  std::int64_t next_pair_ = 1;          ///< the first pair that no candidate has been run on
   bool over_ = false;
   std::vector<std::pair<std::int64_t, std::int64_t>> runs_;
-  std::vector<Scored> last_;  ///< of the last generation, the final stage left out
+  std::vector<Scored> last_;  ///< of the last generation, not of the final stage
   std::vector<std::int64_t> elites_;
 };
 
-/// Generations of `population` x `runs` in a budget, each with a final stage of all its members.
-/// `final_runs` 0: as published for EvoStick, 20 for 10,000, 100 for 50,000 and 100,000, 500 for
-/// 200,000 (ARGoS3-NEAT, params/; docs/methods.md). The rest goes to the final stage.
+/// Plans generations of `population` x `runs` in a budget, and a final stage of all members.
+/// `final_runs` 0 means the numbers published for EvoStick: 20 for 10,000, 100 for 50,000 and
+/// 100,000, 500 for 200,000 (ARGoS3-NEAT, params/; docs/methods.md). The remaining runs go to the
+/// final stage.
 Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t population,
                                           std::int64_t runs, std::int64_t final_runs);
 
-/// The point as the plan has it; as it is when there is none.
+/// The point with the numbers of the plan; unchanged if there is no plan.
 SearchPoint planned_by(const Expected<GenerationPlan>& plan, SearchPoint point);
 
 }  // namespace swarmsmith::search

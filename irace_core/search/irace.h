@@ -7,7 +7,8 @@
 
 namespace swarmsmith {
 
-/// Iterated F-race (irace_core/iterated_race.h). Its options are those of the scenario.
+/// Iterated F-race (irace_core/iterated_race.h). It has no options of its own: it uses the
+/// scenario.
 struct IraceOptions {
   static constexpr SearchWords kWords{.name = "irace",
                                       .round = "iteration",

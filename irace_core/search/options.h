@@ -8,10 +8,10 @@
 
 namespace swarmsmith {
 
-/// All of them, in the order in which they are listed.
+/// All searches, in the order in which they are listed.
 std::span<const SearchKind> all_searches();
 
-/// The search with all options as they are by default.
+/// The search with the default values of all its options.
 SearchOptions search_of(SearchKind kind);
 
 SearchKind kind_of(const SearchOptions& options);
@@ -21,7 +21,7 @@ inline const SearchWords& words_of(const SearchOptions& options) {
   return words_of(kind_of(options));
 }
 
-/// In campaign files.
+/// The name in campaign files.
 inline std::string_view name_of(SearchKind kind) {
   return words_of(kind).name;
 }
@@ -32,7 +32,7 @@ void visit_search_fields(Options& options, Visitor& visitor) {
   std::visit([&]<class Kind>(Kind& kind) { kind.fields(kind, visitor); }, options);
 }
 
-/// What is wrong with the options together.
+/// The errors in combinations of options.
 std::vector<SearchFault> faults_of(const SearchOptions& options);
 
 }  // namespace swarmsmith

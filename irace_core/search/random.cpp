@@ -13,9 +13,10 @@
 namespace swarmsmith::search {
 namespace {
 
-/// Wanted at once: enough for a cluster, few enough that progress shows.
+/// Size of a chunk: enough for a cluster, and small enough to show progress.
 constexpr std::int64_t kChunk = 1000;
-constexpr std::int64_t kAutomaticFinalists = 1000;  ///< one for so many runs of the budget
+/// One finalist per this number of runs of the budget.
+constexpr std::int64_t kAutomaticFinalists = 1000;
 
 class RandomBreeder final : public Breeder {
  public:
@@ -51,7 +52,7 @@ class RandomBreeder final : public Breeder {
     return brood;
   }
 
-  /// The best of all chunks, which were run on the same pairs.
+  /// The best of all chunks so far; all chunks are run on the same pairs.
   std::vector<Scored> elites(std::span<const Scored> chunk) override {
     best_.insert(best_.end(), chunk.begin(), chunk.end());
     std::ranges::sort(best_, [](const Scored& a, const Scored& b) {
@@ -95,7 +96,7 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
   const bool is_automatic = options.finalists == 0;
   const std::int64_t finalists =
       is_automatic ? std::max<std::int64_t>(1, budget / kAutomaticFinalists) : options.finalists;
-  // As many draws as finalists, at least.
+  // There are at least as many draws as finalists.
   const std::int64_t least_finalists = is_automatic ? 1 : finalists;
   const std::int64_t least = least_finalists * (options.runs + options.final_runs);
   if (budget < least) return Unexpected(too_small(budget, least));
@@ -106,7 +107,7 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
                       .finalists = finalists,
                       .final_runs = options.final_runs};
   plan.generations = (plan.configurations + kChunk - 1) / kChunk;
-  // The rest is less than a draw; whole pairs of it go to the finalists.
+  // The remaining runs are too few for a draw; finalists get further pairs from them.
   plan.final_runs = (budget - plan.configurations * plan.runs) / finalists;
   return plan;
 }
@@ -116,7 +117,7 @@ Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOpt
 namespace swarmsmith {
 namespace {
 
-/// One that was extended has another plan.
+/// The plan of the search; nothing for a search that was extended, since it has another plan.
 std::optional<search::GenerationPlan> draws(const RandomOptions& options,
                                             const SearchPoint& point) {
   if (point.finals > 0) return std::nullopt;
@@ -139,7 +140,7 @@ SearchPoint RandomOptions::planned(SearchPoint point) const {
   return search::planned_by(search::plan_random_search(point.budget, *this), point);
 }
 
-/// Parts are chunks of draws; people count the draws.
+/// The parts of the search are chunks of draws; the texts count the draws.
 StageTexts RandomOptions::texts(const SearchPoint& point) const {
   const auto plan = draws(*this, point);
   if (!plan) {

@@ -8,7 +8,7 @@
 namespace swarmsmith::search {
 namespace {
 
-/// What keeps the parameter from being a plain real; empty when it is one.
+/// The reason why the parameter is not a plain real; empty when it is one.
 std::string objection(const ParameterSpace& space, std::size_t index) {
   const auto* real = std::get_if<Real>(&space[index].domain);
   if (real == nullptr) return "is not a real number";

@@ -10,20 +10,21 @@
 
 namespace swarmsmith::search {
 
-/// A space of unconditional reals, in units in which each goes from -5 to 5: the weights of
-/// networks as they are, and every other range at that scale.
+/// A space of unconditional reals, in units in which the range of each parameter is -5 to 5: the
+/// weights of networks keep their values, and every other range is scaled to this.
 class RealBox {
  public:
   static constexpr double kHalfWidth = 5;
 
-  /// Errors: a parameter that is conditional, not real, logarithmic, or bounded by others; `search`
-  /// is named in the sentence.
+  /// Errors: forbidden clauses, or a parameter that is not real, has a condition, is logarithmic,
+  /// or has bounds that depend on others; the message names `search`.
   static Expected<RealBox> of(const ParameterSpace& space, std::string_view search);
 
   std::size_t dimensions() const { return middles_.size(); }
-  /// Inside the box and rounded to the space's digits: what is run.
+  /// The configuration that is run for a point: moved inside the box and rounded to the space's
+  /// digits.
   Configuration to_configuration(std::span<const double> point) const;
-  /// The point of a configuration: the search goes on from what was run.
+  /// The point of a configuration, with which the search continues after rounding.
   std::vector<double> to_point(const Configuration& configuration) const;
 
  private:

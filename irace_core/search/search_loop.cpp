@@ -99,11 +99,11 @@ void SearchLoop::tell(std::span<const Measurement> measurements) {
     verdict.ended->iteration = iteration_;
     verdict.ended->used = used_;
     verdict.ended->remaining = budget() - used_;
-    // The strategy may go on from rejected ones, when it has no others.
+    // The strategy may continue from rejected configurations if it has no others.
     std::erase_if(verdict.ended->elites, [](const Elite& elite) { return std::isinf(elite.mean); });
     elites_ = verdict.ended->elites;
     events_.emplace_back(std::move(*verdict.ended));
-    // Who is out is seldom looked at again.
+    // Configurations that are no longer alive are seldom looked at again.
     for (const Experiment& run : wanted_) {
       if (!std::ranges::binary_search(alive_, run.configuration))
         configurations_[static_cast<std::size_t>(run.configuration - 1)].put_away();
@@ -129,7 +129,7 @@ void SearchLoop::report_steps(std::span<const double> costs) {
 void SearchLoop::report_step(std::size_t first, std::size_t end, std::span<const double> costs) {
   const auto count = static_cast<std::int64_t>(end - first);
   used_ += count;
-  // The best so far in this round; none, as in races, when all were rejected.
+  // The best so far in this round; as in races, 0 if all were rejected.
   Scored best = ranked(std::span(round_.runs).first(end), costs.first(end)).front();
   if (std::isinf(best.mean)) best = {};
   RaceStep step{.iteration = iteration_,

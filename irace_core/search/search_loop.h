@@ -12,12 +12,12 @@
 
 namespace swarmsmith::search {
 
-/// A Search in rounds. It numbers configurations and pairs, counts runs, and reports what
-/// happens; its strategy decides. Pairs come from the stream "instances" of the scenario's seed, as
-/// those of races do.
+/// A Search in rounds. It numbers configurations and pairs, counts runs, and reports events; its
+/// strategy makes the decisions. As in races, pairs come from the stream "instances" of the
+/// scenario's seed.
 class SearchLoop final : public Search {
  public:
-  /// The strategy may point to the space. Errors are those of its first round.
+  /// The strategy may keep a pointer to the space. The errors are those of its first round.
   static Expected<std::unique_ptr<Search>> start(std::unique_ptr<const ParameterSpace> space,
                                                  const Scenario& scenario,
                                                  std::unique_ptr<Strategy> strategy);
@@ -25,7 +25,7 @@ class SearchLoop final : public Search {
   bool finished() const override { return finished_; }
   const std::optional<Error>& failure() const override { return failure_; }
   std::span<const Experiment> wanted() const override { return wanted_; }
-  /// Nothing: what comes next is made of what is awaited.
+  /// Empty: the next round depends on the results of this one.
   std::vector<Experiment> ahead(std::int64_t) const override { return {}; }
   void tell(std::span<const Measurement> measurements) override;
   std::vector<std::int64_t> alive() const override { return alive_; }
@@ -45,10 +45,10 @@ class SearchLoop final : public Search {
   SearchLoop(std::unique_ptr<const ParameterSpace> space, const Scenario& scenario,
              std::unique_ptr<Strategy> strategy);
 
-  /// Asks for the next round, or ends.
+  /// Asks for the next round, or ends the search.
   Expected<void> ask();
   void begin_iteration(const Round::Start& start);
-  /// A step a pair, or one of all.
+  /// Reports one step per pair, or one step for all runs.
   void report_steps(std::span<const double> costs);
   void report_step(std::size_t first, std::size_t end, std::span<const double> costs);
   void stop();
@@ -59,7 +59,7 @@ class SearchLoop final : public Search {
   irace::InstanceLog instances_;
   std::vector<irace::KeptConfiguration> configurations_;  ///< by id - 1
   Round round_;
-  std::uint64_t round_digest_ = 0;  ///< of what made the round
+  std::uint64_t round_digest_ = 0;  ///< of the strategy's state before the round was made
   std::vector<Experiment> wanted_;
   std::vector<std::int64_t> alive_;
   std::vector<Elite> elites_;
@@ -67,7 +67,7 @@ class SearchLoop final : public Search {
   std::optional<Error> failure_;
   bool finished_ = false;
   std::int64_t iteration_ = 0;
-  std::int64_t steps_ = 0;  ///< of the iteration
+  std::int64_t steps_ = 0;  ///< steps of the iteration
   std::int64_t used_ = 0;
   std::int64_t pairs_seen_ = 0;
 };

@@ -48,7 +48,7 @@ StageTexts usual_texts(const SearchWords& words, const SearchPoint& point, std::
     return {
         .name = name, .line = name + members, .stage = name + (there.empty() ? "" : ": " + there)};
   }
-  // Final stages are left out.
+  // Final stages are not counted.
   const std::int64_t planned = point.iterations > 0 ? point.iterations - point.finals - 1 : 0;
   return {.name = name,
           .line = name + stage::of(planned) + members,

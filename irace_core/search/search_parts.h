@@ -15,40 +15,44 @@
 
 namespace swarmsmith {
 
-/// What searches are made of. Each is a struct of its options, KIND.h in this folder; its line in
-/// CMakeLists.txt makes it known. The program knows most searches by no name: campaign files, their
-/// digests, events, budgets, stores and what is shown of a search follow from what the
-/// struct has, and it does not compile without:
+/// The parts of a search. Each search is a struct of its options, in KIND.h in this folder; a line
+/// in CMakeLists.txt adds it to the program. Most code does not name individual searches: campaign
+/// files, their digests, events, budgets, stores and displayed texts are derived from the members
+/// of the struct. It does not compile without:
 ///
-/// - `kWords`, what people call it and its parts;
-/// - `fields(options, visitor)`, which calls `visitor(SearchField, member)` for each key of its
-///   table in campaign files, in a fixed order; a member is an integer, a double, a bool or an
-///   enumeration;
+/// - `kWords`, the names of the search and its parts;
+/// - `fields(options, visitor)`, which calls `visitor(SearchField, member)` for each key of the
+///   search's table in campaign files, in a fixed order; a member is an integer, a double, a bool
+///   or an enumeration;
 /// - `start(search::Start)`, which makes its strategy, or, for races, `start_race`;
 /// - `operator==`.
 ///
-/// It may have besides
+/// It may also have
 ///
-/// - `faults()`, what is wrong with the options that the limits of single ones cannot say;
-/// - `planned(point)`, what options and budget say of a point before an event has said it;
-/// - `texts(point)`, where the usual words do not say where it is.
+/// - `faults()`, the errors in the options that the limits of single options cannot express;
+/// - `planned(point)`, which fills in a point from options and budget before an event has reported
+///   it;
+/// - `texts(point)`, if the usual texts do not describe where the search is.
 ///
-/// Numbers of options are runs and configurations; 0 is "automatic" where it says so, and follows
-/// from the budget.
+/// Numbers in options are runs or configurations; 0 means "automatic" where the comment says so,
+/// and the value is then computed from the budget.
 
-/// What people call a search and its parts.
+/// The names of a search and its parts.
 struct SearchWords {
-  std::string_view name;               ///< in campaign files
-  std::string_view round;              ///< an iteration as its events count them: "generation"
-  std::string_view at_work;            ///< "racing", "searching"
-  std::string_view where;              ///< where the winner's mean is from: "race", "final stage"
-  std::string_view candidate;          ///< "member", "configuration"
-  bool has_tests = false;              ///< statistical ones, that drop candidates: it is a race
-  std::string_view no_extension = {};  ///< why a finished one cannot go on; empty if it can
-  bool takes_repairs = false;          ///< its own configurations may be repaired
-  bool wants_reals = false;            ///< needs reals without conditions, such as weights
-  /// Changes whenever the search answers the same costs otherwise: a store of another version can
-  /// be read, but not continued.
+  std::string_view name;     ///< in campaign files
+  std::string_view round;    ///< the name of an iteration in events: "generation"
+  std::string_view at_work;  ///< "racing", "searching"
+  /// The stage that the winner's mean is from: "race", "final stage".
+  std::string_view where;
+  std::string_view candidate;  ///< "member", "configuration"
+  bool has_tests = false;      ///< whether statistical tests drop candidates, as in a race
+  /// Why a finished search cannot be extended; empty if it can.
+  std::string_view no_extension = {};
+  bool takes_repairs = false;  ///< whether its sampled configurations may be repaired
+  /// Whether it needs reals without conditions, such as weights.
+  bool wants_reals = false;
+  /// Changes whenever the search gives different results for the same costs: a store with another
+  /// version can be read, but not continued.
   int version = 1;
 };
 
@@ -58,41 +62,41 @@ struct SearchField {
   /// Limits of numbers, both included.
   double least = 0;
   double most = 0;
-  /// The values of an enumeration, in its order.
+  /// The values of an enumeration, in the order of its definition.
   std::span<const std::string_view> choices{};
 };
 
 inline constexpr double kMostRuns = 1'000'000;
 
-/// What is wrong with a search's options: of the first of the keys that a file has.
+/// An error in a search's options; it is reported for the first of these keys that the file has.
 struct SearchFault {
   std::vector<std::string_view> keys;
   std::string message;
 };
 
-/// How far a search is, as its events say it; 0 where it is unknown.
+/// The progress of a search according to its events; 0 where it is unknown.
 struct SearchPoint {
   std::int64_t iteration = 0;   ///< as IterationStarted numbers them; 0 before the first
-  std::int64_t iterations = 0;  ///< planned when it began
-  std::int64_t finals = 0;      ///< final stages before it: of a search that was extended
+  std::int64_t iterations = 0;  ///< as planned when this iteration began
+  std::int64_t finals = 0;      ///< number of final stages before it, if the search was extended
   bool is_final = false;
   std::int64_t configurations = 0;  ///< of the iteration
   std::int64_t alive = 0;
-  std::int64_t runs_wanted = 0;  ///< by the iteration
-  std::int64_t runs = 0;         ///< of them, those that are there
-  std::int64_t step = 0;         ///< the last one, through all iterations
+  std::int64_t runs_wanted = 0;  ///< by the whole iteration
+  std::int64_t runs = 0;         ///< runs of the iteration that are finished
+  std::int64_t step = 0;         ///< the last one, counted over all iterations
   std::int64_t used = 0;         ///< by the design
   std::int64_t budget = 0;       ///< of the design
 };
 
-/// Where a search is, in three lengths (stage.h).
+/// Descriptions of where a search is, in three lengths (stage.h).
 struct StageTexts {
   std::string name;   ///< "generation 41"
   std::string line;   ///< "generation 41 of 90: 20 members, 5 runs each"
   std::string stage;  ///< "generation 41 of 90, 12 of 20 members"
 };
 
-/// In a search's usual words, with this name of the part that it is in.
+/// The usual texts of a search; `name` is the part of the search that it is in.
 StageTexts usual_texts(const SearchWords& words, const SearchPoint& point, std::string name);
 
 /// Parts of these texts.
@@ -102,9 +106,9 @@ namespace stage {
 std::string of(std::int64_t whole);
 /// "configurations 1 to 220"; without a last one "configurations from 1 on".
 std::string range(std::string_view what, std::int64_t first, std::int64_t last);
-/// Of the iteration's candidates, those that have been run: runs come pair by pair.
+/// The number of the iteration's candidates that have been run: runs arrive pair by pair.
 std::int64_t ready(const SearchPoint& point);
-/// "12 of 20 members"; empty before there are some.
+/// "12 of 20 members"; empty as long as the iteration has no members.
 std::string members(const SearchWords& words, const SearchPoint& point);
 /// "5 runs each".
 std::string each(const SearchPoint& point);
@@ -115,19 +119,19 @@ namespace search {
 
 class Strategy;
 
-/// What local search walks in.
+/// The neighbourhood in which a local search moves.
 struct Neighbourhood {
-  /// Where it starts.
+  /// The configuration at which the search starts.
   Configuration start;
-  /// A valid configuration beside the given one.
+  /// Returns a valid neighbour of the given configuration.
   std::function<Expected<Configuration>(const Configuration&, Rng&)> perturb;
 };
 
-/// What a strategy is made of.
+/// The arguments for making a strategy.
 struct Start {
   const ParameterSpace& space;  ///< outlives the strategy
   const Scenario& scenario;
-  std::vector<Configuration> initial;  ///< of the space, and not forbidden
+  std::vector<Configuration> initial;  ///< configurations of the space that are not forbidden
   Repair repair;                       ///< empty unless `takes_repairs`
   std::optional<Neighbourhood> neighbourhood;
 };

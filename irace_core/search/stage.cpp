@@ -3,8 +3,8 @@
 namespace swarmsmith {
 namespace {
 
-/// The point with what options and budget say, where no event has said it. A search that was
-/// extended has another plan.
+/// The point, filled in from options and budget if no event has reported it. A search that was
+/// extended has another plan, so its point is not filled in.
 template <class Kind>
 SearchPoint as_planned(const Kind& kind, const SearchPoint& point) {
   if constexpr (requires { kind.planned(point); }) {
@@ -22,7 +22,7 @@ StageTexts texts_of(const SearchOptions& options, const SearchPoint& known) {
         if constexpr (requires { kind.texts(point); }) {
           return kind.texts(point);
         } else {
-          // Searches that were extended count on without their final stages.
+          // Final stages are not counted; a search that was extended has several.
           const std::int64_t number =
               Kind::kWords.has_tests ? point.iteration : point.iteration - point.finals;
           return usual_texts(Kind::kWords, point,

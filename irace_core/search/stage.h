@@ -6,14 +6,14 @@
 
 namespace swarmsmith {
 
-/// The part that the search is in: "generation 41", "final stage", "one race".
+/// The part in which the search is: "generation 41", "final stage", "one race".
 std::string round_name(const SearchOptions& options, const SearchPoint& known);
-/// What it begins with: "generation 41 of 90: 20 members, 5 runs each".
+/// The line that is printed when a part begins: "generation 41 of 90: 20 members, 5 runs each".
 std::string round_line(const SearchOptions& options, const SearchPoint& known);
-/// Where the search is: "generation 41 of 90, 12 of 20 members", "configuration 310 of 900",
-/// "iteration 812, temperature 0.0312", "one race: 17 left", "final stage: 12 of 20 members".
-/// Empty before the first iteration. What no event has said yet follows from options and budget,
-/// as in a campaign that was continued.
+/// The progress of the search: "generation 41 of 90, 12 of 20 members", "configuration 310 of 900",
+/// "iteration 812, temperature 0.0312", "one race: 17 left", "final stage: 12 of 20 members". Empty
+/// before the first iteration. Numbers that no event has reported yet are computed from options and
+/// budget, for instance in a campaign that was continued.
 std::string stage_text(const SearchOptions& options, const SearchPoint& known);
 
 }  // namespace swarmsmith

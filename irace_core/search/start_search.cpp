@@ -10,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-/// Options of races alone.
+/// Checks that no option is set that only races have.
 Expected<void> check_for_races_alone(const Scenario& scenario, const std::string& name) {
   const auto refuse = [&](const char* option) {
     return bad_input("works only with irace and f-race, not with " + name, option);
@@ -22,7 +22,7 @@ Expected<void> check_for_races_alone(const Scenario& scenario, const std::string
   return {};
 }
 
-/// Of a search that is not a race.
+/// Starts a search that is not a race.
 template <class Kind>
 Expected<std::unique_ptr<Search>> start_rounds(const Kind& kind, ParameterSpace space,
                                                const Scenario& scenario,
@@ -41,7 +41,7 @@ Expected<std::unique_ptr<Search>> start_rounds(const Kind& kind, ParameterSpace 
     if (auto checked = space.check(given); !checked) return Unexpected(checked.error());
   }
   std::erase_if(initial, [&](const Configuration& given) { return space.is_forbidden(given); });
-  // Strategies point to it.
+  // Strategies keep a pointer to the space.
   auto shared = std::make_unique<ParameterSpace>(std::move(space));
   auto strategy = kind.start({.space = *shared,
                               .scenario = scenario,

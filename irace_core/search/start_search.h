@@ -9,15 +9,16 @@
 
 namespace swarmsmith {
 
-/// The search of a design, with its first questions. The scenario's budget, seed and instances
-/// count for all; the rest of it is for races. `neighbourhood` is for annealing alone; without one,
-/// it changes one parameter at a time from a random start. A scenario with an ablation has that in
-/// place of a search.
+/// Starts the search of a design, with its first questions. All searches use the scenario's budget,
+/// seed and instances; only races use its other options. `neighbourhood` is only for annealing;
+/// without it, annealing changes one parameter at a time. If the scenario has an ablation, that is
+/// started instead of a search.
 ///
 /// Errors: a budget that is too small, with the smallest one that works; a space that the search
-/// cannot use; options of races that other searches do not know (capping, max_time, a
-/// targetEvaluator, a deterministic target); a repair for cma-es, whose points would not be its
-/// own.
+/// cannot use; options of races that other searches do not have (capping, max_time, a
+/// targetEvaluator, a deterministic target); a repair for a search other than irace, f-race and
+/// random, since the others continue from the configurations that they made, not from repaired
+/// ones.
 Expected<std::unique_ptr<Search>> start_search(
     ParameterSpace space, const Scenario& scenario, const SearchOptions& options,
     std::vector<Configuration> initial = {}, Repair repair = {},

@@ -11,7 +11,7 @@ std::vector<Scored> ranked(std::span<const std::pair<std::int64_t, std::int64_t>
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Scored& scored = by_id[runs[i].first];
     scored.id = runs[i].first;
-    scored.mean += costs[i];  // a sum until all are in, always in the order of the pairs
+    scored.mean += costs[i];  // a sum until all costs are added, always in the order of the pairs
     ++scored.runs;
   }
   std::vector<Scored> all;

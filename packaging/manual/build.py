@@ -25,7 +25,7 @@ FENCE = re.compile(r"\s*(?:[-*]\s+)?(`{3,}|~{3,})(.*)")
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(\s*([^()\s]+)((?:\s+\"[^\"]*\")?)\s*\)")
 
 
-# Markdown as GitHub reads it becomes Markdown as mkdocs reads it.
+# Converts Markdown for GitHub to Markdown for mkdocs.
 
 def anchor_of(title, given):
     """The anchor of a heading, as GitHub gives it; `given` counts those of the page."""
@@ -66,7 +66,7 @@ def converted(text, relink):
             continue
         if mark:
             fence = mark[1]
-            # "toml file=x.toml" says for tests where the block goes.
+            # "toml file=x.toml" is information for tests: the file in which they write the block.
             language = (mark[2].split() or ["text"])[0]
             lines.append(line[:mark.start(2)] + {"sh": "bash"}.get(language, language))
             continue
@@ -75,7 +75,7 @@ def converted(text, relink):
         nested = item and item[1]
         if line.strip() and not line.startswith(" "):
             in_list = bool(item)
-        elif in_list and re.match(r" {2,3}\S", line):  # what belongs to an item, or is a list in it
+        elif in_list and re.match(r" {2,3}\S", line):  # text or a list inside an item
             line = "    " + line.lstrip()
         if before.strip() and not before.startswith((" ", "|", ">", "#")):
             is_list = item and not nested and not re.match(r"(?:[-*]|\d+[.)]) ", before)
@@ -102,7 +102,7 @@ class Stage:
         self.pages.update(MOVED)
         self.titles = {place: title_of((SOURCE / page).read_text()) for page, place in self.pages.items()}
         self.made = []
-        self.made_after = {}  # by the page that they stand behind
+        self.made_after = {}  # by the page after which they come
 
     def place_of(self, target):
         """Where a file of the repository is in the manual, copied there if it is not a page; None for a folder."""
@@ -127,10 +127,10 @@ class Stage:
                 return link[0]
             path, _, anchor = target.partition("#")
             place = self.place_of(os.path.normpath(os.path.join(os.path.dirname(page), path)))
-            if place is None:  # a folder of the repository, which the manual does not have
+            if place is None:  # a folder of the repository, which is not part of the manual
                 return text
             new = os.path.relpath(place, here or ".") + (f"#{anchor}" if anchor else "")
-            if re.fullmatch(r"[\w/.-]+\.md", text):  # a file's name says less than the page's title
+            if re.fullmatch(r"[\w/.-]+\.md", text):  # the name of a file is less informative than the title of the page
                 text = self.titles[place]
             return f"{picture}[{text}]({new}{title})"
         return changed
@@ -164,7 +164,7 @@ class Stage:
                     if place in self.made_after:
                         sections[-1][1].append(self.made_after[place])
         seen.update(self.made)
-        # Decisions are below their list.
+        # Decisions come below their list.
         listed = [(title, [*pages]) for title, pages in sections if pages]
         for _, pages in listed:
             at = next((i for i, (_, place) in enumerate(pages) if place == "decisions/index.md"), None)
@@ -178,7 +178,7 @@ class Stage:
         return listed
 
 
-# Pages that are made.
+# Generated pages.
 
 def cell(text):
     return re.sub(r"\s+", " ", text).replace("|", "\\|").replace("<", "&lt;").strip()
@@ -309,7 +309,8 @@ def build(bin_folder, site):
             raise SystemExit(done.stdout + done.stderr)
         make_search_work_from_disk(work / "site")
         name_first_page(work / "site")
-        for site_map in (work / "site").glob("sitemap.xml*"):  # for servers, and with the time of the build in it
+        # Site maps are for servers, and contain the time of the build.
+        for site_map in (work / "site").glob("sitemap.xml*"):
             site_map.unlink()
         shutil.rmtree(site, ignore_errors=True)
         shutil.copytree(work / "site", site)

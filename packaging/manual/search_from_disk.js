@@ -1,5 +1,5 @@
-// Goes before the theme's own script. A page from a disk may read no other file and start no worker from one: the index
-// comes as a script, and the worker's text is here.
+// Loaded before the theme's own script. A page opened from a disk must not read other files or start a worker from one,
+// so the index is a script, and the worker's text is included here.
 if (location.protocol === "file:") {
   const file = new URL("search_index.js", document.currentScript.src);
   window.Worker = class extends Worker {
@@ -7,7 +7,7 @@ if (location.protocol === "file:") {
       super(URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" })));
     }
   };
-  // Version 9 of the theme loads that script by itself; 8 asks for the index by this name.
+  // Version 9 of the theme loads that script itself; version 8 uses this name for the index.
   var __search = {
     index: new Promise((resolve) => {
       const script = document.createElement("script");

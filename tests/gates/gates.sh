@@ -1,8 +1,8 @@
 # shellcheck shell=bash
-# The gates of `./dev gate`: all that a tree of files can be put through. Read in by ./dev, whose functions it uses. A gate
-# is a function; it ends with a number for the table, written to file descriptor 3. It is green for a tree, or it is not:
-# build-gate/TREE has GATE.row, its line of the table, once it is; before that GATE.done, what of it is green already, a
-# line for each test, unit or target. Logs are build-gate/GATE.log.
+# The gates of `./dev gate`: all checks of a tree of files. ./dev includes this file, which uses its functions. A gate
+# is a function; it ends by writing a number for the table to file descriptor 3. A gate is green for a tree or not. Once
+# it is green, build-gate/TREE has the file GATE.row, its line of the table. Before that, GATE.done lists the parts that
+# are already green, one line for each test, unit or target. Logs are build-gate/GATE.log.
 
 all_gates=(format tidy test long debug clang asan tsan fuzz debian13)
 
@@ -36,14 +36,14 @@ packages_for() {
 
 fuzz_seconds=${SWARMSMITH_FUZZ_SECONDS:-60}
 
-# The digest of all files, also of those that are in no commit yet.
+# The digest of all files, including those that are not in any commit yet.
 tree_digest() {
   local index=$PWD/build-gate/index
-  cp -p "$(git rev-parse --git-dir)/index" "$index"  # by its time, git knows which files it must read
+  cp -p "$(git rev-parse --git-dir)/index" "$index"  # git sees from its time which files it must read
   GIT_INDEX_FILE=$index git add -A && GIT_INDEX_FILE=$index git write-tree | cut -c 1-16
 }
 
-# Each version writes some lines in another way.
+# Each version of clang-format formats some lines differently.
 format_version=14
 is_our_format() { [[ $(clang-format --version) == *" version $format_version."* ]]; }
 
@@ -55,9 +55,9 @@ gate_format() {
   git ls-files '*.h' '*.cpp' | wc -l | sed 's/$/ files/' >&3
 }
 
-# The units of the asan build but the tests' and those that protoc writes. The analyser follows 25,000 steps of a
-# function's paths (its own default is 225,000): nearly all that need more spend them in the standard library and in fmt,
-# and they took two thirds of the time. It takes the files of a unit for headers.
+# Checks the units of the asan build, except for those of tests and those that protoc writes. The analyser follows
+# 25,000 steps of a function's paths (its own default is 225,000): nearly all functions that need more spend them in the
+# standard library and in fmt, and they took two thirds of the time. The analyser treats the files of a unit as headers.
 gate_tidy() {
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target swarmsmith_pb
@@ -69,11 +69,11 @@ gate_tidy() {
   echo "$(wc -l <build-gate/units) units" >&3
 }
 
-# Tests wait for processes and clocks half of their time: twice as many as there are cores.
+# Tests wait for processes and clocks half of their time, so twice as many run in parallel as there are cores.
 test_jobs() { echo $((2 * jobs)); }
 
-# tests_gate FOLDER [CTEST-ARGUMENT...]: the tests that are not green yet, by their numbers. Reports of sanitizers go to
-# files, also those of processes that are killed; any of them is red, whatever the tests say.
+# tests_gate FOLDER [CTEST-ARGUMENT...]: runs the tests that are not green yet, by their numbers. Sanitizers write their
+# reports to files, also those of processes that are killed; any report makes the gate red, even if all tests pass.
 tests_gate() {
   local folder=$1 open reports=${gate_done%.done}-reports status=0
   shift
@@ -83,14 +83,14 @@ tests_gate() {
     TSAN_OPTIONS=log_path=$reports/report:suppressions=$PWD/tests/thread_sanitizer.supp \
     ctest --test-dir "$folder" --output-on-failure -j "$(test_jobs)" -I "0,0,0,$open" | tee >(cat >&2) |
     sed -nu 's/.*Test *#\([0-9]*\): .* \(Passed\|\*\*\*Skipped\) .*/\1/p' >>"$gate_done" || status=$?
-  find "$reports" -type f -exec cat {} + | sed -n 1,400p  # head would end find, and the gate with it
+  find "$reports" -type f -exec cat {} + | sed -n 1,400p  # head would end find, and so the gate
   [ -z "$(ls "$reports")" ] || status=1
   echo "$(sort -u "$gate_done" | wc -l) of $(ctest --test-dir "$folder" -N "$@" | sed -n 's/^Total Tests: //p') tests" >&3
   return "$status"
 }
 
-# Tests write into memory where there is room: on a disk, they wait for it most of their time. Not the
-# long ones. What a run left that was killed goes first: a folder's name has the process.
+# Tests, except for the long ones, write into memory if there is room: on a disk, they wait for it most of their time.
+# Files left by a run that was killed are removed first: the name of a folder contains the process.
 write_into_memory() {
   local left process
   for left in /dev/shm/swarmsmith-tests.*.*; do
@@ -99,7 +99,7 @@ write_into_memory() {
   done
   if [ -w /dev/shm ] && [ "$(df --output=avail -B 1M /dev/shm | tail -n 1)" -ge 4096 ]; then
     TMPDIR=$(mktemp -d "/dev/shm/swarmsmith-tests.$BASHPID.XXXXXX")
-    chmod 755 "$TMPDIR"  # some tests become somebody else
+    chmod 755 "$TMPDIR"  # some tests change to another user
     export TMPDIR
     trap 'rm -rf "$TMPDIR"' EXIT
   fi
@@ -117,7 +117,7 @@ gate_long() {
   SWARMSMITH_LONG=1 tests_gate build -L 'long|wide'
 }
 
-# The same bits without optimisation, and from another compiler.
+# Checks for the same bits without optimisation, and from another compiler.
 hashes_gate() {
   configure "build-$1" --preset "$1"
   cmake --build "build-$1" -j "$jobs" --target sim_engine_test
@@ -136,7 +136,7 @@ sanitizer_gate() {
 gate_asan() { sanitizer_gate asan; }
 gate_tsan() { sanitizer_gate tsan; }
 
-# Each target from its seeds and what earlier runs have found worth keeping.
+# Runs each target from its seeds and from the inputs that earlier runs have kept.
 gate_fuzz() {
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target fuzzers
@@ -146,8 +146,8 @@ gate_fuzz() {
   echo "$(wc -l <build-asan/fuzzers.txt) targets" >&3
 }
 
-# What CI does in a bare Debian 13; then what is compared with R's irace beside the irace 4.2 of that system, and its
-# programs beside this system's. The root stays in build-debian13, with its packages and what was built.
+# Does the same as CI in a bare Debian 13. Then it runs the comparisons with R's irace against irace 4.2 of that system,
+# and the test with the programs of both systems. The root stays in build-debian13, with its packages and build results.
 gate_debian13() {
   local root=$PWD/build-debian13/root clone=home/swarmsmith
   if [ ! -e "$root/$clone" ]; then
@@ -166,7 +166,8 @@ gate_debian13() {
     SWARMSMITH_SOURCE=$PWD python3 tests/long/two_systems_test.py -v
 }
 
-# run_gate TREE NAME. Called alone, not as a condition: its subshell ends at the first command that fails.
+# run_gate TREE NAME: it must be called as a separate command, not as a condition, so that its subshell ends at the
+# first command that fails.
 run_gate() {
   local tree=$1 name=$2 place=build-gate/$1 log=build-gate/$2.log began=$SECONDS status number
   [ ! -e "$place/$name.row" ] || { say "$name: green already"; return; }
@@ -183,7 +184,7 @@ run_gate() {
     "$([ $status -eq 0 ] && echo green || echo RED)" "$((SECONDS - began)) s" >"$place/$name.$([ $status -eq 0 ] && echo row || echo red)"
 }
 
-# gate [NAME...]: all of them without a name. Says yes only when all are green.
+# gate [NAME...]: runs these gates, or all without a name. Succeeds only if all are green.
 gate() {
   local name tree gate_done
   [ $# -gt 0 ] || set -- "${all_gates[@]}"

@@ -8,7 +8,7 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// One side, with its quotes if it has any.
+/// One side of the bar, without its quotes if it has any.
 Piece side(LineReader line, std::size_t bytes) {
   const std::string_view text = trimmed(line.rest().substr(0, bytes));
   line.skip_blanks();
@@ -29,7 +29,7 @@ Expected<void> replace(Bound& bound, const Piece& piece, const std::string& file
   return {};
 }
 
-/// `line` stands before the name.
+/// `line` must be positioned before the name.
 Expected<void> apply_line(LineReader line, const std::string& file,
                           std::vector<Parameter>& parameters, std::span<const std::string> names,
                           std::vector<Error>& warnings) {

@@ -10,9 +10,9 @@
 namespace swarmsmith::irace {
 
 /// Puts the bounds of a dependency file, as AutoMoDe's patched irace reads it, into the parameters:
-/// `name (lower|upper)` a line, each side an expression or empty. Such files are public in the
-/// repositories of AutoMoDe (`N0x0 (|NumStates-1)`); how the patch treats a bound that lies outside
-/// the parameter file's is not: here the new bound takes the old one's place.
+/// each line is `name (lower|upper)`, where each side is an expression or empty. The repositories
+/// of AutoMoDe contain such files (`N0x0 (|NumStates-1)`). It is not publicly known how the patch
+/// treats a bound outside the parameter file's domain; here the new bound replaces the old one.
 Expected<void> apply_dependency_file(const IraceText& source, std::vector<Parameter>& parameters,
                                      std::vector<Error>& warnings);
 

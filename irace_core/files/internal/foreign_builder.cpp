@@ -14,13 +14,14 @@ namespace swarmsmith::irace {
 namespace {
 
 constexpr int kMostDigits = 15;
-constexpr int kRenamedTold = 3;  ///< one by one; hundreds of names may be like that
+constexpr int kRenamedTold = 3;  ///< reported one by one; there may be hundreds
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// What irace's names cannot hold becomes '_'; they begin with a letter.
+/// The name for irace: it begins with a letter, and characters that irace does not allow become
+/// '_'.
 std::string irace_name(const std::string& name) {
   std::string text = is_letter(name.front()) ? name : "p" + name;
   std::ranges::replace_if(
@@ -28,7 +29,7 @@ std::string irace_name(const std::string& name) {
   return text;
 }
 
-/// The number as conditions of the parameter see it.
+/// The number in the form that conditions of the parameter use.
 Expected<Expression> number_constant(const Domain& domain, const std::string& text,
                                      const std::string& where) {
   const std::optional<double> number = number_of(text);
@@ -53,7 +54,7 @@ bool is_order(Operation operation) {
          operation == Operation::Greater || operation == Operation::GreaterEqual;
 }
 
-/// The values of an ordinal that stand so to the one at `position`.
+/// The values of an ordinal that have this order relation to the value at `position`.
 std::vector<Expression> values_in_order(std::span<const std::string> values, Operation operation,
                                         std::size_t position) {
   std::vector<Expression> chosen;
@@ -183,8 +184,8 @@ Expected<void> ForeignBuilder::restrict(const std::string& name, Expression cond
   return {};
 }
 
-/// What bounds and defaults of reals need, and for logarithmic ones two more, so that values near
-/// the lower bound differ.
+/// The decimals that bounds and defaults of reals need; two more for logarithmic ones, so that
+/// values near the lower bound differ.
 int ForeignBuilder::digits() const {
   int digits = 4;
   for (const Known& known : known_) {
@@ -235,7 +236,7 @@ Expected<ForeignSpace> ForeignBuilder::build(const ForeignSpaceOptions& options)
   auto space = ParameterSpace::make(std::move(parameters), std::move(forbidden_),
                                     options.digits.value_or(digits()));
   if (!space) return Unexpected(placed(std::move(space.error())));
-  // Later readers get irace's text.
+  // Later steps read this text in irace's format, so it is read here as a check.
   auto text = print_parameter_file(*space);
   if (!text) return Unexpected(placed(std::move(text.error())));
   if (auto again = parse_parameter_file({.parameters = {*text, "the converted file"}}); !again) {

@@ -10,13 +10,13 @@
 
 namespace swarmsmith::irace {
 
-/// The lines of a text without their ends; a byte order mark is dropped.
+/// The lines of a text without line ends; a byte order mark is dropped.
 std::vector<std::string_view> split_lines(std::string_view text);
 
 bool is_blank(char c);
 std::string_view trimmed(std::string_view text);
 
-/// One line of a file and how far it has been read.
+/// One line of a file, and the position up to which it has been read.
 class LineReader {
  public:
   /// `file` and `line` must outlive the reader.
@@ -27,17 +27,17 @@ class LineReader {
   bool at_end() const { return at_ == line_.size(); }
   void advance(std::size_t bytes) { at_ += bytes; }
   void skip_blanks();
-  /// Whether nothing but blanks and a comment is left.
+  /// Whether only blanks and a comment are left.
   bool at_comment_or_end();
-  /// Letters, digits, '_' and '.', from here on.
+  /// Takes letters, digits, '_' and '.' from the current position.
   std::string_view take_name();
-  /// Up to the next blank.
+  /// Takes the text up to the next blank.
   std::string_view take_word();
 
   r::Place place() const;
   std::string where() const { return where(place()); }
   std::string where(r::Place place) const { return *file_ + ":" + r::to_string(place); }
-  /// An error here: "expected <wanted>, found "<rest of the line>"".
+  /// An error at this position: "expected <wanted>, found "<rest of the line>"".
   Unexpected expected(const std::string& wanted) const;
 
  private:
@@ -47,7 +47,7 @@ class LineReader {
   std::size_t at_ = 0;
 };
 
-/// The error of a parser that knows line and column, with the file put before them.
+/// Puts the file name before the place of a parser's error.
 Error in_file(Error error, const std::string& file);
 
 }  // namespace swarmsmith::irace

@@ -32,8 +32,8 @@ Expected<void> read_type(LineReader& line, ParameterLine& parameter) {
   return {};
 }
 
-/// The domain goes up to the last ')' before the first '|' or comment, quoted values passed over.
-/// Nothing when there is no such ')'.
+/// The domain extends to the last ')' before the first '|' or comment; quoted values are skipped.
+/// Returns nothing if there is no such ')'.
 struct DomainEnd {
   std::size_t close = 0;  ///< of the ')'
   std::size_t stop = 0;   ///< of the '|' or '#', or the end

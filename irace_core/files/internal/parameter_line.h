@@ -8,31 +8,31 @@
 
 namespace swarmsmith::irace {
 
-/// A piece of a line that is read later, and where it begins.
+/// A part of a line that is parsed later, and the place where it begins.
 struct Piece {
   std::string text;
   r::Place place;
 };
 
-/// A line `name "switch" type (domain) | condition`, taken apart.
+/// The parts of a line `name "switch" type (domain) | condition`.
 struct ParameterLine {
   Piece name;
   std::string switch_text;
   char type = 'c';  ///< c, o, i, r
   bool log = false;
   Piece domain;     ///< between the outer parentheses
-  Piece condition;  ///< with a comment behind it; empty for none
+  Piece condition;  ///< including a comment after it; empty for none
 };
 
-/// `line` stands before the name.
+/// `line` must be positioned before the name.
 Expected<ParameterLine> read_parameter_line(LineReader& line);
 
-/// The values of a categorical or ordinal domain. Warnings have a place in `where`.
+/// The values of a categorical or ordinal domain. Warnings have their place in `where`.
 Expected<std::vector<std::string>> read_choices(const Piece& domain, const std::string& file,
                                                 std::vector<Error>& warnings);
 
-/// The length of the text in double quotes that `text` begins with, quotes included, when a comma
-/// or the end of a domain follows it; else 0, and the quote is an ordinary character.
+/// The length, including the quotes, of the quoted text at the start of `text`, if a comma or the
+/// end of a domain follows it; otherwise 0, and the quote is an ordinary character.
 std::size_t quoted_length(std::string_view text);
 
 }  // namespace swarmsmith::irace

@@ -7,12 +7,12 @@
 
 namespace swarmsmith::irace {
 
-/// Where a program lies: a name without a slash is looked for in the folders of `search_path`
-/// (separated by colons); what is not found there, or has a slash, is relative to `folder`.
+/// The path of a program: a name without a slash is searched for in the folders of `search_path`
+/// (separated by colons); if it is not found there, or has a slash, it is relative to `folder`.
 std::filesystem::path find_program(std::string_view name, const std::filesystem::path& folder,
                                    std::string_view search_path);
 
-/// What keeps a program from being run, with what to do; nothing when it can be.
+/// The reason why a program cannot be run, and what to do; nothing if it can be run.
 std::optional<std::string> complaint_about_program(const std::filesystem::path& program);
 
 }  // namespace swarmsmith::irace

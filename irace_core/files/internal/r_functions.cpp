@@ -13,13 +13,13 @@
 namespace swarmsmith::r {
 namespace {
 
-/// Beyond this a pattern could exhaust the stack.
+/// A pattern could exhaust the stack on longer text.
 constexpr std::size_t kLongestSearched = 2'000;
 
-/// The arguments of a call by their names.
+/// The arguments of a call, by name.
 class Arguments {
  public:
-  /// `names` in R's order: an argument without a name takes the first that is free.
+  /// `names` are in R's order: an argument without a name gets the first free one.
   static Expected<Arguments> match(const Node& node, const std::string& function,
                                    std::vector<Part> parts,
                                    const std::vector<std::string_view>& names) {
@@ -42,7 +42,7 @@ class Arguments {
   }
 
   bool has(const std::string& name) const { return values_.contains(name); }
-  /// All elements as texts; none where the argument is missing.
+  /// All elements as texts; none if the argument is missing.
   std::vector<std::string> texts(const std::string& name) const {
     const auto found = values_.find(name);
     return found == values_.end() ? std::vector<std::string>{} : to_texts(found->second);
@@ -71,7 +71,7 @@ Vector vector_of(std::vector<std::string> texts) {
   return vector;
 }
 
-/// As R has it: without slashes at the end; "." where there is no folder.
+/// The folder of a path, as in R: without slashes at the end; "." if there is no folder.
 std::string folder_of(std::string path) {
   while (path.size() > 1 && path.back() == '/')
     path.pop_back();
@@ -106,7 +106,7 @@ Expected<Vector> read_lines(const Node& node, const Arguments& given,
   return vector_of(std::move(lines));
 }
 
-/// R's \\1 as ECMAScript's $1.
+/// Converts R's \\1 to ECMAScript's $1.
 std::string replacement_of(const std::string& text) {
   std::string written;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -161,7 +161,7 @@ Expected<Vector> substitute(const Node& node, const Arguments& given, bool all) 
   return vector_of(std::move(texts));
 }
 
-/// One value, in the place of a part of a format as "%05.2f".
+/// Formats one value with one part of a format, such as "%05.2f".
 Expected<std::string> formatted(const Node& node, const std::string& part, const Scalar& value) {
   constexpr std::size_t kWidest = 1000;
   std::array<char, kWidest> buffer{};
@@ -241,7 +241,7 @@ Expected<Vector> sequence(const Node& node, const Arguments& given) {
   double from = given.number("from").value_or(1);
   std::optional<double> to = given.number("to");
   const std::optional<double> count = given.number("length.out");
-  // seq(5) is 1 to 5.
+  // seq(5) means 1 to 5.
   if (!to && !count && !given.has("by")) to = std::exchange(from, 1);
   double by = given.number("by").value_or(to && *to < from ? -1 : 1);
   if (count && to && *count > 1) by = (*to - from) / (*count - 1);

@@ -9,13 +9,13 @@
 
 namespace swarmsmith::r {
 
-/// Functions of R that scenarios use beside those of conditions, paste and Sys.getenv: getwd,
-/// normalizePath, dirname, basename, readLines, sprintf, sub, gsub, seq, seq_len. Nothing for any
-/// other name.
+/// Whether a name is one of these functions of R, which scenarios use in addition to the functions
+/// of conditions, paste and Sys.getenv: getwd, normalizePath, dirname, basename, readLines,
+/// sprintf, sub, gsub, seq, seq_len.
 bool is_scenario_function(std::string_view name);
 /// Their names, for a message.
 std::string_view scenario_function_names();
-/// Calls one of them.
+/// Calls one of these functions.
 Expected<Vector> call_scenario_function(const Node& node, const std::string& name,
                                         std::vector<Part> parts, const Environment& environment);
 

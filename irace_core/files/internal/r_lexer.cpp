@@ -130,7 +130,8 @@ Expected<Token> Lexer::operation() {
     }
     return take(TokenKind::Operator, end + 1);
   }
-  // Longest first. Some are there only so that messages name them whole.
+  // Longest first. Some are not supported, and are here only so that messages show the whole
+  // operator.
   constexpr std::array<std::string_view, 36> kOperators = {
       "<<-", "->>", ":::", "<-", "->", "<=", ">=", "==", "!=", "&&", "||", "|>",
       "::",  ":=",  "[[",  "+",  "-",  "*",  "/",  "^",  "<",  ">",  "!",  "&",

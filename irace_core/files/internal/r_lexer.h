@@ -20,7 +20,8 @@ enum class TokenKind {
 
 struct Token {
   TokenKind kind = TokenKind::End;
-  std::string text;  ///< of a Text its value, otherwise as written (names without backticks)
+  /// The value of a Text, otherwise the text as written (names without backticks).
+  std::string text;
   Number number;
   bool quoted = false;  ///< a name in backticks, which is never a reserved word
   Place place;
@@ -28,10 +29,10 @@ struct Token {
   bool is(std::string_view op) const { return kind == TokenKind::Operator && text == op; }
 };
 
-/// How a message names a token: `"x"`, `'+'`, `the end of the line`.
+/// The name of a token in messages: `"x"`, `'+'`, `the end of the line`.
 std::string describe(const Token& token);
 
-/// Cuts R into tokens, one at a time; comments and blanks are skipped.
+/// Splits R text into tokens, one at a time; comments and blanks are skipped.
 class Lexer {
  public:
   Lexer(std::string_view text, Place start) : rest_(text), place_(start) {}

@@ -23,7 +23,7 @@ char at(std::string_view text, std::size_t i) {
   return i < text.size() ? text[i] : '\0';
 }
 
-/// Digits from `i` on, a point among them at most once.
+/// Skips digits from `i` on, with at most one point among them.
 std::size_t skip_digits(std::string_view text, std::size_t i, bool hexadecimal) {
   bool point = false;
   for (; i < text.size(); ++i) {
@@ -34,7 +34,7 @@ std::size_t skip_digits(std::string_view text, std::size_t i, bool hexadecimal) 
   return i;
 }
 
-/// The end of an exponent that begins at `i` with `letter`; `i` when there is none.
+/// The end of an exponent that begins at `i` with `letter`; `i` if there is none.
 std::size_t skip_exponent(std::string_view text, std::size_t i, char letter) {
   if ((at(text, i) | 0x20) != letter) return i;
   std::size_t end = i + 1;
@@ -45,7 +45,7 @@ std::size_t skip_exponent(std::string_view text, std::size_t i, char letter) {
   return end;
 }
 
-/// What R makes of a number that no double holds: Inf, or 0 for one that is too small.
+/// R's value for a number outside the range of doubles: Inf, or 0 if it is too small.
 double out_of_range(std::string_view text, char exponent_letter) {
   const std::size_t first = text.find_first_not_of("0.");
   const std::size_t point = std::min(text.find('.'), text.size());
@@ -84,7 +84,7 @@ void append_utf8(std::string& text, std::uint32_t code) {
   byte(0x80U | (code & 0x3FU));
 }
 
-/// Reads up to `most` digits of `base` from `i` on, which moves behind them.
+/// Reads up to `most` digits of `base` from `i` on, and moves `i` past them.
 std::uint32_t read_code(std::string_view text, std::size_t& i, std::uint32_t base, int most) {
   std::uint32_t code = 0;
   for (int n = 0; n < most; ++n, ++i) {
@@ -95,7 +95,7 @@ std::uint32_t read_code(std::string_view text, std::size_t& i, std::uint32_t bas
   return code;
 }
 
-/// The escape at `i` (its backslash), appended to `value`; `i` moves behind it.
+/// Appends the escape at `i` (its backslash) to `value`, and moves `i` past it.
 Expected<void> read_escape(std::string_view text, std::size_t& i, std::string& value) {
   constexpr std::string_view kLetters = "abfnrtv0\\\"'` \n";
   constexpr std::string_view kMeanings = "\a\b\f\n\r\t\v";
@@ -146,7 +146,7 @@ NumberLiteral read_number(std::string_view text) {
   end = skip_exponent(text, end, hexadecimal ? 'p' : 'e');
   NumberLiteral literal{{to_double(text.substr(start, end - start), hexadecimal), false}, end};
   if (at(text, end) == 'L') {
-    constexpr double kLargest = 2147483647;  // R reads others as reals, with a warning
+    constexpr double kLargest = 2147483647;  // R reads larger ones as reals, with a warning
     const double value = literal.number.value;
     literal.number.is_integer = value == std::floor(value) && value <= kLargest;
     ++literal.bytes;

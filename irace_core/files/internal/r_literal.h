@@ -9,30 +9,30 @@
 
 namespace swarmsmith::r {
 
-/// The number that `text` begins with, as R writes numbers, and how many bytes it takes; none when
-/// it does not begin with one. `1e999` is Inf.
+/// The number at the start of `text`, in R's notation, and its length in bytes, which is 0 if there
+/// is no number. `1e999` is Inf.
 struct NumberLiteral {
   Number number;
   std::size_t bytes = 0;
 };
 NumberLiteral read_number(std::string_view text);
 
-/// The string that `text` begins with (a quote, either kind) and how many bytes it takes. Errors:
-/// `where` is the byte in `text`.
+/// The string at the start of `text` (in quotes of either kind) and its length in bytes. In errors,
+/// `where` is the position of a byte in `text`.
 struct TextLiteral {
   std::string value;
   std::size_t bytes = 0;
 };
 Expected<TextLiteral> read_text(std::string_view text);
 
-/// The raw string that `text` begins with, as r"(C:\temp)": nothing when it does not begin with
-/// one. Errors as those of read_text.
+/// The raw string at the start of `text`, such as r"(C:\temp)"; nothing if there is none. Errors as
+/// in read_text.
 std::optional<Expected<TextLiteral>> read_raw_text(std::string_view text);
 
-/// Blanks, dashes and quotes that word processors put in place of plain ones.
+/// Whether a character is a blank, dash or quote that word processors use instead of a plain one.
 bool is_typographic(std::string_view character);
 
-/// Length in bytes of the character of UTF-8 that `text` begins with; 1 when it is damaged.
+/// Length in bytes of the UTF-8 character at the start of `text`; 1 if it is invalid.
 std::size_t character_length(std::string_view text);
 
 }  // namespace swarmsmith::r

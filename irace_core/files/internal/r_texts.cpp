@@ -6,7 +6,7 @@
 namespace swarmsmith::r {
 namespace {
 
-/// The value of the named argument, taken out of the list.
+/// Removes the named argument from the list and returns its value.
 std::optional<Vector> take(std::vector<Part>& parts, std::string_view name) {
   const auto part = std::ranges::find(parts, name, &Part::name);
   if (part == parts.end()) return std::nullopt;
@@ -15,8 +15,8 @@ std::optional<Vector> take(std::vector<Part>& parts, std::string_view name) {
   return value;
 }
 
-/// The text that separates: `initial` when the argument is missing, or has no name because it
-/// cannot be given; nothing for NULL.
+/// The separator: `initial` if the argument is missing, or cannot be given because it has no name;
+/// nothing for NULL.
 Expected<std::optional<std::string>> take_separator(const Node& node, std::vector<Part>& parts,
                                                     std::string_view name,
                                                     std::optional<std::string> initial) {

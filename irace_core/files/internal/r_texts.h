@@ -9,9 +9,10 @@
 
 namespace swarmsmith::r {
 
-/// Limits of what a file's expressions may make, so that a few lines cannot fill the memory.
+/// Limits on the values that a file's expressions can make, so that a few lines cannot fill the
+/// memory.
 inline constexpr std::size_t kLongestVector = 100'000;
-inline constexpr std::size_t kLongestText = 1'000'000;  // of all elements together
+inline constexpr std::size_t kLongestText = 1'000'000;  // for all elements together
 
 /// An argument with its value.
 struct Part {
@@ -19,16 +20,16 @@ struct Part {
   Vector value;
 };
 
-/// An error at a node.
+/// An error at the place of a node.
 Unexpected wrong(const Node& node, std::string message);
 
-/// paste, paste0 and file.path: the parts' elements side by side, shorter parts repeated; empty
-/// ones count for nothing. The argument called `separator_name` (none, when that is empty) may
-/// replace the separator; `collapse` makes all elements one.
+/// paste, paste0 and file.path: joins the elements of the parts side by side; shorter parts are
+/// repeated, and empty ones are ignored. The argument `separator_name` (none, if that is empty) may
+/// replace the separator; `collapse` joins all elements into one.
 Expected<Vector> paste(const Node& node, std::vector<Part> parts, std::string_view separator_name,
                        std::optional<std::string> separator);
 
-/// Sys.getenv("NAME", unset = ""), one name.
+/// Sys.getenv("NAME", unset = ""), with one name.
 Expected<Vector> environment_variable(const Node& node, std::vector<Part> parts,
                                       const Environment& environment);
 

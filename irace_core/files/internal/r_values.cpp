@@ -22,7 +22,7 @@ Expression expression_of(const Vector& vector) {
   return Expression::call(Operation::Combine, std::move(elements));
 }
 
-/// Operators and functions that conditions have, too.
+/// Applies an operator or function that conditions also have.
 Expected<Vector> apply(const Node& node, const std::string& function, Operation operation,
                        const std::vector<Part>& parts) {
   const Arity wanted = arity(operation);
@@ -44,7 +44,7 @@ Expected<Vector> apply(const Node& node, const std::string& function, Operation 
   return result;
 }
 
-/// c and list: all elements; c gives them one type.
+/// c and list: all elements in one vector; c converts them to one type.
 Expected<Vector> combine(const Node& node, const std::vector<Part>& parts, bool one_type) {
   Vector all;
   std::size_t length = 0;
@@ -61,7 +61,7 @@ Expected<Vector> combine(const Node& node, const std::vector<Part>& parts, bool 
   return apply(node, "c", Operation::Combine, {Part{{}, std::move(all)}});
 }
 
-/// Nothing for what is neither an operator nor a function of conditions.
+/// The operation of an operator or function of conditions; nothing for any other name.
 std::optional<Operation> operation_of(const std::string& name, std::size_t operands) {
   if (name == "-" && operands == 1) return Operation::Negate;
   if (name == "!") return Operation::Not;
@@ -70,7 +70,7 @@ std::optional<Operation> operation_of(const std::string& name, std::size_t opera
   return std::nullopt;
 }
 
-/// Functions that conditions do not have.
+/// Functions that do not exist in conditions.
 constexpr std::array<std::string_view, 5> kOthers = {"paste", "paste0", "file.path", "list",
                                                      "Sys.getenv"};
 
@@ -111,7 +111,7 @@ class Evaluator {
   }
 
   Expected<Vector> call(const Node& node, const Call& call) const {
-    // Before the arguments: library(x) is not to be blamed for x.
+    // Checked before the arguments, so that in library(x) the error is about library, not x.
     const std::string& name = call.function;
     const auto operation = operation_of(name, call.arguments.size());
     const bool is_ours = is_scenario_function(name);

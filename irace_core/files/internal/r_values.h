@@ -13,25 +13,26 @@
 
 namespace swarmsmith::r {
 
-/// A value of R as scenario files use them: a vector, empty for NULL. A list may mix types.
+/// A value of R in scenario files: a vector, empty for NULL. A list may mix types.
 using Vector = std::vector<Scalar>;
 
-/// What an expression can see.
+/// The variables and surroundings that an expression can use.
 struct Environment {
-  std::map<std::string, Vector> variables;  ///< assigned before
-  /// An environment variable's value; nothing when it is not set.
+  std::map<std::string, Vector> variables;  ///< variables that were assigned before
+  /// Returns the value of an environment variable; nothing if it is not set.
   std::function<std::optional<std::string>(const std::string& name)> environment_variable;
   std::filesystem::path folder{};  ///< R's working directory
-  /// The text of a file, for readLines.
+  /// Returns the text of a file, for readLines.
   std::function<Expected<std::string>(const std::filesystem::path&)> read{};
 };
 
-/// The value of an expression with constants, variables, the operators and functions of conditions
-/// (irace facts, 8.2), paste, paste0, file.path, list and Sys.getenv (irace facts, 23.1), and those
-/// of r_functions.h. What else there is in R is an error, whose place is line:column.
+/// The value of an expression. It may use constants, variables, the operators and functions of
+/// conditions (irace facts, 8.2), paste, paste0, file.path, list and Sys.getenv (irace facts,
+/// 23.1), and the functions of r_functions.h. Everything else in R is an error, whose place is
+/// line:column.
 Expected<Vector> evaluate(const Node& node, const Environment& environment);
 
-/// Each element as R's as.character writes it.
+/// The elements as texts, in the form of R's as.character.
 std::vector<std::string> to_texts(const Vector& vector);
 
 }  // namespace swarmsmith::r

@@ -3,7 +3,7 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// `run` reads and may warn; what it says gets the file's name put before its place.
+/// Calls `run`, and puts the file's name before the places of its errors and warnings.
 template <class Run>
 Expected<Expression> with_file(const std::string& file, std::vector<Error>& warnings, Run run) {
   std::vector<Error> found;
@@ -14,14 +14,14 @@ Expected<Expression> with_file(const std::string& file, std::vector<Error>& warn
   return expression;
 }
 
-/// Whether an expression can be true or false: a comparison, or something made of such.
+/// Whether an expression can be true or false: a comparison, or a combination of comparisons.
 bool is_statement(const Expression& expression) {
   const Operation operation = expression.operation();
   return (operation >= Operation::Not && operation <= Operation::In) ||
          operation == Operation::IsMissing || operation == Operation::IfElse;
 }
 
-/// A constant at once, so that spaces that say the same compare equal.
+/// Evaluates a constant expression immediately, so that equivalent spaces compare equal.
 Bound to_bound(Expression expression) {
   if (expression.operation() == Operation::Constant) {
     if (const std::optional<double> value = expression.to_number({})) return *value;
@@ -53,7 +53,7 @@ Expected<Expression> read_forbidden_line(const Piece& piece, const std::string& 
 Expected<std::pair<Bound, Bound>> read_bounds(const Piece& domain, const std::string& file,
                                               std::span<const std::string> names,
                                               std::vector<Error>& warnings) {
-  constexpr std::size_t kAdded = 2;  // characters before the domain's first
+  constexpr std::size_t kAdded = 2;  // characters added before the domain's first one
   const r::Place start{domain.place.line, domain.place.column - kAdded};
   auto list = r::parse_expression("c(" + domain.text + ")", start);
   if (!list) return Unexpected(in_file(std::move(list.error()), file));

@@ -21,7 +21,7 @@ void check_programs(SetupWork& work) {
       work.complain("targetRunner", *complaint);
     }
   } else {
-    // The launcher is what is run.
+    // With a launcher, the launcher is the program that is run.
     if (!fs::exists(setup.target_runner, ignored)) {
       work.complain("targetRunner", "there is no such file: " + setup.target_runner.string());
     }
@@ -60,7 +60,7 @@ void check_folders(SetupWork& work) {
   if (!fs::is_directory(work.setup.exec_dir, ignored)) {
     work.complain("execDir",
                   "there is no such folder: " + work.setup.exec_dir.string() + "; make it first");
-    return;  // the log begins from it
+    return;  // the path of the log depends on it
   }
   if (work.setup.store.empty()) return;
   const fs::path folder = work.setup.store.parent_path();
@@ -94,7 +94,7 @@ void check_race(SetupWork& work) {
   }
 }
 
-/// Whether the budget is enough for what is tuned; asked when all else is right.
+/// Checks whether the budget is enough for the parameters; only if there are no other errors.
 void check_budget(SetupWork& work) {
   if (work.action == IraceAction::OnlyTest || !work.errors.empty()) return;
   const IraceSetup& setup = work.setup;
@@ -107,7 +107,7 @@ void check_budget(SetupWork& work) {
     return;
   }
   const auto race = IteratedRace::start(setup.space, setup.race, setup.initial);
-  // What else may be wrong with the first race is said when it is run, after repairs.
+  // Other errors of the first race are reported when it is run, after repairs.
   if (race || race.error().where != "max_experiments") return;
   work.complain("maxExperiments", race.error().message);
 }

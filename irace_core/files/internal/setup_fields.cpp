@@ -57,7 +57,7 @@ IraceValue to_value(const T& field) {
   }
 }
 
-/// What the value stands for; nothing when it is of another type.
+/// Converts the value to T; nothing if it is of another type.
 template <class T>
 std::optional<T> from_value(const IraceValue& value) {
   if constexpr (std::is_enum_v<T>) {
@@ -110,7 +110,7 @@ constexpr SetupField field(std::string_view name) {
           [](IraceSetup& setup, const IraceValue& value) { assign(part<Member>(setup), value); }};
 }
 
-/// Whole numbers in files, where the race has a real.
+/// A field whose value is a whole number in files and a real in the race.
 template <double Scenario::*Member>
 constexpr SetupField whole(std::string_view name) {
   return {name,

@@ -8,17 +8,17 @@
 
 namespace swarmsmith::irace {
 
-/// Where an option's value lies in a setup. Paths are texts here, as they are.
+/// Access to an option's value in a setup. Paths are unchanged texts here.
 struct SetupField {
-  std::string_view name;  ///< of the option in scenario files
+  std::string_view name;  ///< the option's name in scenario files
   IraceValue (*get)(const IraceSetup& setup);
-  /// The value must be of the option's kind; nothing sets what may be absent to nothing, and
-  /// leaves the rest as it is.
+  /// The value must be of the option's kind. Without a value, optional fields become empty and all
+  /// others stay unchanged.
   void (*set)(IraceSetup& setup, const IraceValue& value);
 };
 
-/// For every option that IraceSetup holds as a value: not for files and folders of instances, which
-/// are read, nor for what is refused or means nothing.
+/// The fields of all options that IraceSetup holds as values. Files and folders of instances are
+/// not among them, since they are read, nor are options that are refused or have no effect.
 std::span<const SetupField> setup_fields();
 
 }  // namespace swarmsmith::irace

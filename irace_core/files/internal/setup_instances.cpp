@@ -19,14 +19,14 @@ struct Names {
 constexpr Names kTraining = {"instances", "trainInstancesDir", "trainInstancesFile"};
 constexpr Names kTest = {"testInstances", "testInstancesDir", "testInstancesFile"};
 
-/// Empty for what is not set.
+/// The path that an option sets; empty if it is not set.
 fs::path path_of(const SetupWork& work, std::string_view option) {
   const IraceSetting* setting = work.settings.find(option);
   return setting == nullptr ? fs::path()
                             : absolute_path(std::get<std::string>(setting->value), setting->folder);
 }
 
-/// Nothing when no option says where they are, or after a complaint.
+/// The instances that the options give; empty if no option gives any, or after an error.
 std::vector<std::string> instances_of(SetupWork& work, const Names& names) {
   if (const IraceSetting* vector = work.settings.find(names.vector)) {
     return std::get<std::vector<std::string>>(vector->value);
@@ -41,7 +41,7 @@ std::vector<std::string> instances_of(SetupWork& work, const Names& names) {
   return {};
 }
 
-/// The folder that irace 3.5 takes when none is given; empty when it is not there.
+/// The folder that irace 3.5 uses if none is given; empty if it does not exist.
 fs::path old_folder(const SetupWork& work) {
   std::error_code ignored;
   for (const fs::path& begin : {work.around.folder, work.scenario_folder}) {
@@ -51,7 +51,7 @@ fs::path old_folder(const SetupWork& work) {
   return {};
 }
 
-/// A list without a folder, whose lines are files of irace 3.5's default folder.
+/// Warns about a list without a folder whose lines are files of irace 3.5's default folder.
 void warn_about_old_folder(SetupWork& work) {
   const fs::path folder = old_folder(work);
   if (folder.empty() || work.setup.training.empty()) return;

@@ -10,8 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of an option that is not set. irace looks for it in the current folder; where it is not there
-/// but beside the scenario, that is what people mean.
+/// The path for an option that is not set. irace looks for it in the current folder; if it exists
+/// only beside the scenario, that is the file that the user means.
 fs::path default_path(SetupWork& work, const IraceOption& option) {
   const fs::path here = absolute_path(option.initial, work.around.folder);
   if (option.kind == IraceKind::Folder || work.scenario_folder.empty()) return here;
@@ -37,7 +37,8 @@ fs::path program_path(SetupWork& work, const IraceSetting& setting, const std::s
 fs::path path_of(SetupWork& work, const IraceOption& option) {
   const IraceSetting* setting = work.settings.find(option.name);
   const auto* text = setting == nullptr ? nullptr : std::get_if<std::string>(&setting->value);
-  // An empty text unsets (irace facts, 22); but an empty logFile is "no log" (irace facts, 20).
+  // An empty text unsets an option (irace facts, 22); but an empty logFile means "no log" (irace
+  // facts, 20).
   if (text == nullptr || (text->empty() && option.name != "logFile")) {
     if (option.name == "logFile") return absolute_path(option.initial, work.setup.exec_dir);
     return option.initial.empty() ? fs::path() : default_path(work, option);
@@ -47,7 +48,8 @@ fs::path path_of(SetupWork& work, const IraceOption& option) {
   return absolute_path(*text, setting->folder);
 }
 
-/// irace 3.5 lets the launcher's arguments hold one word for all that irace 4 names one by one.
+/// In irace 3.5, the arguments of the launcher have one word for everything that irace 4 names
+/// separately.
 void read_launcher_arguments(SetupWork& work) {
   const auto arguments = work.settings.text("targetRunnerLauncherArgs");
   if (!arguments || arguments->empty()) return;
@@ -80,7 +82,7 @@ fs::path store_of(const SetupWork& work) {
 
 void apply_options(SetupWork& work) {
   IraceSetup& setup = work.setup;
-  // execDir is the first field: logFile begins from it.
+  // execDir is the first field, because the path of logFile depends on it.
   for (const SetupField& field : setup_fields()) {
     const IraceOption& option = *find_irace_option(field.name);
     const IraceSetting* setting = work.settings.find(field.name);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The text of the file that an option names; nothing after a complaint, too.
+/// The text of the file that an option names; nothing if there is no file, or after an error.
 std::optional<IraceText> text_of(SetupWork& work, std::string_view option, const fs::path& file) {
   if (file.empty()) return std::nullopt;
   auto text = read_whole_file(file);
@@ -21,7 +21,7 @@ std::optional<IraceText> text_of(SetupWork& work, std::string_view option, const
   return std::nullopt;
 }
 
-/// The same for an option that IraceSetup has no place for.
+/// The same for an option for which IraceSetup has no field.
 std::optional<IraceText> text_of(SetupWork& work, std::string_view option) {
   const IraceSetting* setting = work.settings.find(option);
   if (setting == nullptr) return std::nullopt;
@@ -29,7 +29,8 @@ std::optional<IraceText> text_of(SetupWork& work, std::string_view option) {
                  absolute_path(std::get<std::string>(setting->value), setting->folder));
 }
 
-/// The space of another tool, kept as irace's text, and its defaults as the first configuration.
+/// Reads the space of another tool; it is kept as irace's text, and its defaults become the first
+/// configuration.
 bool read_foreign_space(SetupWork& work, const IraceText& text, SpaceFormat format,
                         std::optional<int> digits) {
   const ForeignSpaceOptions options{work.settings.is_on("aclib"), digits};
@@ -47,7 +48,7 @@ bool read_foreign_space(SetupWork& work, const IraceText& text, SpaceFormat form
   return true;
 }
 
-/// False after a complaint.
+/// Returns false after an error.
 bool read_space(SetupWork& work) {
   const std::size_t complaints = work.errors.size();
   ParameterSources sources;
@@ -55,7 +56,7 @@ bool read_space(SetupWork& work) {
     if (*digits < 1 || *digits > 15) work.complain("digits", "must be 1 to 15");
     sources.digits = static_cast<int>(*digits);
   }
-  // As irace does, whatever digits says.
+  // irace does this too, for any value of digits.
   if (work.settings.is_on("aclib")) sources.digits = 15;
   sources.forbidden = text_of(work, "forbiddenFile");
   sources.dependency = text_of(work, "dependencyFile");
@@ -82,7 +83,7 @@ bool read_space(SetupWork& work) {
   work.setup.space = std::move(file->space);
   work.setup.parameter_text = std::move(sources.parameters.text);
   if (sources.digits || sources.forbidden || sources.dependency) {
-    // One text that says all, which later readers of a campaign understand.
+    // One text with everything, which later readers of a campaign understand.
     auto text = print_parameter_file(work.setup.space);
     if (!text) {
       work.errors.push_back(text.error());
@@ -93,7 +94,7 @@ bool read_space(SetupWork& work) {
   return true;
 }
 
-/// Puts the defaults before the configurations of a file, unless they are among them.
+/// Puts the default configuration before the configurations of a file, unless it is among them.
 void begin_with(SetupWork& work, const Configuration& defaults) {
   auto& initial = work.setup.initial;
   if (std::ranges::find(initial, defaults) != initial.end()) return;

@@ -13,16 +13,17 @@
 
 namespace swarmsmith::irace {
 
-/// A setup on its way from options to files that were read.
+/// A setup while it is made from options and files.
 struct SetupWork {
   IraceAction action = IraceAction::Run;
   SetupSurroundings around;
-  IraceSettings settings;                 ///< the command line's over the scenario file's
+  /// The settings of the scenario file, overridden by the settings of the command line.
+  IraceSettings settings;
   std::filesystem::path scenario_folder;  ///< empty without a scenario file
   IraceSetup setup;
   std::vector<Error> errors;
 
-  /// The place where the option was set, else its name.
+  /// The place where the option was set, otherwise its name.
   std::string where(std::string_view option) const {
     const IraceSetting* setting = settings.find(option);
     return setting == nullptr ? std::string(option) : setting->where;
@@ -30,13 +31,13 @@ struct SetupWork {
   void complain(std::string_view option, const std::string& message) {
     errors.push_back({ErrorKind::BadInput, named(option, message), where(option)});
   }
-  /// An error whose own place, if it has one, is in a file.
+  /// Adds an error at its own place, or, if it has none, at the place of the option.
   void complain(std::string_view option, const Error& error) {
     errors.push_back(error.where.empty()
                          ? Error{error.kind, named(option, error.message), where(option)}
                          : error);
   }
-  /// A place in a file does not say which option is meant.
+  /// Adds the option's name to a message if neither the message nor the place contains it.
   std::string named(std::string_view option, const std::string& message) const {
     const bool is_said =
         message.find(option) != std::string::npos || where(option).find(':') == std::string::npos;
@@ -48,14 +49,14 @@ struct SetupWork {
   void warn(std::string message) { setup.warnings.push_back(std::move(message)); }
 };
 
-/// Fills in all that an option says by itself, with paths made absolute (irace facts, 21).
+/// Sets the values that depend on a single option, with paths made absolute (irace facts, 21).
 void apply_options(SetupWork& work);
-/// Training and test instances (irace facts, 23.3).
+/// Reads training and test instances (irace facts, 23.3).
 void read_instances(SetupWork& work);
-/// Parameters with what older versions of irace kept in files of their own, and configurations to
-/// begin with.
+/// Reads parameters, with the parts that older versions of irace have in separate files, and
+/// initial configurations.
 void read_parameters(SetupWork& work);
-/// What irace facts, 22 asks of options together, of programs and of folders.
+/// Checks the rules of irace facts, 22 for combinations of options, for programs and for folders.
 void check_setup(SetupWork& work);
 
 }  // namespace swarmsmith::irace

@@ -9,7 +9,7 @@ bool is_quote(char c) {
   return c == '"' || c == '\'';
 }
 
-/// `line` stands before the opening quote and moves behind the closing one.
+/// `line` must be positioned before the opening quote, and is moved past the closing one.
 Expected<std::string> read_quoted(LineReader& line) {
   const std::string_view rest = line.rest();
   const char quote = rest[0];
@@ -49,7 +49,7 @@ Expected<std::vector<Cell>> read_row(LineReader line) {
   return cells;
 }
 
-/// Whether `text` between two of these quotes reads back as it is.
+/// Whether `text` between two of these quotes is read back unchanged.
 bool fits(const std::string& text, char quote) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool before_quote = i + 1 == text.size() || text[i + 1] == quote;

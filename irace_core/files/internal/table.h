@@ -9,22 +9,22 @@
 
 namespace swarmsmith::irace {
 
-/// A field of a table, and where it begins.
+/// A field of a table, and the place where it begins.
 struct Cell {
   std::string text;
   bool quoted = false;
   r::Place place;
 
-  /// An empty text is missing, too, as R reads it.
+  /// As in R, an empty text also counts as missing.
   bool is_missing() const { return text.empty() || text == "NA" || text == "<NA>"; }
 };
 
-/// The non-empty rows of a table with blanks between its fields, as R's read.table reads them:
-/// quotes of both kinds where a field begins, a backslash before such a quote within, '#' begins a
-/// comment. Errors: `where` is file:line:column.
+/// The non-empty rows of a table whose fields are separated by blanks, as R's read.table reads
+/// them: quotes of both kinds at the start of a field, a backslash before such a quote inside it,
+/// '#' begins a comment. `where` of an error is file:line:column.
 Expected<std::vector<std::vector<Cell>>> read_table(const IraceText& source);
 
-/// A field that reads back as `text`; an error when there is none.
+/// A field from which `text` is read back; an error if this is not possible.
 Expected<std::string> print_field(const std::string& text);
 
 }  // namespace swarmsmith::irace
