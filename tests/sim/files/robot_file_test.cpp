@@ -84,6 +84,49 @@ TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
               ElementsAre(HasSubstr("there is no robot `epuk` (did you mean \"epuck\"?)")));
 }
 
+TEST(RobotFile, KeysOfTheOutlineChangeTheBasesWithoutAShape) {
+  const auto outline_of = [](const std::string& text) {
+    const auto robot = parse_robot("format = 1\n" + text, "mine.toml");
+    EXPECT_TRUE(robot) << text << to_string(robot ? Error{} : robot.error().front());
+    return robot ? robot->body.outline : Outline();
+  };
+  const std::string rays = "[proximity]\nstart = 0\n";
+  EXPECT_EQ(outline_of("base = \"epuck\"\n[body]\ndiameter = 0.08\n" + rays),
+            Outline(CircleOutline{0.04}));
+  EXPECT_EQ(outline_of("[body]\nside = 0.2\n"), Outline(BoxOutline{0.2, 0.2}));
+  EXPECT_EQ(outline_of("[body]\nlength = 0.3\n"), Outline(BoxOutline{0.3, 0.286}));
+  const TemporaryFolder folder;
+  const auto outline_over = [&](const std::string& body, const std::string& more) {
+    std::ofstream(folder / "base.toml") << "format = 1\n[body]\n" << body;
+    std::ofstream(folder / "mine.toml") << "format = 1\nbase = \"base.toml\"\n[body]\n" << more;
+    const auto robot = find_robot("mine.toml", folder / "");
+    return robot ? robot->body.outline : Outline();
+  };
+  EXPECT_EQ(outline_over("shape = \"box\"\nlength = 0.3\nwidth = 0.2\n", "width = 0.25\n"),
+            Outline(BoxOutline{0.3, 0.25}));
+  EXPECT_EQ(outline_over("shape = \"polygon\"\ncorners = [[0.2, 0], [-0.1, 0.1], [-0.1, -0.1]]\n",
+                         "corners = [[0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1], [0.1, -0.1]]\n"),
+            Outline(PolygonOutline{{{0.1, 0.1}, {-0.1, 0.1}, {-0.1, -0.1}, {0.1, -0.1}}}));
+}
+
+TEST(RobotFile, KeysOfAnotherShapeNeedTheShape) {
+  EXPECT_THAT(complaints("base = \"epuck\"\n[body]\nside = 0.08\n"),
+              ElementsAre("mine.toml:4:8: the base's shape is a circle, which has no `side`; give "
+                          "the `shape`, too"));
+  EXPECT_THAT(complaints("[body]\ndiameter = 0.3\nside = 0.2\n"),
+              ElementsAre(HasSubstr("the base's shape is a square, which has no `diameter`")));
+  EXPECT_THAT(complaints("[body]\nside = 0.3\nwidth = 0.2\n"),
+              ElementsAre(HasSubstr("leave out `side`, or the others")));
+  EXPECT_THAT(complaints("[body]\nside = 6\n"), ElementsAre(HasSubstr("`side` must be from")));
+  EXPECT_THAT(complaints("[body]\ncornrs = 6\n"), ElementsAre(HasSubstr("corners")));
+  const auto mission = parse_mission(
+      "format = 1\nname = \"x\"\nrobots = 2\n[robot]\nbase = \"epuck\"\n[robot.body]\n"
+      "diameter = 0.06\n[score]\nkind = \"coverage\"\n",
+      "x.toml");
+  ASSERT_TRUE(mission) << to_string(mission.error().front());
+  EXPECT_EQ(mission->mission.robot.body.outline, Outline(CircleOutline{0.03}));
+}
+
 TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
   const std::string body = "[body]\nshape = \"polygon\"\ncorners = ";
   EXPECT_THAT(
