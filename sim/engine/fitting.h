@@ -24,6 +24,13 @@ std::optional<std::string> misfit(const Profile& profile, const Robot& robot);
 /// its rings have the single sensors that are read.
 std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot);
 
+/// What follows from a body's outline.
+struct BodyMeasures {
+  double radius_m = 0;             ///< from the centre to the farthest point
+  double plate_inertia_kg_m2 = 0;  ///< of a plate with its outline and mass
+};
+BodyMeasures measures_of(const RobotBody& body);
+
 /// The points of its ground sensor that are outside of the robot's body.
 std::vector<Point> ground_points_outside(const Robot& robot);
 

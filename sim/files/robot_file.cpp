@@ -14,6 +14,7 @@
 #include "base/text/whole_file.h"
 #include "embedded/kEpuckRobot.h"
 #include "embedded/kRvrRobot.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/internal/field_reader.h"
 #include "sim/files/internal/field_writer.h"
 #include "sim/files/mission_file.h"
@@ -49,6 +50,48 @@ double inradius_of(const Outline& outline) {
                  [](const BoxOutline& box) { return std::min(box.length_m, box.width_m) / 2; },
                  [](const PolygonOutline& polygon) { return inradius_of(polygon.corners); }},
       outline);
+}
+
+/// Complains of a device's key, or of the device where the base has said the key.
+void complain_of_key(TableReader& table, std::string_view device, std::string_view key,
+                     const std::string& message) {
+  if (auto inner = table.table(device)) {
+    inner->complain(key, message);
+  } else {
+    table.complain(device, message);
+  }
+}
+
+/// Numbers that are each within their limits, and far from all that such a body can have.
+void check_measures(TableReader& table, const Robot& robot) {
+  constexpr double kMostTimes = 1000;  ///< between the inertia of a plate and the robot's
+  constexpr double kMostRadii = 3;
+  const BodyMeasures measures = measures_of(robot.body);
+  const double inertia = robot.body.inertia_kg_m2;
+  const double plate = measures.plate_inertia_kg_m2;
+  if (inertia != 0 && (inertia < plate / kMostTimes || inertia > plate * kMostTimes)) {
+    complain_of_key(table, "body", "inertia",
+                    "`inertia` is " + number_text(inertia) +
+                        " kg m2, and a plate of this outline and mass has " + number_text(plate) +
+                        "; give one from a thousandth of that to a thousand times that, or 0 for "
+                        "the plate's");
+  }
+  const auto check_place = [&](std::string_view device, std::string_view key, double out_m) {
+    if (out_m <= kMostRadii * measures.radius_m) return;
+    complain_of_key(table, device, key,
+                    "`" + std::string(key) + "` is " + number_text(out_m) +
+                        " m from the centre, and the body ends " + number_text(measures.radius_m) +
+                        " m from it; at most three times as far is taken");
+  };
+  check_place("proximity", "start", robot.proximity.start_m);
+  check_place("light", "out", robot.light.out_m);
+  const NeighbourSensor& sensor = robot.neighbours;
+  if (sensor.range_m > 0 && sensor.less_m > 0 && sensor.less_m >= sensor.range_m) {
+    complain_of_key(table, "neighbours", "less",
+                    "no distance would be above 0: `less` is " + number_text(sensor.less_m) +
+                        " m, and `range` " + number_text(sensor.range_m) +
+                        " m; give a smaller `less`");
+  }
 }
 
 /// What no single field shows to be wrong.
@@ -149,6 +192,7 @@ void read_devices(TableReader& table, Robot& robot) {
   reader.finish();
   if (table.complaints() > before) return;
   check_robot(table, robot);
+  check_measures(table, robot);
   settle_idle_fields(table, base, robot);
 }
 

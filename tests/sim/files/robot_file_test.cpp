@@ -127,6 +127,31 @@ TEST(RobotFile, KeysOfAnotherShapeNeedTheShape) {
   EXPECT_EQ(mission->mission.robot.body.outline, Outline(CircleOutline{0.03}));
 }
 
+TEST(RobotFile, NumbersFarFromWhatTheBodyCanHaveAreRefused) {
+  EXPECT_THAT(complaints("base = \"epuck\"\n[body]\ninertia = 1e-30\n"),
+              ElementsAre(HasSubstr("mine.toml:4:11: `inertia` is 1e-30 kg m2, and a plate of this "
+                                    "outline and mass has ")));
+  EXPECT_THAT(complaints("[body]\ninertia = 30\n"), ElementsAre(HasSubstr("`inertia` is 30 kg")));
+  EXPECT_THAT(complaints("[body]\ninertia = 20\n"), IsEmpty());
+  EXPECT_THAT(complaints("[body]\ninertia = 0.0001\n"), IsEmpty());
+  EXPECT_THAT(
+      complaints("[neighbours]\nless = 0.8\n"),
+      ElementsAre("mine.toml:3:8: no distance would be above 0: `less` is 0.8 m, and `range` "
+                  "0.75 m; give a smaller `less`"));
+  EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0.07\n"),
+              ElementsAre(HasSubstr("`less` is 0.07 m, and `range` 0.07 m")));
+  EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0\n"), IsEmpty())
+      << "a robot that hears no other one";
+  EXPECT_THAT(complaints("base = \"epuck\"\n[proximity]\nstart = 0.2\n"),
+              ElementsAre(HasSubstr("mine.toml:4:9: `start` is 0.2 m from the centre, and the body "
+                                    "ends 0.035 m from it; at most three times as far is taken")));
+  EXPECT_THAT(complaints("base = \"epuck\"\n[light]\nout = 0.2\n"),
+              ElementsAre(HasSubstr("mine.toml:4:7: `out` is 0.2 m from the centre")));
+  EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.05\n"),
+              ElementsAre(HasSubstr("`out` is 0.143 m from the centre, and the body ends 0.025 m")))
+      << "the base's, which does not fit";
+}
+
 TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
   const std::string body = "[body]\nshape = \"polygon\"\ncorners = ";
   EXPECT_THAT(
