@@ -474,3 +474,8 @@ TEST(Seeds, AreRangesAndLists) {
 
 }  // namespace
 }  // namespace swarmsmith::cli
+  for (const char* twice : {"3,3,3", "1-4,3", "3,1-4"}) {
+    const auto seeds = parse_seeds(twice);
+    ASSERT_FALSE(seeds) << twice;
+    EXPECT_EQ(to_string(seeds.error()), "--seeds: seed 3 is there twice");
+  }

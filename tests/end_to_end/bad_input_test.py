@@ -575,6 +575,7 @@ class Evaluate(BadInput):
         self.refused("--profile", *EXPLORE, *on, "--profile", "f")
         for seeds in ("5-1", "0", "1-", "a", "1,,2", "2147483648"):
             self.refused("--seeds: seeds are written like", *EXPLORE, *on, "--seeds", seeds)
+        self.refused("--seeds: seed 3 is there twice", *EXPLORE, *on, "--seeds", "3,3,3")
 
     def test_tables_that_are_wrong(self):
         good = ["1,0,0,0,0", "1,1,0.5,0,0", "1,2,0,0.5,0"]
