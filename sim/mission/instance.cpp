@@ -69,12 +69,18 @@ Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) 
   return poses;
 }
 
-Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
-  Ground ground(mission.arena);
-  for (std::size_t i = 0; i < mission.arena.objects.size(); ++i) {
-    const MovableObject& object = mission.arena.objects[i];
+/// The arena with all that stands in it before the robots.
+Ground ground_of(const Arena& arena) {
+  Ground ground(arena);
+  for (std::size_t i = 0; i < arena.objects.size(); ++i) {
+    const MovableObject& object = arena.objects[i];
     ground.add({object.outline, object.start}, "object " + std::to_string(i + 1));
   }
+  return ground;
+}
+
+Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
+  Ground ground = ground_of(mission.arena);
   if (std::holds_alternative<PlaceAt>(mission.placement)) {
     return given_starts(mission, std::move(ground));
   }
@@ -133,6 +139,16 @@ Expected<Instance> instance_of(const Mission& mission, std::int64_t seed) {
   Expected<std::vector<Patch>> patches = draw_patches(mission.shuffled, rng.split("patches"));
   if (!patches) return Unexpected(std::move(patches.error()));
   return Instance{.starts = std::move(*starts), .patches = std::move(*patches)};
+}
+
+bool has_overlaps(const Mission& mission, const Instance& instance) {
+  Ground ground = ground_of(mission.arena);
+  for (const Pose& start : instance.starts) {
+    const Footprint body(mission.robot.body.outline, start);
+    if (!ground.blocked_by(body).empty()) return true;
+    ground.add(body, "robot");
+  }
+  return false;
 }
 
 Arena arena_of(const Mission& mission, const Instance& instance) {

@@ -45,7 +45,8 @@ struct ExplicitInstances {
 
 /// Like `instance_of(mission, seed)`, with explicit starts and patches where given. A seed without
 /// a row, another number of robots, a start outside of the walls, and a patch where the mission has
-/// no place for one (to the millimetre), or a second one, are errors.
+/// no place for one (to the millimetre), or a second one, and other numbers of colours than the
+/// mission's are errors.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
                                const ExplicitInstances& given);
 
