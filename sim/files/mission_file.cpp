@@ -172,12 +172,21 @@ std::string default_name(TableReader& table) {
   return std::filesystem::path(*text).stem().string();
 }
 
+/// Whether the name of a file, which a mission without a name takes, is a name. Complains if not.
+bool check_file_name(TableReader& table, const std::string& name) {
+  if (table.has("name") || name.empty() || is_name(name)) return true;
+  table.complain("name", "the mission takes its file's name, and \"" + name +
+                             "\" cannot be one: a name consists of letters, digits, `_`, `-` and "
+                             "`.`; give it a `name`");
+  return false;
+}
+
 /// One [[mission]]; `taken` are the names of those before it.
 MissionEntry read_mission(TableReader& table, const std::vector<std::string>& taken,
                           const ReadingPlace& place) {
   const std::string name =
       table.has("name") ? table.text("name").value_or("") : default_name(table);
-  if (!check_name(table, name, taken)) return {};
+  if (!check_file_name(table, name) || !check_name(table, name, taken)) return {};
   auto entry = read_base(table, name, place);
   if (!entry) return {};
   entry->mission.name = name;
@@ -227,7 +236,7 @@ MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path
   const std::string name = root.text("name").value_or(file.stem().string());
   MissionEntry entry;
   const ReadingPlace place{{file.parent_path()}, false};
-  if (check_name(root, name, {})) {
+  if (check_file_name(root, name) && check_name(root, name, {})) {
     if (auto base = read_base(root, name, place)) {
       entry = std::move(*base);
       entry.mission.name = name;

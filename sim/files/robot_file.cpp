@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/document.h"
 #include "base/text/whole_file.h"
@@ -100,9 +101,9 @@ void check_robot(TableReader& table, const Robot& robot) {
   const auto number = [](double value) { return number_text(value); };
   if (ring.rays_deg.empty()) table.complain("proximity", "a robot needs at least one ray");
   if (!ring.labels_deg.empty() && ring.labels_deg.size() != ring.rays_deg.size()) {
-    table.complain("proximity", "there are " + std::to_string(ring.rays_deg.size()) + " rays and " +
-                                    std::to_string(ring.labels_deg.size()) +
-                                    " labels; give a label to each ray, or none");
+    table.complain("proximity", "the ring has " + counted(ring.rays_deg.size(), "ray") + " and " +
+                                    counted(ring.labels_deg.size(), "label") +
+                                    "; give a label to each ray, or none");
   }
   const double inradius_m = inradius_of(robot.body.outline);
   if (ring.start_m > 0 && ring.start_m < inradius_m) {

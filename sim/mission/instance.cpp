@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "base/rng.h"
 #include "sim/mission/internal/ground.h"
 #include "sim/mission/mission.h"
@@ -56,8 +57,8 @@ Unexpected misplaced(const Mission& mission, std::size_t robot, const std::strin
 Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) {
   const std::vector<Pose>& poses = std::get<PlaceAt>(mission.placement).poses;
   if (poses.size() != static_cast<std::size_t>(mission.robots)) {
-    return bad_input("there are poses for " + std::to_string(poses.size()) +
-                         " robots, and the mission has " + std::to_string(mission.robots),
+    return bad_input("there are poses for " + counted(poses.size(), "robot") +
+                         ", and the mission has " + std::to_string(mission.robots),
                      mission.name);
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -94,9 +95,9 @@ Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
   for (int robot = 1; robot <= mission.robots; ++robot) {
     for (int tries = 0;; ++tries) {
       if (tries == kTriesPerRobot) {
-        return bad_input("arena too small for " + std::to_string(mission.robots) +
-                             " robots: none of " + std::to_string(kTriesPerRobot) +
-                             " places for robot " + std::to_string(robot) +
+        return bad_input("arena too small for " + counted(mission.robots, "robot") + ": none of " +
+                             std::to_string(kTriesPerRobot) + " places for robot " +
+                             std::to_string(robot) +
                              " was free; take fewer robots, or place them over a larger part of "
                              "the arena (training.placement)",
                          mission.name);

@@ -99,8 +99,8 @@ Expected<std::vector<Row>> rows_of(std::string_view text,
     std::vector<std::string> cells = reader.next().value_or(std::vector<std::string>());
     if (cells == std::vector<std::string>{""}) continue;
     if (cells.size() != header.size()) {
-      return bad_input("expected " + std::to_string(header.size()) +
-                           " cells as in the header, found " + std::to_string(cells.size()),
+      return bad_input("expected " + counted(header.size(), "cell") + " as in the header, found " +
+                           std::to_string(cells.size()),
                        std::to_string(line));
     }
     rows.push_back({columns, {}, line});
@@ -122,7 +122,7 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
   const std::vector<Pose>& starts = found->second;
   const std::string where = "starts, seed " + std::to_string(seed);
   if (starts.size() != static_cast<std::size_t>(mission.robots)) {
-    return bad_input("the mission has " + std::to_string(mission.robots) + " robots, the file " +
+    return bad_input("the mission has " + counted(mission.robots, "robot") + ", the file " +
                          std::to_string(starts.size()),
                      where);
   }

@@ -75,7 +75,9 @@ TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
   EXPECT_THAT(complaints("[proximity]\nrays = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"),
               ElementsAre("mine.toml:3:8: `rays` has 9 sensors; at most 8 are taken"));
   EXPECT_THAT(complaints("[proximity]\nlabels = [1, 2]\n"),
-              ElementsAre(HasSubstr("there are 8 rays and 2 labels")));
+              ElementsAre(HasSubstr("the ring has 8 rays and 2 labels")));
+  EXPECT_THAT(complaints("[proximity]\nrays = [0]\nlabels = [1, 2]\n"),
+              ElementsAre(HasSubstr("the ring has 1 ray and 2 labels; give a label to each ray")));
   EXPECT_THAT(complaints("[proximity]\nreading = \"strength\"\n"),
               ElementsAre(HasSubstr("needs a `reach` and a `law`")));
   EXPECT_THAT(complaints("[drive]\ntrack = 0\n"), ElementsAre(HasSubstr("`track` must be from")));
