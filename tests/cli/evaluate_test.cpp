@@ -134,6 +134,13 @@ TEST(Evaluate, TakesStartsFromATable) {
   EXPECT_THAT(missing.err, HasSubstr("the starts have no row for seed 6"));
   seeds.back() = "5";
   EXPECT_THAT(run(seeds).err, Not(HasSubstr("overlap")));
+  for (const char* option : {"--csv", "--objects-csv", "--svg"}) {
+    auto onto_input = seeds;
+    onto_input.insert(onto_input.end(), {option, (folder / "starts.csv").string()});
+    const Ran ran = run(onto_input);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("starts.csv: is what this command reads")) << option;
+  }
   write_file(folder / "starts.csv",
              "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,0.1,0.3,1\n5,2,0.6,0.6,7\n"
              "6,0,0.1,0.2,0\n6,1,-0.6,0,1\n6,2,0.6,0.6,7\n");
