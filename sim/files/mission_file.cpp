@@ -120,6 +120,7 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
   }
   if (auto outline = read_outline(*robot, {0.02, 5}, nullptr)) {
     mission.robot.body.outline = std::move(*outline);
+    check_with_outline(*robot, mission.robot);
   }
   robot->finish();
 }

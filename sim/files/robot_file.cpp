@@ -277,6 +277,12 @@ Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, 
   return robot;
 }
 
+void check_with_outline(TableReader& table, const Robot& robot) {
+  if (robot == rvr_with(robot.body.outline)) return;
+  check_robot(table, robot);
+  check_measures(table, robot);
+}
+
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header) {
   std::vector<Section> sections;
   FieldWriter writer(sections, header);

@@ -35,6 +35,10 @@ RobotOrErrors parse_robot(std::string_view text, const std::filesystem::path& fi
 /// the table's complaints.
 Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot);
 
+/// Complains of what does not go together in a robot whose outline a mission has changed; an RVR
+/// keeps its devices with any outline.
+void check_with_outline(TableReader& table, const Robot& robot);
+
 /// All fields as lines; `header` is the name of the table they are in, "mission.robot".
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header);
 
