@@ -116,8 +116,13 @@ bool is_one_file(const fs::path& one, const fs::path& other) {
   if (identity) return identity == identity_of(second);
   std::error_code failed;
   if (fs::exists(first, failed)) return false;  // a device or a pipe
-  const fs::path place = fs::weakly_canonical(first, failed);
-  return !failed && place == fs::weakly_canonical(second, failed) && !failed;
+  // Of a relative path that is not there yet, weakly_canonical may leave a relative one.
+  const auto place_of = [](const fs::path& file) {
+    std::error_code none;
+    return fs::weakly_canonical(fs::absolute(file, none), none).lexically_normal();
+  };
+  const fs::path place = place_of(first);
+  return !place.empty() && place == place_of(second);
 }
 
 }  // namespace
