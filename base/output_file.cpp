@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace swarmsmith {
 namespace {
@@ -106,6 +108,23 @@ fs::path followed(fs::path file) {
   return file;
 }
 
+/// Whether both names are one file, which need not exist yet.
+bool is_one_file(const fs::path& one, const fs::path& other) {
+  const fs::path first = followed(one);
+  const fs::path second = followed(other);
+  const std::optional<Identity> identity = identity_of(first);
+  if (identity) return identity == identity_of(second);
+  std::error_code failed;
+  if (fs::exists(first, failed)) return false;  // a device or a pipe
+  // Of a relative path that is not there yet, weakly_canonical may leave a relative one.
+  const auto place_of = [](const fs::path& file) {
+    std::error_code none;
+    return fs::weakly_canonical(fs::absolute(file, none), none).lexically_normal();
+  };
+  const fs::path place = place_of(first);
+  return !place.empty() && place == place_of(second);
+}
+
 }  // namespace
 
 void note_input(const fs::path& file) {
@@ -177,6 +196,21 @@ Expected<fs::path> output_place(const fs::path& file, FileKind kind) {
                      file.string());
   }
   return place;
+}
+
+Expected<void> each_its_own_file(const std::vector<NamedOutput>& outputs) {
+  for (std::size_t later = 1; later < outputs.size(); ++later) {
+    const NamedOutput& output = outputs[later];
+    if (output.file.empty() || output.file == "-") continue;
+    for (std::size_t i = 0; i < later; ++i) {
+      const std::string& other = outputs[i].file;
+      if (other.empty() || other == "-" || !is_one_file(other, output.file)) continue;
+      return bad_input("names the same file as " + std::string(outputs[i].option) + ": " +
+                           output.file + "; give each its own file",
+                       std::string(output.option));
+    }
+  }
+  return {};
 }
 
 Error cannot_write(const std::string& file, int reason) {

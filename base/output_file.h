@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/expected.h"
 
@@ -26,6 +27,17 @@ std::string_view name_of(FileKind kind);  ///< "a store", "a table (CSV)"
 /// links, which need not exist yet. BadInput: a file that this process has read, or an existing one
 /// of another kind. Empty files, pipes and devices count as any kind.
 Expected<std::filesystem::path> output_place(const std::filesystem::path& file, FileKind kind);
+
+/// One of several outputs of a command.
+struct NamedOutput {
+  std::string_view option;  ///< "--csv"
+  std::string file;         ///< empty: not wanted; "-": standard output
+};
+
+/// BadInput, with the later option as place, if two of the outputs are one file: the second one
+/// would destroy the first. Paths are compared after links and `..`; a device such as /dev/null
+/// takes any number of outputs.
+Expected<void> each_its_own_file(const std::vector<NamedOutput>& outputs);
 
 /// The Unavailable error for a file that cannot be written, with a visible cause if there is one,
 /// else the system's `reason`.

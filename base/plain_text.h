@@ -27,9 +27,12 @@ inline std::vector<std::string_view> split_lines(std::string_view text) {
   return lines;
 }
 
-/// "1 worker", "2 workers".
-std::string counted(std::integral auto count, std::string_view what) {
-  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+/// "1 worker", "2 workers"; `several` is a plural without -s: "2 patches".
+std::string counted(std::integral auto count, std::string_view what,
+                    std::string_view several = {}) {
+  std::string text = std::to_string(count) + " ";
+  if (count == 1) return text.append(what);
+  return several.empty() ? text.append(what) + "s" : text.append(several);
 }
 
 }  // namespace swarmsmith

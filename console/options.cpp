@@ -58,8 +58,10 @@ void Options::describe(CLI::Option* option, const std::string& value) {
   }
   const std::string& kind = kinds_[name] = value.empty() ? name : value;
   if (!is_path(kind)) return;
-  const auto check = [](const std::string& given) -> std::string {
-    return given.empty() ? "the path is empty; name a file, or leave it out" : "";
+  const auto check = [option](const std::string& given) -> std::string {
+    if (!given.empty()) return "";
+    return option->get_required() ? "the path is empty; name a file"
+                                  : "the path is empty; name a file, or leave it out";
   };
   option->check(check, "", "path");
 }

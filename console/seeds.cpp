@@ -1,5 +1,6 @@
 #include "console/seeds.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -42,6 +43,11 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
     for (std::int64_t seed = *first; seed <= *last; ++seed)
       seeds.push_back(seed);
   }
+  // One run would count more than once in means and intervals.
+  std::vector<std::int64_t> sorted = seeds;
+  std::ranges::sort(sorted);
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+    return bad_input("seed " + std::to_string(*twice) + " is there twice", "--seeds");
   return seeds;
 }
 

@@ -1,7 +1,9 @@
 #include "analysis/arena/reading_columns.h"
 
 #include <array>
+#include <span>
 
+#include "base/assert.h"
 #include "base/math.h"
 #include "base/suggestion.h"
 #include "sim/mission/trajectory_csv.h"
@@ -41,9 +43,12 @@ Names neighbour_columns(int robots, const Robot&) {
   return names;
 }
 
+/// Those of this very cycle, which come last: a radio's list begins with packets that it remembers.
 void neighbour_values(const Readings& readings, Values& values) {
-  values.push_back(static_cast<double>(readings.neighbours.size()));
-  for (const Neighbour& neighbour : readings.neighbours) {
+  const auto count = static_cast<std::size_t>(readings.neighbour_count);
+  SWARMSMITH_ASSERT(count <= readings.neighbours.size(), "the list has all that were counted");
+  values.push_back(readings.neighbour_count);
+  for (const Neighbour& neighbour : std::span(readings.neighbours).last(count)) {
     values.push_back(neighbour.distance_m);
     values.push_back(atan2(neighbour.direction_y, neighbour.direction_x));
   }

@@ -1,4 +1,5 @@
 #include "base/text/csv.h"
+#include "base/plain_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -155,8 +156,8 @@ OrErrors<CsvTable> parse_csv(std::string_view text, const std::string& file) {
       }
     } else if (fields->size() != table.columns.size()) {
       errors.push_back(at(file, line,
-                          "the row has " + std::to_string(fields->size()) +
-                              " fields, the headline " + std::to_string(table.columns.size())));
+                          "the row has " + counted(fields->size(), "field") + ", the headline " +
+                              std::to_string(table.columns.size())));
     } else {
       table.rows.push_back({std::move(*fields), line});
     }

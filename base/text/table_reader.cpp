@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <system_error>
 #include <tuple>
 
+#include "base/plain_text.h"
 #include "base/shown_text.h"
 #include "base/suggestion.h"
 #include "base/text/toml_text.h"
@@ -298,8 +300,8 @@ std::optional<std::vector<std::vector<double>>> TableReader::number_rows(std::st
   const Node* node = take(key);
   if (node == nullptr) return std::nullopt;
   const auto wrong = [&](const Node& where, const std::string& what) {
-    complaints_->add(where.place, "`" + std::string(key) + "` must be a list of " +
-                                      std::to_string(width) + " numbers each, such as " +
+    complaints_->add(where.place, "`" + std::string(key) + "` must be a list of lists of " +
+                                      counted(width, "number") + ", such as " +
                                       std::string(example) + what);
     return std::nullopt;
   };
@@ -371,9 +373,13 @@ void read_format(TableReader& root) {
   // The format of the files that this program reads; it increases when the meaning of old files
   // changes.
   constexpr std::int64_t kFormat = 1;
-  const auto format = root.integer("format", {1, 1'000'000});
+  constexpr auto kAny = std::numeric_limits<std::int64_t>::max();
+  const auto format = root.integer("format", {-kAny - 1, kAny});
   if (!root.has("format")) {
     root.complain("format", "the file begins with its format: format = 1");
+  } else if (format && *format < kFormat) {
+    root.complain("format",
+                  "this program reads format 1, this is format " + std::to_string(*format));
   } else if (format && *format != kFormat) {
     root.complain("format", "format " + std::to_string(*format) +
                                 " is newer than this program, which reads format 1");

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
@@ -255,7 +256,7 @@ ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& ta
                       .text()
                << "\n";
   } else {
-    output.out << scores->added << " scores imported into " << arguments.into << ", "
+    output.out << counted(scores->added, "score") << " imported into " << arguments.into << ", "
                << scores->replaced << " replaced, " << scores->known << " were there before\n";
   }
   return ExitCode::Done;

@@ -97,6 +97,8 @@ ExitCode replay_real(std::unique_ptr<StoreReader> store, const RealReplayWords& 
                 Error{ErrorKind::BadInput, "only one of --csv -, --svg - and --json can have it",
                       "standard output"});
   }
+  if (const auto own = words.recording.check_files(); !own)
+    return fail(output, ExitCode::Usage, own.error());
   const auto replay = replay_real_run(std::move(store), words.id, *seeds);
   if (!replay) {
     const ErrorKind kind = replay.error().kind;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/plain_text.h"
 #include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
@@ -129,7 +130,7 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
                       .text()
                << "\n";
   } else {
-    output.out << ids->size() << " evaluations replayed, " << same
+    output.out << counted(ids->size(), "evaluation") << " replayed, " << same
                << " with the same bits as stored\n";
   }
   return different->empty() ? ExitCode::Done : ExitCode::Failed;

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "base/text/text_table.h"
 #include "console/terminal.h"
@@ -205,7 +206,8 @@ void write_rows(Output& output, Rows rows, Form form) {
 }
 
 void note_truncated(Output& output, std::size_t rows) {
-  print_note(output, "only the first " + std::to_string(rows) + " rows are shown");
+  print_note(output, rows == 1 ? "only the first row is shown"
+                               : "only the first " + counted(rows, "row") + " are shown");
 }
 
 }  // namespace swarmsmith::cli

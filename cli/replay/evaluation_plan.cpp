@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "base/rng.h"
 #include "base/suggestion.h"
 #include "base/text/whole_file.h"
@@ -280,15 +281,25 @@ Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments,
   return std::vector{*seed};
 }
 
-/// Makes all instances first, so that a missing row is found before anything is simulated.
-Expected<void> add_instances(EvaluationPlan& plan, const ExplicitInstances& given) {
+/// Makes all instances first, so that a missing row is found before anything is simulated. Given
+/// starts may overlap, as those of other simulators do; a note says so.
+Expected<void> add_instances(EvaluationPlan& plan, const ExplicitInstances& given, Output& output) {
+  std::set<std::int64_t> seeds;
+  std::set<std::int64_t> overlapping;
   for (EvaluationJob& job : plan.jobs) {
     for (const std::int64_t seed : job.seeds) {
       auto instance = instance_of(job.mission, seed, given);
       if (!instance) return bad_input(instance.error().message, instance.error().where);
+      seeds.insert(seed);
+      if (given.starts && has_overlaps(job.mission, *instance)) overlapping.insert(seed);
       job.instances.push_back(std::move(*instance));
     }
   }
+  if (overlapping.empty()) return {};
+  print_note(output, "note: in the starts of " + std::to_string(overlapping.size()) + " of " +
+                         counted(seeds.size(), "seed") +
+                         ", robots overlap each other, a wall or something in the arena (seed " +
+                         std::to_string(*overlapping.begin()) + ")");
   return {};
 }
 
@@ -326,7 +337,7 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
   }
   const auto given = read_instances(arguments, plan.jobs.front().mission, output);
   if (!given) return Unexpected(given.error());
-  if (auto added = add_instances(plan, *given); !added) return Unexpected(added.error());
+  if (auto added = add_instances(plan, *given, output); !added) return Unexpected(added.error());
   return plan;
 }
 

@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "analysis/arena/arena_picture.h"
 #include "analysis/drawing/svg.h"
+#include "base/output_file.h"
 #include "sim/control/module.h"
 #include "sim/mission/trajectory_csv.h"
 
@@ -58,6 +58,10 @@ void RecordingArguments::declare(Options& options) {
                "Width of the picture, such as 84mm or 3.3in (default 84mm)");
 }
 
+Expected<void> RecordingArguments::check_files() const {
+  return each_its_own_file({{"--csv", csv}, {"--objects-csv", objects_csv}, {"--svg", svg}});
+}
+
 ExitCode exit_code_of_recording(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
 }
@@ -71,15 +75,12 @@ Expected<void> Recording::Sink::close() const {
   return Unexpected(cannot_write(name == "-" ? "standard output" : name));
 }
 
-Expected<Recording::Sink> Recording::open(const std::string& name, FileKind kind, Output& output) {
+Expected<Recording::Sink> Recording::open(const std::string& name, Output& output) {
   Sink sink{.name = name};
   if (name.empty()) return sink;
   if (name == "-") {
     sink.stream = &output.out;
     return sink;
-  }
-  if (const auto place = output_place(name, kind); !place) {
-    return Unexpected(place.error());
   }
   sink.file = std::make_unique<std::ofstream>(name, std::ios::binary);
   if (!*sink.file) return Unexpected(cannot_write(name));
@@ -117,6 +118,7 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
     return bad_input("only one of --csv -, --objects-csv -, --svg - and --json can have it",
                      "standard output");
   }
+  if (auto own = arguments.check_files(); !own) return Unexpected(own.error());
   const bool draws_nothing =
       arguments.svg.empty() && (!arguments.at.empty() || !arguments.from.empty() ||
                                 !arguments.to.empty() || !arguments.width.empty());
@@ -140,12 +142,18 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
     recording.sensors_ = *sensors;
   }
   recording.columns_.emplace(recording.sensors_, mission.robots, mission.robot);
-  // Files are opened last, so that the errors above leave no files behind.
-  for (const auto& [name, kind, sink] :
-       {std::tuple(&arguments.csv, FileKind::Table, &recording.csv_),
-        std::tuple(&arguments.objects_csv, FileKind::Table, &recording.objects_csv_),
-        std::tuple(&arguments.svg, FileKind::Svg, &recording.svg_)}) {
-    auto opened = open(*name, kind, output);
+  // Files are opened last, so that the errors above leave no files behind; and none is opened
+  // before all are allowed, since opening empties it.
+  for (const auto& [name, kind] : {std::pair(&arguments.csv, FileKind::Table),
+                                   std::pair(&arguments.objects_csv, FileKind::Table),
+                                   std::pair(&arguments.svg, FileKind::Svg)}) {
+    if (name->empty() || *name == "-") continue;
+    if (const auto place = output_place(*name, kind); !place) return Unexpected(place.error());
+  }
+  for (const auto& [name, sink] : {std::pair(&arguments.csv, &recording.csv_),
+                                   std::pair(&arguments.objects_csv, &recording.objects_csv_),
+                                   std::pair(&arguments.svg, &recording.svg_)}) {
+    auto opened = open(*name, output);
     if (!opened) return Unexpected(opened.error());
     *sink = std::move(*opened);
   }

@@ -8,7 +8,6 @@
 
 #include "analysis/arena/reading_columns.h"
 #include "base/expected.h"
-#include "base/output_file.h"
 #include "console/options.h"
 #include "sim/control/controller.h"
 #include "sim/engine/simulate.h"
@@ -29,6 +28,8 @@ struct RecordingArguments {
   void declare(Options& options);
   /// Whether anything is recorded.
   bool any() const { return !csv.empty() || !objects_csv.empty() || !svg.empty(); }
+  /// BadInput if two outputs are one file.
+  Expected<void> check_files() const;
   /// Whether something is written to standard output.
   bool takes_standard_output() const { return csv == "-" || objects_csv == "-" || svg == "-"; }
 };
@@ -66,7 +67,7 @@ class Recording {
   Recording(const Mission& mission, const Controller& controller)
       : mission_(&mission), controller_(&controller) {}
 
-  static Expected<Sink> open(const std::string& name, FileKind kind, Output& output);
+  static Expected<Sink> open(const std::string& name, Output& output);
   Expected<void> read_span(const RecordingArguments& arguments);
   void write_headers();
   void observe(const Snapshot& snapshot);

@@ -135,16 +135,28 @@ Expected<const KnownDesign*> Importer::design_of_row(const CsvRow& row) const {
     found = &known;
   }
   if (found != nullptr) return found;
-  std::string said;
-  const auto say = [&](std::string_view column, const std::string& value) {
-    if (!value.empty()) said += fmt::format("{}{} {}", said.empty() ? "" : ", ", column, value);
+  const auto add = [](std::string& text, std::string_view column, const std::string& value) {
+    if (!value.empty()) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", column, value);
   };
-  say("design", design ? fmt::format("d{}", *design) : "");
-  say("name", name);
-  say("mission", mission);
-  say("method", method);
-  say("repetition", *repetition ? std::to_string(**repetition) : "");
-  return bad_input("the store has no such design: " + said);
+  std::string said;
+  add(said, "design", design ? fmt::format("d{}", *design) : "");
+  add(said, "name", name);
+  add(said, "mission", mission);
+  add(said, "method", method);
+  add(said, "repetition", *repetition ? std::to_string(**repetition) : "");
+  const auto known = std::ranges::find_if(
+      known_.designs, [&](const KnownDesign& each) { return design && each.id.value == *design; });
+  if (known == known_.designs.end()) return bad_input("the store has no such design: " + said);
+  // What is otherwise in the store.
+  std::string has;
+  if (!name.empty() && known->name != name)
+    add(has, "name", known->name.empty() ? "(none)" : known->name);
+  if (!mission.empty() && known->mission != mission) add(has, "mission", known->mission);
+  if (!method.empty() && known->method != method) add(has, "method", known->method);
+  if (*repetition && known->repetition != **repetition)
+    add(has, "repetition", std::to_string(known->repetition));
+  return bad_input(fmt::format("the store has no such design: {}; its {} has {}", said,
+                               to_string(known->id), has));
 }
 
 Expected<CandidateId> Importer::candidate_of(const CsvRow& row, const KnownDesign& design) const {

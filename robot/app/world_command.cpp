@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/output_file.h"
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/json.h"
 #include "console/counter.h"
@@ -124,7 +125,7 @@ Expected<void> read_robots(const WorldWords& words, Plan& plan) {
       plan.robots.push_back("rvr" + std::to_string(i));
   }
   if (static_cast<int>(plan.robots.size()) == plan.mission.robots) return {};
-  return bad_input("the mission has " + std::to_string(plan.mission.robots) + " robots, not " +
+  return bad_input("the mission has " + counted(plan.mission.robots, "robot") + ", not " +
                        std::to_string(plan.robots.size()),
                    "--robots");
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "robot/world/sensor_messages.h"
 #include "sim/control/flavour.h"
 
@@ -154,7 +155,7 @@ SimulationSetup WorldRun::setup() const {
 
 Expected<void> WorldRun::check(const WorldEnd& end) const {
   if (end.robots() == instance.starts.size()) return {};
-  return bad_input("the mission has " + std::to_string(instance.starts.size()) + " robots, and " +
+  return bad_input("the mission has " + counted(instance.starts.size(), "robot") + ", and " +
                    std::to_string(end.robots()) + " are named");
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "sim/control/flavour.h"
 #include "sim/control/internal/fields.h"
 #include "sim/control/internal/module_text.h"
@@ -82,7 +83,7 @@ class Parser {
     for (const Field& field : fields) {
       if (field.state != index) {
         return error_at(field.name, quoted(field.name.text) +
-                                        " does not belong into the block of state " +
+                                        " does not belong to the block of state " +
                                         std::to_string(index));
       }
       if (field.transition < 0) {
@@ -119,9 +120,9 @@ class Parser {
     const Expected<int> count = integer_of(*announced, 1, flavour_.most_transitions);
     if (!count) return count.error();
     if (static_cast<std::size_t>(*count) == transitions.size()) return std::nullopt;
-    return error_at(announced->value, quoted(name) + " says " + std::to_string(*count) +
-                                          " transitions, but " +
-                                          std::to_string(transitions.size()) + " follow");
+    return error_at(announced->value, quoted(name) + " says " + counted(*count, "transition") +
+                                          ", but " + std::to_string(transitions.size()) +
+                                          " follow");
   }
 
   Expected<Transition> transition(int state, Block& block) {

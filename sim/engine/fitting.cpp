@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/overloaded.h"
 #include "sim/control/treads.h"
+#include "sim/engine/internal/form.h"
 #include "sim/engine/internal/ring.h"
 #include "sim/engine/profile_fields.h"
 #include "sim/mission/polygon.h"
@@ -86,6 +87,11 @@ std::optional<std::string> misfit(NetworkInputs inputs, const Robot& robot) {
          each + " light sensors, and the robot `" + robot.name + "` has " +
          (gives_light ? std::to_string(rays) + " and " + std::to_string(lights)
                       : "light sensors that give lux");
+}
+
+BodyMeasures measures_of(const RobotBody& body) {
+  const Form form = form_of(body.outline, body.height_m);
+  return {.radius_m = form.radius_m, .plate_inertia_kg_m2 = body.mass_kg * form.mean_radius2_m2};
 }
 
 std::vector<Point> ground_points_outside(const Robot& robot) {

@@ -76,19 +76,20 @@ struct Orientation {
 /// The readings of one robot in one control cycle. Sensors that were not requested keep their
 /// earlier readings.
 struct Readings {
-  Rgb ground_color;                   ///< thesis 4.2.1
-  Vector3 velocity_mps;               ///< eq. 4.3, in axes fixed at the start pose
-  Vector3 acceleration_g;             ///< eq. 4.7
-  Vector3 spin_radps;                 ///< eq. 4.9
-  Orientation orientation;            ///< thesis 4.2.5, in the frame of the arena
-  double front_light_lux = 0;         ///< thesis 4.2.6
-  LightReadings light_lux{};          ///< the ring of `chocolate`
-  Point position_m;                   ///< eq. 4.10, from the start, axes of the arena
-  Quaternion rotation;                ///< eq. 4.11, from the start
-  ProximityReadings proximity_m{};    ///< thesis 4.2.9
-  std::vector<double> lidar_m;        ///< thesis 4.2.10, 719 rays, counter-clockwise from the head
-  std::vector<Neighbour> neighbours;  ///< thesis 5.1
-  int neighbour_count = 0;            ///< neighbours that were seen or heard in this cycle
+  Rgb ground_color;                 ///< thesis 4.2.1
+  Vector3 velocity_mps;             ///< eq. 4.3, in axes fixed at the start pose
+  Vector3 acceleration_g;           ///< eq. 4.7
+  Vector3 spin_radps;               ///< eq. 4.9
+  Orientation orientation;          ///< thesis 4.2.5, in the frame of the arena
+  double front_light_lux = 0;       ///< thesis 4.2.6
+  LightReadings light_lux{};        ///< the ring of `chocolate`
+  Point position_m;                 ///< eq. 4.10, from the start, axes of the arena
+  Quaternion rotation;              ///< eq. 4.11, from the start
+  ProximityReadings proximity_m{};  ///< thesis 4.2.9
+  std::vector<double> lidar_m;      ///< thesis 4.2.10, 719 rays, counter-clockwise from the head
+  /// Thesis 5.1. For a radio, all packets that it remembers; those of this cycle are at the end.
+  std::vector<Neighbour> neighbours;
+  int neighbour_count = 0;  ///< neighbours that were seen or heard in this cycle
 };
 
 /// The sensors of a simulated robot in a control cycle: those that control software may use, and

@@ -121,6 +121,7 @@ void read_robot(TableReader& table, const ReadingPlace& place, Mission& mission)
   }
   if (auto outline = read_outline(*robot, {0.02, 5}, nullptr)) {
     mission.robot.body.outline = std::move(*outline);
+    check_with_outline(*robot, mission.robot);
   }
   robot->finish();
 }
@@ -173,12 +174,21 @@ std::string default_name(TableReader& table) {
   return std::filesystem::path(*text).stem().string();
 }
 
+/// Whether a mission without `name` can take the name of its file. Complains if it cannot.
+bool check_file_name(TableReader& table, const std::string& name) {
+  if (table.has("name") || name.empty() || is_name(name)) return true;
+  table.complain("name", "the mission takes its file's name, and \"" + name +
+                             "\" cannot be one: a name consists of letters, digits, `_`, `-` and "
+                             "`.`; give it a `name`");
+  return false;
+}
+
 /// Reads one [[mission]]; `taken` holds the names of the missions before it.
 MissionEntry read_mission(TableReader& table, const std::vector<std::string>& taken,
                           const ReadingPlace& place) {
   const std::string name =
       table.has("name") ? table.text("name").value_or("") : default_name(table);
-  if (!check_name(table, name, taken)) return {};
+  if (!check_file_name(table, name) || !check_name(table, name, taken)) return {};
   auto entry = read_base(table, name, place);
   if (!entry) return {};
   entry->mission.name = name;
@@ -228,7 +238,7 @@ MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path
   const std::string name = root.text("name").value_or(file.stem().string());
   MissionEntry entry;
   const ReadingPlace place{{file.parent_path()}, false};
-  if (check_name(root, name, {})) {
+  if (check_file_name(root, name) && check_name(root, name, {})) {
     if (auto base = read_base(root, name, place)) {
       entry = std::move(*base);
       entry.mission.name = name;

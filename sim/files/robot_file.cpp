@@ -9,11 +9,13 @@
 #include "base/assert.h"
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "base/suggestion.h"
 #include "base/text/document.h"
 #include "base/text/whole_file.h"
 #include "embedded/kEpuckRobot.h"
 #include "embedded/kRvrRobot.h"
+#include "sim/engine/fitting.h"
 #include "sim/files/internal/field_reader.h"
 #include "sim/files/internal/field_writer.h"
 #include "sim/files/mission_file.h"
@@ -51,15 +53,58 @@ double inradius_of(const Outline& outline) {
       outline);
 }
 
+/// Complains about a key of a device, or about the device if the key comes from the base.
+void complain_of_key(TableReader& table, std::string_view device, std::string_view key,
+                     const std::string& message) {
+  if (auto inner = table.table(device)) {
+    inner->complain(key, message);
+  } else {
+    table.complain(device, message);
+  }
+}
+
+/// Checks for numbers that are within their limits, but impossible for a body of this size.
+void check_measures(TableReader& table, const Robot& robot) {
+  constexpr double kMostTimes = 1000;  ///< between the inertia of a plate and the robot's
+  constexpr double kMostRadii = 3;
+  constexpr double kNear_m = 0.5;  ///< the RVR's places on a small body are within it
+  const BodyMeasures measures = measures_of(robot.body);
+  const double inertia = robot.body.inertia_kg_m2;
+  const double plate = measures.plate_inertia_kg_m2;
+  if (inertia != 0 && (inertia < plate / kMostTimes || inertia > plate * kMostTimes)) {
+    complain_of_key(table, "body", "inertia",
+                    "`inertia` is " + number_text(inertia) +
+                        " kg m2, and a plate of this outline and mass has " + number_text(plate) +
+                        "; give one from a thousandth of that to a thousand times that, or 0 for "
+                        "the plate's");
+  }
+  const auto check_place = [&](std::string_view device, std::string_view key, double out_m) {
+    if (out_m <= std::max(kNear_m, kMostRadii * measures.radius_m)) return;
+    complain_of_key(table, device, key,
+                    "`" + std::string(key) + "` is " + number_text(out_m) +
+                        " m from the centre, and the body ends " + number_text(measures.radius_m) +
+                        " m from it; at most 0.5 m, or three times as far, is taken");
+  };
+  check_place("proximity", "start", robot.proximity.start_m);
+  check_place("light", "out", robot.light.out_m);
+  const NeighbourSensor& sensor = robot.neighbours;
+  if (sensor.range_m > 0 && sensor.less_m > 0 && sensor.less_m >= sensor.range_m) {
+    complain_of_key(table, "neighbours", "less",
+                    "no distance would be above 0: `less` is " + number_text(sensor.less_m) +
+                        " m, and `range` " + number_text(sensor.range_m) +
+                        " m; give a smaller `less`");
+  }
+}
+
 /// Checks for errors that no single field shows.
 void check_robot(TableReader& table, const Robot& robot) {
   const ProximityRing& ring = robot.proximity;
   const auto number = [](double value) { return number_text(value); };
   if (ring.rays_deg.empty()) table.complain("proximity", "a robot needs at least one ray");
   if (!ring.labels_deg.empty() && ring.labels_deg.size() != ring.rays_deg.size()) {
-    table.complain("proximity", "there are " + std::to_string(ring.rays_deg.size()) + " rays and " +
-                                    std::to_string(ring.labels_deg.size()) +
-                                    " labels; give a label to each ray, or none");
+    table.complain("proximity", "the ring has " + counted(ring.rays_deg.size(), "ray") + " and " +
+                                    counted(ring.labels_deg.size(), "label") +
+                                    "; give a label to each ray, or none");
   }
   const double inradius_m = inradius_of(robot.body.outline);
   if (ring.start_m > 0 && ring.start_m < inradius_m) {
@@ -149,6 +194,7 @@ void read_devices(TableReader& table, Robot& robot) {
   reader.finish();
   if (table.complaints() > before) return;
   check_robot(table, robot);
+  check_measures(table, robot);
   settle_idle_fields(table, base, robot);
 }
 
@@ -230,6 +276,12 @@ Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, 
   read_devices(table, robot);
   table.finish();
   return robot;
+}
+
+void check_with_outline(TableReader& table, const Robot& robot) {
+  if (robot == rvr_with(robot.body.outline)) return;
+  check_robot(table, robot);
+  check_measures(table, robot);
 }
 
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header) {

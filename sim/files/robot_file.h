@@ -36,6 +36,10 @@ RobotOrErrors parse_robot(std::string_view text, const std::filesystem::path& fi
 /// added to the table's complaints.
 Robot read_robot_table(TableReader& table, const std::filesystem::path* folder, Robot robot);
 
+/// Checks a robot whose outline was changed by a mission: whether its devices fit the outline. An
+/// RVR keeps its devices with any outline.
+void check_with_outline(TableReader& table, const Robot& robot);
+
 /// All fields as lines; `header` is the name of the table that holds them, such as "mission.robot".
 std::vector<Section> robot_sections(const Robot& robot, const std::string& header);
 

@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "base/plain_text.h"
 #include "base/rng.h"
 #include "sim/mission/internal/ground.h"
 #include "sim/mission/mission.h"
@@ -55,8 +56,8 @@ Unexpected misplaced(const Mission& mission, std::size_t robot, const std::strin
 Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) {
   const std::vector<Pose>& poses = std::get<PlaceAt>(mission.placement).poses;
   if (poses.size() != static_cast<std::size_t>(mission.robots)) {
-    return bad_input("there are poses for " + std::to_string(poses.size()) +
-                         " robots, and the mission has " + std::to_string(mission.robots),
+    return bad_input("there are poses for " + counted(poses.size(), "robot") +
+                         ", and the mission has " + std::to_string(mission.robots),
                      mission.name);
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -68,12 +69,18 @@ Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) 
   return poses;
 }
 
-Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
-  Ground ground(mission.arena);
-  for (std::size_t i = 0; i < mission.arena.objects.size(); ++i) {
-    const MovableObject& object = mission.arena.objects[i];
+/// The arena with all that stands in it before the robots.
+Ground ground_of(const Arena& arena) {
+  Ground ground(arena);
+  for (std::size_t i = 0; i < arena.objects.size(); ++i) {
+    const MovableObject& object = arena.objects[i];
     ground.add({object.outline, object.start}, "object " + std::to_string(i + 1));
   }
+  return ground;
+}
+
+Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
+  Ground ground = ground_of(mission.arena);
   if (std::holds_alternative<PlaceAt>(mission.placement)) {
     return given_starts(mission, std::move(ground));
   }
@@ -87,9 +94,9 @@ Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
   for (int robot = 1; robot <= mission.robots; ++robot) {
     for (int tries = 0;; ++tries) {
       if (tries == kTriesPerRobot) {
-        return bad_input("arena too small for " + std::to_string(mission.robots) +
-                             " robots: none of " + std::to_string(kTriesPerRobot) +
-                             " places for robot " + std::to_string(robot) +
+        return bad_input("arena too small for " + counted(mission.robots, "robot") + ": none of " +
+                             std::to_string(kTriesPerRobot) + " places for robot " +
+                             std::to_string(robot) +
                              " was free; take fewer robots, or place them over a larger part of "
                              "the arena (training.placement)",
                          mission.name);
@@ -132,6 +139,16 @@ Expected<Instance> instance_of(const Mission& mission, std::int64_t seed) {
   Expected<std::vector<Patch>> patches = draw_patches(mission.shuffled, rng.split("patches"));
   if (!patches) return Unexpected(std::move(patches.error()));
   return Instance{.starts = std::move(*starts), .patches = std::move(*patches)};
+}
+
+bool has_overlaps(const Mission& mission, const Instance& instance) {
+  Ground ground = ground_of(mission.arena);
+  for (const Pose& start : instance.starts) {
+    const Footprint body(mission.robot.body.outline, start);
+    if (!ground.blocked_by(body).empty()) return true;
+    ground.add(body, "robot");
+  }
+  return false;
 }
 
 Arena arena_of(const Mission& mission, const Instance& instance) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 #include "sim/mission/colors.h"
 
@@ -49,6 +50,15 @@ struct Row {
     return number<std::int64_t>(column, "an integer");
   }
 
+  /// As on command lines.
+  Expected<std::int64_t> seed(std::size_t column) const {
+    constexpr std::int64_t kLargestSeed = 2'147'483'647;
+    const Expected<std::int64_t> value = integer(column);
+    if (value && (*value < 1 || *value > kLargestSeed))
+      return wrong(column, "a seed from 1 to 2147483647");
+    return value;
+  }
+
   Expected<double> real(std::size_t column) const {
     const Expected<double> value = number<double>(column, "a number");
     if (value && !std::isfinite(*value)) return wrong(column, "a finite number");
@@ -69,6 +79,8 @@ Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> c
       return bad_input("there is no column `" + std::string(column) + "`; wanted are: " + wanted,
                        "1");
     }
+    if (std::find(found + 1, header.end(), column) != header.end())
+      return bad_input("the column `" + std::string(column) + "` is there twice", "1");
     places.push_back(static_cast<std::size_t>(found - header.begin()));
   }
   return places;
@@ -88,8 +100,8 @@ Expected<std::vector<Row>> rows_of(std::string_view text,
     std::vector<std::string> cells = reader.next().value_or(std::vector<std::string>());
     if (cells == std::vector<std::string>{""}) continue;
     if (cells.size() != header.size()) {
-      return bad_input("expected " + std::to_string(header.size()) +
-                           " cells as in the header, found " + std::to_string(cells.size()),
+      return bad_input("expected " + counted(header.size(), "cell") + " as in the header, found " +
+                           std::to_string(cells.size()),
                        std::to_string(line));
     }
     rows.push_back({columns, {}, line});
@@ -111,7 +123,7 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
   const std::vector<Pose>& starts = found->second;
   const std::string where = "starts, seed " + std::to_string(seed);
   if (starts.size() != static_cast<std::size_t>(mission.robots)) {
-    return bad_input("the mission has " + std::to_string(mission.robots) + " robots, the file " +
+    return bad_input("the mission has " + counted(mission.robots, "robot") + ", the file " +
                          std::to_string(starts.size()),
                      where);
   }
@@ -121,6 +133,34 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
     }
   }
   return starts;
+}
+
+/// "the mission has 4 red patches, and the file 3; ...": each colour of another number; empty if
+/// there is none.
+std::string other_numbers(const ShuffledPatches& shuffled, const std::vector<Patch>& patches) {
+  std::vector<ShuffledPatches::Share> wanted;  // each colour once
+  const auto share_of = [&wanted](Rgb color) -> int& {
+    const auto same = [color](const auto& share) { return share.color == color; };
+    const auto found = std::find_if(wanted.begin(), wanted.end(), same);
+    if (found != wanted.end()) return found->count;
+    wanted.push_back({color, 0});
+    return wanted.back().count;
+  };
+  for (const ShuffledPatches::Share& share : shuffled.shares)
+    share_of(share.color) += share.count;
+  for (const Patch& patch : patches)
+    share_of(patch.color);  // those that the mission does not have, too
+  std::string text;
+  for (const ShuffledPatches::Share& share : wanted) {
+    const auto of_color = [&share](const Patch& patch) { return patch.color == share.color; };
+    const auto there = std::count_if(patches.begin(), patches.end(), of_color);
+    if (there == share.count) continue;
+    const std::string noun = color_text(share.color) + " patch";
+    text += text.empty() ? "the mission has " : "; ";
+    text += counted(share.count, noun, noun + "es");
+    text += ", the file " + std::to_string(there);
+  }
+  return text;
 }
 
 Expected<std::vector<Patch>> explicit_patches(const Mission& mission, std::int64_t seed,
@@ -145,6 +185,8 @@ Expected<std::vector<Patch>> explicit_patches(const Mission& mission, std::int64
     laid.color = patch.color;
     free.erase(place);
   }
+  if (const std::string other = other_numbers(mission.shuffled, patches); !other.empty())
+    return bad_input(other, where);
   return patches;
 }
 
@@ -156,7 +198,7 @@ Expected<StartsBySeed> parse_starts_csv(std::string_view text) {
   if (!rows) return Unexpected(rows.error());
   StartsBySeed starts;
   for (const Row& row : *rows) {
-    const Expected<std::int64_t> seed = row.integer(0);
+    const Expected<std::int64_t> seed = row.seed(0);
     if (!seed) return Unexpected(seed.error());
     const Expected<std::int64_t> robot = row.integer(1);
     if (!robot) return Unexpected(robot.error());
@@ -185,7 +227,7 @@ Expected<PatchesBySeed> parse_patches_csv(std::string_view text) {
   if (!rows) return Unexpected(rows.error());
   PatchesBySeed patches;
   for (const Row& row : *rows) {
-    const Expected<std::int64_t> seed = row.integer(0);
+    const Expected<std::int64_t> seed = row.seed(0);
     if (!seed) return Unexpected(seed.error());
     const Expected<double> x = row.real(1);
     if (!x) return Unexpected(x.error());

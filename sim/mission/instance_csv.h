@@ -48,7 +48,8 @@ struct ExplicitInstances {
 
 /// Like `instance_of(mission, seed)`, with explicit starts and patches if they are given. Errors: a
 /// seed without a row, a wrong number of robots, a start outside the walls, a patch where the
-/// mission has no place for one (to the millimetre), and a second patch on the same place.
+/// mission has no place for one (to the millimetre), a second patch on the same place,
+/// and other numbers of colours than the mission's.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
                                const ExplicitInstances& given);
 

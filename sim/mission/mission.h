@@ -98,6 +98,10 @@ std::optional<std::string> misplaced_solid(const Arena& arena);
 /// not fit at their fixed places.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed);
 
+/// Whether a robot of the instance begins in a wall, in something in the arena, or in another
+/// robot. Never of an instance that was drawn.
+bool has_overlaps(const Mission& mission, const Instance& instance);
+
 /// The arena with the instance's patches on its floor.
 Arena arena_of(const Mission& mission, const Instance& instance);
 

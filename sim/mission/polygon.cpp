@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -99,7 +100,7 @@ bool is_within(std::span<const Point> corners, Point point) {
 
 std::optional<std::string> flaw_of(std::span<const Point> corners) {
   const std::size_t n = corners.size();
-  if (n < 3) return std::to_string(n) + " corners; a polygon has at least 3";
+  if (n < 3) return counted(n, "corner") + "; a polygon has at least 3";
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       if (distance(corners[i], corners[j]) > kSamePoint_m) continue;

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
@@ -85,8 +86,8 @@ class Collector {
 
  private:
   Unexpected incomplete(std::size_t line) const {
-    return bad_input("cycle " + std::to_string(cycle_) + " has " + std::to_string(robot_) +
-                         " robots, the one before it " + std::to_string(robots_),
+    return bad_input("cycle " + std::to_string(cycle_) + " has " + counted(robot_, "robot") +
+                         ", the one before it " + std::to_string(robots_),
                      line_place(line));
   }
 

@@ -43,6 +43,31 @@ TEST(FileKindTest, IsToldByTheBeginning) {
   EXPECT_EQ(kind_of(""), FileKind::Text);
 }
 
+TEST(OutputFilesTest, TwoOutputsAreNotOneFile) {
+  const TemporaryFolder folder;
+  const auto refusal_of = [](const fs::path& table, const fs::path& picture) {
+    const auto own = each_its_own_file({{"--csv", table.string()}, {"--svg", picture.string()}});
+    return own ? "" : to_string(own.error());
+  };
+  const std::string picture = (folder / "a.x").string();
+  EXPECT_EQ(refusal_of(folder / "a.x", folder / "a.x"),
+            "--svg: names the same file as --csv: " + picture + "; give each its own file");
+  EXPECT_NE(refusal_of(folder / "b/../a.x", folder / "a.x"), "");
+  EXPECT_EQ(refusal_of(folder / "a.x", folder / "b.x"), "");
+  // By any name, whether it is there already or not.
+  fs::create_symlink("a.x", folder / "link.x");
+  EXPECT_NE(refusal_of(folder / "link.x", folder / "a.x"), "");
+  write(folder / "a.x", "a,b\n");
+  fs::create_hard_link(folder / "a.x", folder / "hard.x");
+  EXPECT_NE(refusal_of(folder / "link.x", folder / "a.x"), "");
+  EXPECT_NE(refusal_of(folder / "a.x", folder / "hard.x"), "");
+  EXPECT_EQ(refusal_of(folder / "a.x", folder / "b.x"), "");
+  // Not wanted, standard output, and a device.
+  EXPECT_EQ(refusal_of("", ""), "");
+  EXPECT_EQ(refusal_of("-", "-"), "");
+  EXPECT_EQ(refusal_of("/dev/null", "/dev/null"), "");
+}
+
 TEST(OutputPlaceTest, OneThatIsReadIsNotWritten) {
   const TemporaryFolder folder;
   write(folder / "a.csv", "a,b\n");

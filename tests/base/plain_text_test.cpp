@@ -26,6 +26,8 @@ TEST(Counted, OneIsOneAndAllOthersAreSeveral) {
   EXPECT_EQ(counted(1, "worker"), "1 worker");
   EXPECT_EQ(counted(0, "worker"), "0 workers");
   EXPECT_EQ(counted(std::size_t{2}, "hidden node"), "2 hidden nodes");
+  EXPECT_EQ(counted(1, "patch", "patches"), "1 patch");
+  EXPECT_EQ(counted(2, "patch", "patches"), "2 patches");
 }
 
 }  // namespace

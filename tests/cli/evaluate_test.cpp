@@ -17,6 +17,7 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<json> lines_of(const std::string& text) {
   std::vector<json> lines;
@@ -131,6 +132,23 @@ TEST(Evaluate, TakesStartsFromATable) {
   EXPECT_EQ(missing.code, 2);
   EXPECT_EQ(missing.out, "");
   EXPECT_THAT(missing.err, HasSubstr("the starts have no row for seed 6"));
+  seeds.back() = "5";
+  EXPECT_THAT(run(seeds).err, Not(HasSubstr("overlap")));
+  for (const char* option : {"--csv", "--objects-csv", "--svg"}) {
+    auto onto_input = seeds;
+    onto_input.insert(onto_input.end(), {option, (folder / "starts.csv").string()});
+    const Ran ran = run(onto_input);
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("starts.csv: is what this command reads")) << option;
+  }
+  write_file(folder / "starts.csv",
+             "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,0.1,0.3,1\n5,2,0.6,0.6,7\n"
+             "6,0,0.1,0.2,0\n6,1,-0.6,0,1\n6,2,0.6,0.6,7\n");
+  seeds.back() = "5-6";
+  const Ran overlapping = run(seeds);
+  EXPECT_EQ(overlapping.code, 0) << overlapping.err;
+  EXPECT_THAT(overlapping.err, HasSubstr("note: in the starts of 1 of 2 seeds, robots overlap each "
+                                         "other, a wall or something in the arena (seed 5)\n"));
 }
 
 TEST(Evaluate, TakesPatchesFromATable) {
@@ -138,7 +156,10 @@ TEST(Evaluate, TakesPatchesFromATable) {
   write_file(folder / "starts.csv",
              "seed,robot,x,y,theta\n1,0,0.75,0.25,0\n1,1,-0.25,-0.25,0\n1,2,0.25,0.75,0\n");
   write_file(folder / "patches.csv",
-             "seed,x,y,color\n1,0.75,0.25,yellow\n1,-0.25,-0.25,red\n1,0.25,0.75,green\n");
+             "seed,x,y,color\n1,0.75,0.25,yellow\n1,-0.25,-0.25,red\n1,0.25,0.75,green\n"
+             "1,0.75,-0.25,yellow\n1,0.25,-0.25,yellow\n1,0.25,0.25,yellow\n1,0.25,-0.75,red\n"
+             "1,-0.25,0.25,red\n1,-0.25,-0.75,red\n1,-0.25,0.75,green\n1,-0.75,-0.25,green\n"
+             "1,-0.75,0.25,green\n");
   std::vector<std::string> command = {"evaluate",  kStopText,
                                       "--flavour", "watermelon",
                                       "--mission", "color_selection",
@@ -469,6 +490,11 @@ TEST(Seeds, AreRangesAndLists) {
   EXPECT_THAT(*parse_seeds("1,4,7-9"), ElementsAre(1, 4, 7, 8, 9));
   for (const char* wrong : {"", "0", "1-", "-3", "a", "2147483648", "1,,2", "1-99999999999"}) {
     EXPECT_FALSE(parse_seeds(wrong)) << wrong;
+  }
+  for (const char* twice : {"3,3,3", "1-4,3", "3,1-4"}) {
+    const auto seeds = parse_seeds(twice);
+    ASSERT_FALSE(seeds) << twice;
+    EXPECT_EQ(to_string(seeds.error()), "--seeds: seed 3 is there twice");
   }
 }
 

@@ -17,6 +17,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST(Program, WithoutACommandExplainsItselfAndExitsWithTwo) {
   const Ran ran = run({});
@@ -81,6 +82,9 @@ TEST(Program, RefusesEveryEmptyPath) {
     }
   }
   EXPECT_GT(paths, 60);
+  EXPECT_THAT(run({"evaluate", ""}).err, HasSubstr("the path is empty; name a file"));
+  EXPECT_THAT(run({"evaluate", ""}).err, Not(HasSubstr("leave it out"))) << "it is required";
+  EXPECT_THAT(run({"evaluate", "--mission", ""}).err, HasSubstr("leave it out"));
 }
 
 /// Help is wrapped, commands with a backslash; a blank between words.

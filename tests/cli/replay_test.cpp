@@ -266,6 +266,9 @@ TEST_F(Replay, ExplainsWhatIsWrongWithItsArguments) {
       {{"e100009"}, "the store has no evaluation e100009", 4},
       {{"e100001", "--csv", "-", "--json"}, "only one of --csv -"},
       {{"e100001", "--csv", "-", "--svg", "-"}, "only one of --csv -"},
+      {{"e100001", "--csv", "x", "--objects-csv", "./x"},
+       "--objects-csv: names the same file as --csv: ./x; give each its own file"},
+      {{"e100001", "--csv", "x", "--svg", "gone/../x"}, "--svg: names the same file as --csv"},
       {{"e100001", "--at", "3"}, "add --svg FILE"},
       {{"e100001", "--readings", "all"}, "--readings: needs --csv FILE"},
       {{"e100001", "--csv", "x", "--readings", "al"}, "--readings: there is no sensor `al`"},
@@ -291,6 +294,17 @@ TEST_F(Replay, ExplainsWhatIsWrongWithItsArguments) {
   }
   EXPECT_FALSE(std::filesystem::exists("x"));
   EXPECT_EQ(run({"replay", "e100001", store_ + ".gone"}).code, 3);
+}
+
+TEST_F(Replay, EmptiesNoOutputBeforeAllAreAllowed) {
+  const std::string table = (folder_ / "run.csv").string();
+  const std::string text = (folder_ / "notes.txt").string();
+  std::ofstream(table) << "a,b\n1,2\n";
+  std::ofstream(text) << "notes of a person\n";
+  const Ran ran = run({"replay", "e100001", "--store", store_, "--csv", table, "--svg", text});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("notes.txt: is there already and is a text"));
+  EXPECT_GT(std::filesystem::file_size(table), 0);
 }
 
 TEST(ThingId, IsALetterWithDigits) {

@@ -104,6 +104,10 @@ TEST_F(Ls, FiltersSortsAndLimits) {
 
 TEST_F(Ls, AndQueryTakeALimitOf0ForAll) {
   const std::string two = "SELECT 1 AS one UNION SELECT 2";
+  EXPECT_THAT(run({"query", two, store_, "--limit", "1"}).err,
+              HasSubstr("only the first row is shown"));
+  EXPECT_THAT(run({"query", two + " UNION SELECT 3", store_, "--limit", "2"}).err,
+              HasSubstr("only the first 2 rows are shown"));
   for (const std::string limit : {"0", "2"}) {
     const Ran ran = run({"query", two, store_, "--limit", limit, "--json"});
     ASSERT_EQ(ran.code, 0) << ran.err;

@@ -575,6 +575,7 @@ class Evaluate(BadInput):
         self.refused("--profile", *EXPLORE, *on, "--profile", "f")
         for seeds in ("5-1", "0", "1-", "a", "1,,2", "2147483648"):
             self.refused("--seeds: seeds are written like", *EXPLORE, *on, "--seeds", seeds)
+        self.refused("--seeds: seed 3 is there twice", *EXPLORE, *on, "--seeds", "3,3,3")
 
     def test_tables_that_are_wrong(self):
         good = ["1,0,0,0,0", "1,1,0.5,0,0", "1,2,0,0.5,0"]
@@ -597,6 +598,9 @@ class Evaluate(BadInput):
                                ("1,5,5,rd", "column color wants the name of a colour, or #rrggbb, not `rd`")):
             table.write_text("seed,x,y,color\n" + line + "\n")
             self.refused(sentence, *EXPLORE, "--mission", "color_selection", "--patches", table)
+        table.write_text("seed,x,y,color\n1,0.75,0.25,red\n")
+        self.refused("patches, seed 1: the mission has 4 green patches, the file 0; 4 red patches, the file 1; "
+                     "4 yellow patches, the file 0", *EXPLORE, "--mission", "color_selection", "--patches", table)
 
 
 if __name__ == "__main__":

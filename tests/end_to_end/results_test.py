@@ -363,6 +363,11 @@ class Results(ProgramTest):
         self.refused(2, "scores.csv:3: the store has no such design: name tA99", "import", table,
                      "--into", store)
         self.assertEqual(self.query(store, "SELECT * FROM v_evaluations"), [])
+        table.write_text("fsm_id,source,seed,score\ntA1,real,1,3\n")
+        copy = self.folder / "copy.db"
+        copy.write_bytes(store.read_bytes())
+        done = call("import", table, "--into", copy)
+        self.assertIn("1 score imported into", done.stdout, done.stderr)
         table.write_text("a,b\n1,2\n")
         self.refused(2, "neither scores nor machines", "import", table, "--into", store)
         empty = self.folder / "bin"

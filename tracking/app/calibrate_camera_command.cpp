@@ -183,6 +183,9 @@ ExitCode run(const CameraArguments& arguments, Output& output) {
   if (!board) return fail(output, ExitCode::Usage, board.error());
   const auto target = target_of(arguments);
   if (!target) return fail_all(output, target.error());
+  if (const auto own = each_its_own_file({{"--output", target->file}, {"--map", arguments.map}});
+      !own)
+    return fail(output, ExitCode::Usage, own.error());
   Finds finds;
   const auto looked = for_each_picture(
       arguments.words,

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/output_file.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "tracking/app/commands.h"
@@ -67,6 +68,8 @@ void print_result(const RunPlan& plan, const RunFindings& run,
 }
 
 ExitCode score(const ScoreArguments& arguments, Output& output) {
+  const auto own = each_its_own_file({{"--csv", arguments.csv}, {"--report", arguments.report}});
+  if (!own) return fail(output, ExitCode::Usage, own.error());
   auto plan = plan_run(arguments);
   if (!plan) return fail(output, plan.error());
   const auto run = watch_run(*plan, output);

@@ -53,11 +53,10 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
     original->mission.robot.neighbours.range_m = mission.robot.neighbours.range_m;
     if (original->mission == mission) return known;
   }
-  return bad_input(
-      "the mission " + mission.name +
-      " is none that the original has loop functions for: its robot, arena, floor, placement or "
-      "score differ from those of examples/missions/epuck (rt-aac, rt-for, rt-grid, oc-aac, "
-      "oc-sca, na-xor2)");
+  return bad_input("the original software has no loop functions for the mission " + mission.name +
+                   ": its robot, arena, floor, placement or score differ from those of "
+                   "examples/missions/epuck (rt-aac, rt-for, rt-grid, oc-aac, "
+                   "oc-sca, na-xor2)");
 }
 
 /// The original's names for the control software of an architecture.

@@ -1,10 +1,15 @@
 #include "sim/files/internal/read_solids.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/math.h"
+#include "base/overloaded.h"
 #include "base/text/toml_text.h"
 #include "sim/files/read_place.h"
 #include "sim/mission/polygon.h"
@@ -13,6 +18,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kMostCorners = 8;
+constexpr std::array<const char*, 5> kSizeKeys = {"diameter", "side", "length", "width", "corners"};
 constexpr Limits<double> kHeight{0.001, 100};
 constexpr Limits<double> kSolidSize{0.005, 100};
 
@@ -76,6 +82,41 @@ std::optional<Outline> read_polygon(TableReader& table, Pose* pose) {
   return PolygonOutline{std::move(corners)};
 }
 
+/// The keys for the sizes of a shape, which are allowed without `shape`.
+struct ShapeKeys {
+  std::string_view shape;  ///< "a circle"
+  std::vector<std::string_view> keys;
+};
+
+ShapeKeys keys_of(const Outline& outline) {
+  return std::visit(Overloaded{[](const CircleOutline&) {
+                                 return ShapeKeys{"a circle", {"diameter"}};
+                               },
+                               [](const BoxOutline& box) {
+                                 if (box.length_m == box.width_m)
+                                   return ShapeKeys{"a square", {"side", "length", "width"}};
+                                 return ShapeKeys{"a box", {"length", "width"}};
+                               },
+                               [](const PolygonOutline&) {
+                                 return ShapeKeys{"a polygon", {"corners"}};
+                               }},
+                    outline);
+}
+
+/// The box with the sizes that the table gives.
+std::optional<Outline> read_changed_box(TableReader& table, Limits<double> size, BoxOutline box) {
+  if (table.has("side") && (table.has("length") || table.has("width"))) {
+    table.complain("side", "`side` is the length and the width; leave out `side`, or the others");
+    for (const char* key : {"side", "length", "width"})
+      table.take(key);
+    return std::nullopt;
+  }
+  const auto side_m = table.number("side", size);
+  box.length_m = table.number("length", size).value_or(side_m.value_or(box.length_m));
+  box.width_m = table.number("width", size).value_or(side_m.value_or(box.width_m));
+  return box;
+}
+
 /// Reads the pose of a solid; the corners of a polygon may replace x and y.
 Pose read_pose(TableReader& table) {
   const bool by_corners = !table.has("x") && !table.has("y") && table.has("corners");
@@ -127,7 +168,7 @@ std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pos
     table.complain("shape", table.name() + " needs a `shape`: circle, square, box or polygon");
   }
   if (!shape) {
-    for (const char* key : {"diameter", "side", "length", "width", "corners"})
+    for (const char* key : kSizeKeys)
       table.take(key);  // without a shape, these keys cannot be checked
     return std::nullopt;
   }
@@ -139,6 +180,40 @@ std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pos
   }
   const double length_m = need(table, "length", size);
   return BoxOutline{length_m, need(table, "width", size)};
+}
+
+std::optional<Outline> read_changed_outline(TableReader& table, Limits<double> size,
+                                            const Outline& base) {
+  if (table.has("shape")) return read_outline(table, size, nullptr);
+  table.take("shape");  // so that it is among the keys that are known here
+  const ShapeKeys own = keys_of(base);
+  bool has_own = false;
+  bool has_other = false;
+  for (const char* key : kSizeKeys) {
+    const bool is_own = std::ranges::find(own.keys, key) != own.keys.end();
+    const bool is_there = table.has(key);
+    has_own = has_own || (is_own && is_there);
+    if (is_own) continue;
+    table.take(key);
+    if (!is_there) continue;
+    has_other = true;
+    table.complain(key, "the base's shape is " + std::string(own.shape) + ", which has no `" + key +
+                            "`; give the `shape`, too");
+  }
+  if (!has_own || has_other) {
+    for (const char* key : kSizeKeys)
+      table.take(key);
+    return std::nullopt;
+  }
+  return std::visit(
+      Overloaded{[&](CircleOutline circle) -> std::optional<Outline> {
+                   const auto diameter_m = table.number("diameter", size);
+                   if (diameter_m) circle.radius_m = *diameter_m / 2;
+                   return circle;
+                 },
+                 [&](const BoxOutline& box) { return read_changed_box(table, size, box); },
+                 [&](const PolygonOutline&) { return read_polygon(table, nullptr); }},
+      base);
 }
 
 void read_solids(TableReader& arena, Arena& into) {

@@ -14,6 +14,12 @@ namespace swarmsmith {
 /// mass.
 std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose* pose);
 
+/// The outline that the table's keys make of the outline `base` of a robot. Without `shape`, the
+/// keys change some sizes of the base, and must be keys of its shape. Nothing if there are no such
+/// keys, and after a complaint.
+std::optional<Outline> read_changed_outline(TableReader& table, Limits<double> size,
+                                            const Outline& base);
+
 /// Reads `obstacles`, `objects` and `lights` of [mission.arena]; each replaces the preset's list.
 void read_solids(TableReader& arena, Arena& into);
 

@@ -48,12 +48,30 @@ TEST(ReadingColumns, HaveNamesWithUnitsAndOneCellEach) {
   Readings readings;
   readings.ground_color = {1, 20, 255};
   readings.neighbours = {{.distance_m = 0.5, .direction_x = 0, .direction_y = -1}};
+  readings.neighbour_count = 1;
   std::string line;
   columns.append_cells(line, &readings);
   EXPECT_EQ(line, ",1,20,255,1,0.5,-1.5707963267948966,,");
   line.clear();
   columns.append_cells(line, nullptr);
   EXPECT_EQ(line, ",,,,,,,,");
+}
+
+/// A radio's list has older packets first, more than the swarm has robots.
+TEST(ReadingColumns, CountTheNeighboursOfThisCycleAlone) {
+  const ReadingColumns columns(Sensor::Neighbours, 3, rvr());
+  Readings readings;
+  for (const double distance_m : {0.1, 0.2, 0.3, 0.4, 0.5})
+    readings.neighbours.push_back({distance_m, 1, 0});
+  const auto cells = [&](int heard_now) {
+    readings.neighbour_count = heard_now;
+    std::string line;
+    columns.append_cells(line, &readings);
+    return line;
+  };
+  EXPECT_EQ(cells(2), ",2,0.4,0,0.5,0");
+  EXPECT_EQ(cells(1), ",1,0.5,0,,");
+  EXPECT_EQ(cells(0), ",0,,,,");
 }
 
 TEST(ReadingColumns, SayWhatTheRobotsSensorsGive) {

@@ -79,6 +79,8 @@ TEST(CsvTable, NamesEveryBadRowByItsLine) {
   ASSERT_EQ(table.error().size(), 3U);
   EXPECT_EQ(to_string(table.error()[0]), "t.csv:1: the column a is there twice");
   EXPECT_EQ(to_string(table.error()[1]), "t.csv:3: the row has 2 fields, the headline 3");
+  EXPECT_EQ(to_string(parse_csv("a,b\n1\n", "t.csv").error().front()),
+            "t.csv:2: the row has 1 field, the headline 2");
   EXPECT_EQ(to_string(table.error()[2]), "t.csv:4: the row has 4 fields, the headline 3");
   EXPECT_THAT(to_string(parse_csv("a\n\"1\n2\n", "t.csv").error().front()),
               HasSubstr("t.csv:2: a quote is opened"));

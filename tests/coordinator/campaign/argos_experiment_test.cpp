@@ -171,13 +171,14 @@ TEST_F(ArgosExperimentOfEPucks, RefusesWhatTheOriginalHasNot) {
     const auto text = argos_experiment(experiment);
     return text ? "" : text.error().message;
   };
-  EXPECT_THAT(refusal(experiment("mp-agg.toml")), HasSubstr("has loop functions for"));
+  EXPECT_THAT(refusal(experiment("mp-agg.toml")),
+              HasSubstr("has no loop functions for the mission "));
   ArgosExperiment changed = experiment("rt-aac.toml");
   changed.mission.arena.patches[0].color = {1, 2, 3};
   EXPECT_THAT(refusal(changed), HasSubstr("rt-aac is none that the original has loop functions"));
   changed = experiment("rt-aac.toml");
   changed.mission.robot.drive.track_m = 0.06;
-  EXPECT_THAT(refusal(changed), HasSubstr("has loop functions for"));
+  EXPECT_THAT(refusal(changed), HasSubstr("has no loop functions for the mission "));
   changed = experiment("rt-aac.toml");
   changed.mission.arena.lights.push_back({});
   EXPECT_THAT(refusal(changed), HasSubstr("has one light"));

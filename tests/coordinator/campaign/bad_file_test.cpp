@@ -294,6 +294,13 @@ TEST(CampaignFile, OfALaterFormatIsRefused) {
                                             "which reads format 1"));
 }
 
+TEST(CampaignFile, OfAFormatThatNeverWasIsRefused) {
+  std::string text = FileText{}.text();
+  text.replace(text.find('1'), 1, "0");
+  EXPECT_THAT(complaints(text), ElementsAre("in/x.toml:1:10: this program reads format 1, this is "
+                                            "format 0"));
+}
+
 TEST(CampaignFile, ThatIsNoTomlSaysWhere) {
   EXPECT_THAT(complaints("format = 1\n[campaign\n"), ElementsAre(HasSubstr("in/x.toml:2:10: ")));
 }

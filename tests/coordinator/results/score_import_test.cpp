@@ -55,6 +55,20 @@ std::vector<std::string> complaints(const std::string& csv,
   return texts;
 }
 
+TEST(ScoreImport, SaysWhatADesignIsInsteadOfWhatTheRowSays) {
+  EXPECT_THAT(
+      complaints("design,mission,method,repetition,score\n"
+                 "d1,gather,,,1\n"
+                 "d3,aggregation,thesis,2,1\n"
+                 "d9,gather,,,1\n"),
+      ElementsAre("r.csv:2: the store has no such design: design d1, mission gather; its d1 "
+                  "has mission aggregation",
+                  "r.csv:3: the store has no such design: design d3, mission aggregation, "
+                  "method thesis, repetition 2; its d3 has mission grid_exploration, "
+                  "repetition 1",
+                  "r.csv:4: the store has no such design: design d9, mission gather"));
+}
+
 TEST(ScoreImport, FindsWhoByAnyNameThatIsUnique) {
   const auto scores = import(
       "candidate,design,fsm_id,mission,method,repetition,score\n"

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"--nstates 1 --s0 0 --rwm0 5 --att0 2", "token 7, column 29",
                 "`--att0` does not belong to exploration"},
         BadText{"--nstates 1 --s0 0 --rwm1 5", "token 5, column 20",
-                "does not belong into the block of state 0"},
+                "does not belong to the block of state 0"},
         BadText{"--nstates 1 --s0 2 --att0 0", "token 6, column 27", "alpha must be more than 0"},
         BadText{"--nstates 1 --s0 2 --att0 nan", "token 6, column 27", "alpha must be"},
         BadText{"--nstates 1 --s0 2 --att0 1,5", "token 6, column 27", "wants a number"},
@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadText{"--nstates 2 --s0 1 --n0 0 --s1 1", "token 6, column 25", "from 1 to 4, not 0"},
         BadText{"--nstates 2 --s0 1 --n0 1 --s1 1", "token 6, column 25",
-                "says 1 transitions, but 0 follow"},
+                "says 1 transition, but 0 follow"},
         BadText{"--nstates 2 --s0 1 --n0x0 0 --c0x0 5 --p0x0 1 --s1 1", "token 11, column 47",
                 "expected `--n0` before this place"},
         BadText{"--nstates 2 --s0 1 --n0 1 --c0x0 5 --n0x0 0 --p0x0 1 --s1 1", "token 7, column 27",

@@ -75,6 +75,18 @@ TEST(MissionFile, NeedsAScoreUnlessItBeginsWithABuiltInOne) {
   EXPECT_THAT(entry.error().front().message, HasSubstr("needs a `preset` or a `score`; built in"));
 }
 
+TEST(MissionFile, WhoseNameIsNoNameNeedsOne) {
+  const std::string text = "format = 1\npreset = \"aggregation\"\n";
+  const auto entry = parse_mission(text, "my mission.toml");
+  ASSERT_FALSE(entry);
+  ASSERT_EQ(entry.error().size(), 1U);
+  EXPECT_EQ(
+      entry.error().front().message,
+      "the mission takes its file's name, and \"my mission\" cannot be one: a name consists of "
+      "letters, digits, `_`, `-` and `.`; give it a `name`");
+  EXPECT_TRUE(parse_mission(text + "name = \"mine\"\n", "my mission.toml"));
+}
+
 TEST(MissionFile, BeginsWithABuiltInOneIfItSaysSo) {
   const auto entry = parse_mission("format = 1\npreset = \"aggregation\"\nrobots = 5\n", "x.toml");
   ASSERT_TRUE(entry);
@@ -129,7 +141,8 @@ TEST(ArenaShapes, ThatMakeNoArenaAreExplained) {
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [2, 0]]\n", "turns back on itself"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, nan]]\n", "this is nan"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, 1e9]]\n", "from -100 to 100"},
-      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0]]\n", "2 numbers each"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0]]\n",
+       "`corners` must be a list of lists of 2 numbers, such as"},
       {"shape = \"polygon\"\n", "needs `corners` or `walls`"},
       {"shape = \"square\"\nside = -1\n", "`side` must be from 0.1 to 200, this is -1"},
       {"shape = \"square\"\nside = nan\n", "this is nan"},
@@ -241,7 +254,7 @@ TEST(Placements, ThatCannotBeAreExplained) {
                       "robots = " + robots + "\ninstances = { training = " + training + " }\n");
   };
   EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1, y = 0 } ] }"),
-              ElementsAre(HasSubstr("poses for 1 robots, and the mission has 2")));
+              ElementsAre(HasSubstr("poses for 1 robot, and the mission has 2")));
   EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1.9, y = 0 } ] }", "1"),
               ElementsAre(HasSubstr("robot 1 at (1.9, 0) would stand in a wall")));
   EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1, y = 0 }, { x = 1.1, y = 0 } ] }"),

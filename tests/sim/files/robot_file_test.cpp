@@ -75,13 +75,84 @@ TEST(RobotFile, BadFilesAreRefusedWithASentenceEach) {
   EXPECT_THAT(complaints("[proximity]\nrays = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"),
               ElementsAre("mine.toml:3:8: `rays` has 9 sensors; at most 8 are taken"));
   EXPECT_THAT(complaints("[proximity]\nlabels = [1, 2]\n"),
-              ElementsAre(HasSubstr("there are 8 rays and 2 labels")));
+              ElementsAre(HasSubstr("the ring has 8 rays and 2 labels")));
+  EXPECT_THAT(complaints("[proximity]\nrays = [0]\nlabels = [1, 2]\n"),
+              ElementsAre(HasSubstr("the ring has 1 ray and 2 labels; give a label to each ray")));
   EXPECT_THAT(complaints("[proximity]\nreading = \"strength\"\n"),
               ElementsAre(HasSubstr("needs a `reach` and a `law`")));
   EXPECT_THAT(complaints("[drive]\ntrack = 0\n"), ElementsAre(HasSubstr("`track` must be from")));
   EXPECT_THAT(complaints("[drive]\ntrak = 1\n"), ElementsAre(HasSubstr("trak")));
   EXPECT_THAT(complaints("base = \"epuk\"\n"),
               ElementsAre(HasSubstr("there is no robot `epuk` (did you mean \"epuck\"?)")));
+}
+
+TEST(RobotFile, KeysOfTheOutlineChangeTheBasesWithoutAShape) {
+  const auto outline_of = [](const std::string& text) {
+    const auto robot = parse_robot("format = 1\n" + text, "mine.toml");
+    EXPECT_TRUE(robot) << text << to_string(robot ? Error{} : robot.error().front());
+    return robot ? robot->body.outline : Outline();
+  };
+  const std::string rays = "[proximity]\nstart = 0\n";
+  EXPECT_EQ(outline_of("base = \"epuck\"\n[body]\ndiameter = 0.08\n" + rays),
+            Outline(CircleOutline{0.04}));
+  EXPECT_EQ(outline_of("[body]\nside = 0.2\n"), Outline(BoxOutline{0.2, 0.2}));
+  EXPECT_EQ(outline_of("[body]\nlength = 0.3\n"), Outline(BoxOutline{0.3, 0.286}));
+  const TemporaryFolder folder;
+  const auto outline_over = [&](const std::string& body, const std::string& more) {
+    std::ofstream(folder / "base.toml") << "format = 1\n[body]\n" << body;
+    std::ofstream(folder / "mine.toml") << "format = 1\nbase = \"base.toml\"\n[body]\n" << more;
+    const auto robot = find_robot("mine.toml", folder / "");
+    return robot ? robot->body.outline : Outline();
+  };
+  EXPECT_EQ(outline_over("shape = \"box\"\nlength = 0.3\nwidth = 0.2\n", "width = 0.25\n"),
+            Outline(BoxOutline{0.3, 0.25}));
+  EXPECT_EQ(outline_over("shape = \"polygon\"\ncorners = [[0.2, 0], [-0.1, 0.1], [-0.1, -0.1]]\n",
+                         "corners = [[0.1, 0.1], [-0.1, 0.1], [-0.1, -0.1], [0.1, -0.1]]\n"),
+            Outline(PolygonOutline{{{0.1, 0.1}, {-0.1, 0.1}, {-0.1, -0.1}, {0.1, -0.1}}}));
+}
+
+TEST(RobotFile, KeysOfAnotherShapeNeedTheShape) {
+  EXPECT_THAT(complaints("base = \"epuck\"\n[body]\nside = 0.08\n"),
+              ElementsAre("mine.toml:4:8: the base's shape is a circle, which has no `side`; give "
+                          "the `shape`, too"));
+  EXPECT_THAT(complaints("[body]\ndiameter = 0.3\nside = 0.2\n"),
+              ElementsAre(HasSubstr("the base's shape is a square, which has no `diameter`")));
+  EXPECT_THAT(complaints("[body]\nside = 0.3\nwidth = 0.2\n"),
+              ElementsAre(HasSubstr("leave out `side`, or the others")));
+  EXPECT_THAT(complaints("[body]\nside = 6\n"), ElementsAre(HasSubstr("`side` must be from")));
+  EXPECT_THAT(complaints("[body]\ncornrs = 6\n"), ElementsAre(HasSubstr("corners")));
+  const auto mission = parse_mission(
+      "format = 1\nname = \"x\"\nrobots = 2\n[robot]\nbase = \"epuck\"\n[robot.body]\n"
+      "diameter = 0.06\n[score]\nkind = \"coverage\"\n",
+      "x.toml");
+  ASSERT_TRUE(mission) << to_string(mission.error().front());
+  EXPECT_EQ(mission->mission.robot.body.outline, Outline(CircleOutline{0.03}));
+}
+
+TEST(RobotFile, NumbersFarFromWhatTheBodyCanHaveAreRefused) {
+  EXPECT_THAT(complaints("base = \"epuck\"\n[body]\ninertia = 1e-30\n"),
+              ElementsAre(HasSubstr("mine.toml:4:11: `inertia` is 1e-30 kg m2, and a plate of this "
+                                    "outline and mass has ")));
+  EXPECT_THAT(complaints("[body]\ninertia = 30\n"), ElementsAre(HasSubstr("`inertia` is 30 kg")));
+  EXPECT_THAT(complaints("[body]\ninertia = 20\n"), IsEmpty());
+  EXPECT_THAT(complaints("[body]\ninertia = 0.0001\n"), IsEmpty());
+  EXPECT_THAT(
+      complaints("[neighbours]\nless = 0.8\n"),
+      ElementsAre("mine.toml:3:8: no distance would be above 0: `less` is 0.8 m, and `range` "
+                  "0.75 m; give a smaller `less`"));
+  EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0.07\n"),
+              ElementsAre(HasSubstr("`less` is 0.07 m, and `range` 0.07 m")));
+  EXPECT_THAT(complaints("base = \"epuck\"\n[neighbours]\nrange = 0\n"), IsEmpty())
+      << "a robot that hears no other one";
+  EXPECT_THAT(complaints("base = \"epuck\"\n[proximity]\nstart = 0.6\n"),
+              ElementsAre(HasSubstr("mine.toml:4:9: `start` is 0.6 m from the centre, and the body "
+                                    "ends 0.035 m from it; at most 0.5 m, or three times as far")));
+  EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.4\n[proximity]\nstart = 0.6\n"),
+              IsEmpty());
+  EXPECT_THAT(complaints("base = \"epuck\"\n[light]\nout = 0.6\n"),
+              ElementsAre(HasSubstr("mine.toml:4:7: `out` is 0.6 m from the centre")));
+  EXPECT_THAT(complaints("[body]\nshape = \"circle\"\ndiameter = 0.05\n"), IsEmpty())
+      << "the RVR's places on a small body";
 }
 
 TEST(RobotFile, APolygonHasItsCentreOfMassWhereTheRobotHasItsCentre) {
@@ -135,6 +206,22 @@ TEST(RobotFile, AMissionWithARobotReadsBackToTheSameBits) {
     ASSERT_TRUE(again) << to_string(again.error().front());
     EXPECT_EQ(*again, *mission);
   }
+}
+
+TEST(RobotFile, AnOutlineThatDoesNotFitTheMissionsRobotIsRefused) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "round.toml")
+      << "format = 1\nrobots = 2\nrobot = \"epuck\"\n[score]\nkind = \"coverage\"\n";
+  const auto with_diameter = [&](const std::string& diameter) {
+    const auto mission = parse_mission(
+        "format = 1\npreset = \"round.toml\"\nrobot = { shape = "
+        "\"circle\", diameter = " +
+            diameter + " }\n",
+        folder / "x.toml");
+    return mission ? "" : mission.error().front().message;
+  };
+  EXPECT_EQ(with_diameter("0.06"), "");
+  EXPECT_THAT(with_diameter("0.1"), HasSubstr("rays would start inside of the body"));
 }
 
 TEST(RobotFile, AMissionOfTheRvrSaysItsOutlineAlone) {

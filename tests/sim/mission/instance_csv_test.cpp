@@ -43,6 +43,10 @@ TEST(StartsCsv, ErrorsNameTheLine) {
             "3: column robot wants robot 1 of this seed, not `2`");
   EXPECT_EQ(starts_error(header + "1,0,0,0,0\n1,0,0,0,0\n"),
             "3: column robot wants robot 1 of this seed, not `0`");
+  EXPECT_EQ(starts_error(header + "-1,0,0,0,0\n1,1,0,0,0\n"),
+            "2: column seed wants a seed from 1 to 2147483647, not `-1`");
+  EXPECT_EQ(starts_error("seed,robot,x,y,x,theta\n"), "1: the column `x` is there twice");
+  EXPECT_EQ(starts_error("who,who,seed,robot,x,y,theta\n"), "") << "columns that are left out";
   EXPECT_EQ(starts_error(header + "x,0,0,0,0\n"), "2: column seed wants an integer, not `x`");
   EXPECT_EQ(starts_error(header + "1,0,0.1m,0,0\n"), "2: column x wants a number, not `0.1m`");
   EXPECT_EQ(starts_error(header + "1,0,0,inf,0\n"), "2: column y wants a finite number, not `inf`");
@@ -68,6 +72,9 @@ TEST(PatchesCsv, ReadsPatchesBySeed) {
 TEST(PatchesCsv, ErrorsNameTheLine) {
   EXPECT_EQ(patches_error("seed,x,y,colour\n"),
             "1: there is no column `color`; wanted are: seed, x, y, color");
+  EXPECT_EQ(patches_error("seed,x,y,color,seed\n"), "1: the column `seed` is there twice");
+  EXPECT_EQ(patches_error("seed,x,y,color\n0,0,0,red\n"),
+            "2: column seed wants a seed from 1 to 2147483647, not `0`");
   EXPECT_EQ(patches_error("seed,x,y,color\n1,0,0,pink\n"),
             "2: column color wants the name of a colour, or #rrggbb, not `pink`");
 }
@@ -105,6 +112,7 @@ TEST_F(ExplicitInstance, TakesWhatIsGivenAndDrawsTheRest) {
 }
 
 TEST_F(ExplicitInstance, PatchesTakeTheSizeOfTheMissionsPlaces) {
+  mission.shuffled.shares = {ShuffledPatches::Share{{255, 0, 0}, 1}};
   given.patches = parse_patches_csv("seed,x,y,color\n7,0.25,-0.75,red\n").value();
   const Instance instance = instance_of(mission, 7, given).value();
   ASSERT_EQ(instance.patches.size(), 1U);
@@ -134,6 +142,36 @@ TEST_F(ExplicitInstance, APatchBesideThePlacesOrASecondOneIsAnError) {
   EXPECT_NE(error_of(7).find("there is no free place for a patch at (0.300000"), std::string::npos);
   given.patches = parse_patches_csv("seed,x,y,color\n7,0.25,0.25,red\n7,0.25,0.25,green\n").value();
   EXPECT_NE(error_of(7).find("there is no free place"), std::string::npos);
+}
+
+TEST_F(ExplicitInstance, OtherNumbersOfColorsThanTheMissionsAreAnError) {
+  mission.shuffled.shares = {{{255, 0, 0}, 2}, {{0, 255, 0}, 1}};
+  const std::string red = "seed,x,y,color\n7,0.25,-0.75,red\n";
+  const auto error_with = [&](const std::string& rows) {
+    given.patches = parse_patches_csv(red + rows).value();
+    return error_of(7);
+  };
+  EXPECT_EQ(error_with("7,0.25,0.25,red\n7,0.25,0.75,green\n"), "");
+  EXPECT_EQ(error_with("7,0.25,0.25,red\n"),
+            "patches, seed 7: the mission has 1 green patch, the file 0");
+  EXPECT_EQ(
+      error_with("7,0.25,0.25,blue\n7,0.25,0.75,green\n"),
+      "patches, seed 7: the mission has 2 red patches, the file 1; 0 blue patches, the file 1");
+}
+
+TEST_F(ExplicitInstance, SaysWhetherRobotsOverlap) {
+  const auto overlaps = [&] {
+    return has_overlaps(mission, instance_of(mission, 7, given).value());
+  };
+  EXPECT_FALSE(overlaps());
+  given.starts->at(7)[1].x = -0.4;
+  given.starts->at(7)[1].y = 0.25;
+  EXPECT_TRUE(overlaps()) << "the other robot";
+  given.starts->at(7)[1] = {1.2, 0, 0};
+  EXPECT_TRUE(overlaps()) << "a wall";
+  given.starts->at(7)[1] = {0.5, 0, 0};
+  mission.arena.obstacles.push_back({.outline = CircleOutline{0.1}, .pose = {0.5, 0.1, 0}});
+  EXPECT_TRUE(overlaps()) << "an obstacle";
 }
 
 }  // namespace

@@ -92,9 +92,9 @@ TEST(TrajectoryCsv, SaysWhatIsWrongAndWhere) {
       {"cycle,robot,x,y,theta\n0,1,1,2,3\n", "found robot 1 of cycle 0"},
       {"cycle,robot,x,y,theta\n0,0,1,2,3\n1,0,1,2,3\n1,1,1,2,3\n", "line 4: expected robot 1"},
       {"cycle,robot,x,y,theta\n0,0,1,2,3\n0,1,1,2,3\n1,0,1,2,3\n2,0,1,2,3\n",
-       "line 5: cycle 1 has 1 robots, the one before it 2"},
+       "line 5: cycle 1 has 1 robot, the one before it 2"},
       {"cycle,robot,x,y,theta\n0,0,1,2,3\n0,1,1,2,3\n1,0,1,2,3\n",
-       "line 4: cycle 1 has 1 robots, the one before it 2"},
+       "line 4: cycle 1 has 1 robot, the one before it 2"},
   };
   for (const Wrong& wrong : cases) {
     const auto read = parse_trajectory_csv(wrong.text);

@@ -97,6 +97,15 @@ class BadInput(unittest.TestCase):
             done = call(TRACK, "score", "--run", log, "--arena", arena, *words)
             self.assertIn(done.returncode, (1, 2), f"{words}: {done.stdout}")
             self.assertRegex(done.stderr, "would be lost|is there already and is")
+        for words in (("--csv", arena), ("--report", video)):
+            done = call(TRACK, "score", "--run", self.folder / "gone.toml", "--arena", arena, *words,
+                        "--csv" if words[0] == "--report" else "--report", words[1])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("--report: names the same file as --csv", done.stderr)
+        done = call(TRACK, "calibrate", "camera", self.folder / "gone.mkv", "--board",
+                    "chessboard:7x5:0.03", "-o", self.folder / "new", "--map", self.folder / "./new")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--map: names the same file as --output", done.stderr)
         for command in (("overlay", video, "--arena", arena, "--run", log, "-o", video),
                         ("calibrate", "arena", LAB.lab / "ceiling.arena.mkv", "--arena", arena,
                          "-o", arena),
