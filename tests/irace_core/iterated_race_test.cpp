@@ -1,7 +1,5 @@
 #include "irace_core/iterated_race.h"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,14 +9,13 @@
 
 #include "tests/irace_core/costs.h"
 #include "tests/irace_core/spaces.h"
+#include "tests/support/checks.h"
 #include "tests/support/not_empty.h"
 
 namespace swarmsmith {
 namespace {
 
 using namespace swarmsmith::testing;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 ParameterSpace small_space() {
   return space_of({make_categorical("kind", {"a", "b", "c"}), make_real("x", 0, 10),
